@@ -1,0 +1,393 @@
+//! What a block tells the machine to do.
+
+super::vocabulary! {
+    /// A modal group: of its operations one is in force at a time.
+    Group {
+        /// Interpolation: how axis words move.
+        Motion = "motion",
+        /// Drilling cycles. An interpolation code ends the cycle in force; ending a cycle leaves the interpolation as it was.
+        Cycle = "cycle",
+        /// Working plane.
+        Plane = "plane",
+        /// Absolute or incremental.
+        Distance = "distance",
+        /// Feed per minute or per turn.
+        FeedMode = "feed.mode",
+        /// Inch or metric.
+        Units = "units",
+        /// Cutter radius compensation.
+        RadiusComp = "radius.comp",
+        /// Tool length compensation.
+        LengthComp = "length.comp",
+        /// Return plane of drilling cycles.
+        ReturnPlane = "return.plane",
+        /// Work offset.
+        WorkOffset = "wcs",
+        /// Exact stop, cutting, tapping mode.
+        PathMode = "path.mode",
+        /// Constant surface speed.
+        SpeedMode = "speed.mode",
+        /// Coordinate rotation.
+        Rotation = "rotation",
+        /// Scaling.
+        Scaling = "scaling",
+        /// Mirror image.
+        Mirror = "mirror",
+        /// Modal macro call.
+        ModalCall = "modal.call",
+        /// Spindle.
+        Spindle = "spindle",
+        /// Coolant.
+        Coolant = "coolant",
+        /// Acts in its own block only.
+        OneShot = "one.shot",
+    }
+}
+
+super::vocabulary! {
+    /// A canonical operation.
+    Op {
+        /// Rapid traverse.
+        Rapid = "motion.rapid",
+        /// Rapid traverse in this block only.
+        RapidOnce = "motion.rapid.once",
+        /// Straight line at feed.
+        Linear = "motion.linear",
+        /// Clockwise arc.
+        ArcCw = "motion.arc.cw",
+        /// Counter-clockwise arc.
+        ArcCcw = "motion.arc.ccw",
+        /// Arc with tangential entry.
+        ArcTangent = "motion.arc.tangent",
+        /// Move that ends when the probe touches.
+        Probe = "motion.probe",
+        /// Probe move of a second kind, named by the control.
+        ProbeOther = "motion.probe.other",
+        /// Thread cut.
+        Thread = "motion.thread",
+        /// Wait for a time.
+        Dwell = "dwell",
+        /// Exact stop at the end of this block.
+        ExactStopOnce = "path.exact.once",
+        /// Exact stop mode.
+        ExactStop = "path.exact",
+        /// Cutting mode: no exact stops.
+        CuttingMode = "path.cutting",
+        /// Tapping mode.
+        TappingMode = "path.tapping",
+        /// Acceleration ramps off.
+        RampsOff = "path.ramps.off",
+        /// Acceleration ramps on.
+        RampsOn = "path.ramps.on",
+        /// XY plane.
+        PlaneXy = "plane.xy",
+        /// ZX plane.
+        PlaneZx = "plane.zx",
+        /// YZ plane.
+        PlaneYz = "plane.yz",
+        /// A plane of another axis pair, named by the control.
+        PlaneOther = "plane.other",
+        /// Wraps an axis round a rotary one.
+        Wrap = "plane.wrap",
+        /// Dimensions in inch.
+        Inch = "units.inch",
+        /// Dimensions in millimetres.
+        Metric = "units.metric",
+        /// Checks that the control is set to inch; changes nothing.
+        CheckInch = "units.check.inch",
+        /// Checks that the control is set to metric; changes nothing.
+        CheckMetric = "units.check.metric",
+        /// Stored stroke check on.
+        StrokeCheckOn = "stroke.check.on",
+        /// Stored stroke check off.
+        StrokeCheckOff = "stroke.check.off",
+        /// Checks the reference position.
+        ReferenceCheck = "reference.check",
+        /// Moves to the reference position by way of a point.
+        ReferenceReturn = "reference.return",
+        /// Moves back from the reference position.
+        ReferenceFrom = "reference.from",
+        /// Moves to a second reference position.
+        Reference2 = "reference.second",
+        /// Moves to the machine's tool-change position, without a point on the way.
+        Home = "reference.home",
+        /// Cutter compensation off.
+        RadiusOff = "radius.off",
+        /// Cutter to the left of the path.
+        RadiusLeft = "radius.left",
+        /// Cutter to the right of the path.
+        RadiusRight = "radius.right",
+        /// Length compensation on, added.
+        LengthPlus = "length.plus",
+        /// Length compensation on, subtracted.
+        LengthMinus = "length.minus",
+        /// Length compensation off.
+        LengthOff = "length.off",
+        /// Tool offset increases this move once.
+        OffsetPlus = "offset.increase",
+        /// Tool offset decreases this move once.
+        OffsetMinus = "offset.decrease",
+        /// Tool offset increases this move twice.
+        OffsetPlus2 = "offset.increase.twice",
+        /// Tool offset decreases this move twice.
+        OffsetMinus2 = "offset.decrease.twice",
+        /// This block's coordinates are machine coordinates.
+        MachineOnce = "wcs.machine.once",
+        /// Cancels every zero shift, until one is selected again.
+        ShiftCancel = "wcs.cancel",
+        /// Selects the work offset of role `wcs.number`.
+        SelectWork = "wcs.select",
+        /// Shifts every work offset by the axis words.
+        LocalShift = "wcs.local",
+        /// Makes the present place have the coordinates of the axis words.
+        SetPosition = "wcs.set.position",
+        /// Writes axis words into a work offset.
+        WriteWork = "wcs.write",
+        /// Writes a tool length offset (geometry).
+        WriteLength = "offset.write.length",
+        /// Writes a tool length offset (wear).
+        WriteLengthWear = "offset.write.length.wear",
+        /// Writes a tool radius or diameter offset (geometry).
+        WriteRadius = "offset.write.radius",
+        /// Writes a tool radius or diameter offset (wear).
+        WriteRadiusWear = "offset.write.radius.wear",
+        /// Writes a tool offset on a control with one value a tool.
+        WriteOffset = "offset.write",
+        /// Reads an offset into program variables.
+        ReadOffset = "offset.read",
+        /// Writes program variables.
+        WriteVariable = "variable.write",
+        /// Sets the pole of polar words.
+        Pole = "polar.pole",
+        /// Polar coordinates on.
+        PolarOn = "polar.on",
+        /// Polar coordinates off.
+        PolarOff = "polar.off",
+        /// Scaling on.
+        ScaleOn = "scale.on",
+        /// Scaling off.
+        ScaleOff = "scale.off",
+        /// Mirror image on, for the axes of the block.
+        MirrorOn = "mirror.on",
+        /// Mirror image off.
+        MirrorOff = "mirror.off",
+        /// Rotates the coordinate system.
+        RotateOn = "rotate.on",
+        /// Ends the rotation.
+        RotateOff = "rotate.off",
+        /// Ends a drilling cycle.
+        CycleOff = "cycle.off",
+        /// Drill.
+        CycleDrill = "cycle.drill",
+        /// Drill with a dwell at the bottom.
+        CycleDrillDwell = "cycle.drill.dwell",
+        /// Peck drill, out of the hole each time.
+        CyclePeck = "cycle.peck",
+        /// Peck drill that only breaks the chip.
+        CycleChipBreak = "cycle.chipbreak",
+        /// Tap, right hand; feed and speed programmed apart.
+        CycleTap = "cycle.tap",
+        /// Tap, left hand.
+        CycleTapLeft = "cycle.tap.left",
+        /// Rigid tap.
+        CycleTapRigid = "cycle.tap.rigid",
+        /// Tap whose feed word is the spindle speed and whose Q is the lead.
+        CycleTapByLead = "cycle.tap.by.lead",
+        /// Bore, feed out.
+        CycleBore = "cycle.bore",
+        /// Bore, stop, rapid out.
+        CycleBoreStop = "cycle.bore.stop",
+        /// Back bore.
+        CycleBackBore = "cycle.bore.back",
+        /// Bore, dwell, manual out.
+        CycleBoreManual = "cycle.bore.manual",
+        /// Bore, dwell, feed out.
+        CycleBoreDwell = "cycle.bore.dwell",
+        /// Fine bore: orient and shift before the way out.
+        CycleFineBore = "cycle.bore.fine",
+        /// Runs the active cycle or modal call at the present place.
+        CycleHere = "cycle.here",
+        /// A cycle that only this family of controls has; never carried across.
+        CycleOther = "cycle.other",
+        /// Absolute coordinates.
+        Absolute = "distance.absolute",
+        /// Incremental coordinates.
+        Incremental = "distance.incremental",
+        /// Feed per minute.
+        FeedPerMinute = "feed.per.minute",
+        /// Feed per turn.
+        FeedPerTurn = "feed.per.turn",
+        /// Inverse-time feed.
+        FeedInverse = "feed.inverse",
+        /// Constant surface speed.
+        SurfaceSpeed = "speed.surface",
+        /// Spindle in turns per minute.
+        TurnsPerMinute = "speed.turns",
+        /// Limits the spindle speed.
+        LimitSpeed = "speed.limit",
+        /// Cycles return to the initial plane.
+        ReturnInitial = "return.initial",
+        /// Cycles return to the R plane.
+        ReturnR = "return.r",
+        /// Program stop.
+        Stop = "stop",
+        /// Optional stop.
+        OptionalStop = "stop.optional",
+        /// End of program.
+        End = "end",
+        /// End of program and rewind.
+        EndRewind = "end.rewind",
+        /// Spindle clockwise.
+        SpindleCw = "spindle.cw",
+        /// Spindle counter-clockwise.
+        SpindleCcw = "spindle.ccw",
+        /// Spindle stop.
+        SpindleStop = "spindle.stop",
+        /// Spindle orientation.
+        SpindleOrient = "spindle.orient",
+        /// Tool change.
+        ToolChange = "tool.change",
+        /// Mist coolant on.
+        Mist = "coolant.mist",
+        /// Flood coolant on.
+        Flood = "coolant.flood",
+        /// Coolant through the spindle on.
+        ThroughSpindle = "coolant.through.on",
+        /// Coolant through the spindle off.
+        ThroughSpindleOff = "coolant.through.off",
+        /// Coolant off.
+        CoolantOff = "coolant.off",
+        /// Feed and speed overrides in force.
+        OverrideOn = "override.on",
+        /// Feed and speed overrides out of force.
+        OverrideOff = "override.off",
+        /// Probe on.
+        ProbeOn = "probe.on",
+        /// Tool probe on.
+        ToolProbeOn = "probe.tool.on",
+        /// Limits how many blocks are read ahead.
+        LimitLookahead = "lookahead.limit",
+        /// Calls a program with arguments.
+        CallMacro = "call.macro",
+        /// Calls a program with arguments after each move.
+        CallModal = "call.modal",
+        /// Calls a program with arguments after each block.
+        CallModalEach = "call.modal.each",
+        /// Ends a modal call.
+        CallModalOff = "call.modal.off",
+        /// Calls a program.
+        CallProgram = "call.program",
+        /// Calls a part of this program.
+        CallLocal = "call.local",
+        /// Calls a cycle of the machine builder.
+        CallCycle = "call.cycle",
+        /// Jumps when an input is off.
+        JumpInputOff = "jump.input.off",
+        /// Jumps.
+        Jump = "jump",
+        /// Returns from a subprogram.
+        Return = "return",
+        /// Ends a subroutine inside a program.
+        SubEnd = "sub.end",
+        /// Ends the subroutines at the head of a program.
+        SubAreaEnd = "sub.area.end",
+        /// A machine builder's code, with what the machine profile says of it.
+        Builder = "builder",
+        /// Something that only this kind of machine has; never carried across.
+        MachineSpecific = "machine.specific",
+    }
+}
+
+impl Group {
+    /// The number of the group in [`super::Sys::Modal`]; none where it has none there.
+    pub const fn number(self) -> Option<u32> {
+        match self {
+            Group::Motion => Some(1),
+            Group::Plane => Some(2),
+            Group::Distance => Some(3),
+            Group::FeedMode => Some(5),
+            Group::Units => Some(6),
+            Group::RadiusComp => Some(7),
+            Group::LengthComp => Some(8),
+            Group::Cycle => Some(9),
+            Group::ReturnPlane => Some(10),
+            Group::WorkOffset => Some(14),
+            _ => None,
+        }
+    }
+}
+
+impl Op {
+    /// The modal group that the operation belongs to.
+    pub const fn group(self) -> Group {
+        use Op::*;
+        match self {
+            Rapid | Linear | ArcCw | ArcCcw | ArcTangent | Thread => Group::Motion,
+            CycleOff | CycleDrill | CycleDrillDwell | CyclePeck | CycleChipBreak | CycleTap
+            | CycleTapLeft | CycleTapRigid | CycleTapByLead | CycleBore | CycleBoreStop | CycleBackBore
+            | CycleBoreManual | CycleBoreDwell | CycleFineBore | CycleOther => Group::Cycle,
+            PlaneXy | PlaneZx | PlaneYz | PlaneOther | Wrap => Group::Plane,
+            Absolute | Incremental => Group::Distance,
+            FeedPerMinute | FeedPerTurn | FeedInverse => Group::FeedMode,
+            Inch | Metric => Group::Units,
+            RadiusOff | RadiusLeft | RadiusRight => Group::RadiusComp,
+            LengthPlus | LengthMinus | LengthOff => Group::LengthComp,
+            ReturnInitial | ReturnR => Group::ReturnPlane,
+            ShiftCancel | SelectWork => Group::WorkOffset,
+            ExactStop | CuttingMode | TappingMode | RampsOff | RampsOn => Group::PathMode,
+            SurfaceSpeed | TurnsPerMinute => Group::SpeedMode,
+            RotateOn | RotateOff => Group::Rotation,
+            ScaleOn | ScaleOff => Group::Scaling,
+            MirrorOn | MirrorOff => Group::Mirror,
+            CallModal | CallModalEach | CallModalOff => Group::ModalCall,
+            SpindleCw | SpindleCcw | SpindleStop => Group::Spindle,
+            Mist | Flood | CoolantOff => Group::Coolant,
+            _ => Group::OneShot,
+        }
+    }
+
+    /// True for a drilling cycle that stays in force.
+    pub const fn is_cycle(self) -> bool {
+        use Op::*;
+        matches!(
+            self,
+            CycleDrill
+                | CycleDrillDwell
+                | CyclePeck
+                | CycleChipBreak
+                | CycleTap
+                | CycleTapLeft
+                | CycleTapRigid
+                | CycleTapByLead
+                | CycleBore
+                | CycleBoreStop
+                | CycleBackBore
+                | CycleBoreManual
+                | CycleBoreDwell
+                | CycleFineBore
+                | CycleOther
+        )
+    }
+
+    /// True for what becomes a terminator of the IR, not an operation of a block.
+    pub const fn is_flow(self) -> bool {
+        use Op::*;
+        matches!(
+            self,
+            CallMacro
+                | CallModal
+                | CallModalEach
+                | CallModalOff
+                | CallProgram
+                | CallLocal
+                | CallCycle
+                | JumpInputOff
+                | Jump
+                | Return
+                | SubEnd
+                | SubAreaEnd
+                | End
+                | EndRewind
+        )
+    }
+}

@@ -1,0 +1,171 @@
+//! What a word's value is, once the code beside it is known.
+
+super::vocabulary! {
+    /// The role of a word in a block. The same letter has other roles beside
+    /// other codes: P is milliseconds beside a dwell and a program beside a call.
+    Role {
+        /// Target of the X axis.
+        X = "axis.x",
+        /// Target of the Y axis.
+        Y = "axis.y",
+        /// Target of the Z axis.
+        Z = "axis.z",
+        /// Target of the A axis, degrees.
+        A = "axis.a",
+        /// Target of the B axis, degrees.
+        B = "axis.b",
+        /// Target of the C axis, degrees.
+        C = "axis.c",
+        /// Target of the fourth linear axis where it has the letter E.
+        E = "axis.e",
+        /// Incremental X (lathe, system A) or the U axis.
+        U = "axis.u",
+        /// Incremental Y (lathe, system A) or the V axis.
+        V = "axis.v",
+        /// Incremental Z (lathe, system A) or the W axis.
+        W = "axis.w",
+        /// Arc centre along X, from the start point.
+        ArcI = "arc.i",
+        /// Arc centre along Y, from the start point.
+        ArcJ = "arc.j",
+        /// Arc centre along Z, from the start point.
+        ArcK = "arc.k",
+        /// Arc radius: positive the arc up to 180 degrees, negative the longer one.
+        ArcRadius = "arc.radius",
+        /// Corner rounding behind the block (`,R`).
+        CornerRadius = "corner.radius",
+        /// Corner chamfer behind the block (`,C`).
+        CornerChamfer = "corner.chamfer",
+        /// Feed, in units per minute or per turn as the feed mode says.
+        Feed = "feed",
+        /// Spindle speed, turns per minute (surface speed under constant surface speed).
+        Speed = "speed",
+        /// Tool number.
+        Tool = "tool",
+        /// Number of the tool length offset.
+        LengthOffset = "offset.length",
+        /// Number of the cutter radius offset.
+        RadiusOffset = "offset.radius",
+        /// Work offset: 0 none, 1 to 6 the standard six, 101 and up the additional ones from 1.
+        WorkOffset = "wcs.number",
+        /// Retract plane of a drilling cycle.
+        CycleR = "cycle.r",
+        /// Peck or shift of a drilling cycle.
+        CycleQ = "cycle.q",
+        /// Dwell at the bottom of a drilling cycle, milliseconds.
+        CycleDwell = "cycle.dwell",
+        /// How often a cycle or motion block is repeated.
+        Repeat = "repeat",
+        /// First peck of a decreasing peck cycle.
+        PeckFirst = "cycle.peck.first",
+        /// How much each peck is smaller.
+        PeckLess = "cycle.peck.less",
+        /// The smallest peck.
+        PeckLeast = "cycle.peck.least",
+        /// Distance fed before each peck begins.
+        PeckClear = "cycle.peck.clear",
+        /// Shift in X of a fine boring cycle.
+        CycleI = "cycle.i",
+        /// Shift in Y of a fine boring cycle.
+        CycleJ = "cycle.j",
+        /// Lead of a thread.
+        Lead = "lead",
+        /// Dwell in milliseconds.
+        DwellMs = "dwell.ms",
+        /// Dwell in seconds.
+        DwellS = "dwell.s",
+        /// Rotation angle, degrees counter-clockwise.
+        Angle = "rotation.angle",
+        /// Polar angle.
+        PolarAngle = "polar.angle",
+        /// Polar distance.
+        PolarDistance = "polar.distance",
+        /// Scale factor.
+        Scale = "scale",
+        /// Program number of a call.
+        Program = "call.program",
+        /// Sequence number of a call or a return.
+        Sequence = "call.sequence",
+        /// How often a call is repeated, in all.
+        CallCount = "call.count",
+        /// How often a call is repeated after the first time.
+        CallAgain = "call.again",
+        /// Input bit that is tested.
+        Input = "input.bit",
+        /// Blocks that may be read ahead.
+        Lookahead = "lookahead",
+        /// Row of an offset table that is written.
+        OffsetRow = "offset.row",
+        /// Value that is written into an offset table.
+        OffsetValue = "offset.value",
+        /// Number of a probed point.
+        ProbePoint = "probe.point",
+        /// Spindle-speed limit.
+        SpeedLimit = "speed.limit",
+        /// Ratio of cam wrapping.
+        WrapRatio = "wrap.ratio",
+        /// A value that a machine builder's code takes as it is.
+        Builder = "builder",
+    }
+}
+
+impl Role {
+    /// True for the target of an axis.
+    pub const fn is_axis(self) -> bool {
+        matches!(
+            self,
+            Role::X | Role::Y | Role::Z | Role::A | Role::B | Role::C | Role::E | Role::U | Role::V | Role::W
+        )
+    }
+
+    /// True where the control rounds the value to a whole number.
+    pub const fn is_integer(self) -> bool {
+        matches!(
+            self,
+            Role::Speed
+                | Role::Tool
+                | Role::LengthOffset
+                | Role::RadiusOffset
+                | Role::WorkOffset
+                | Role::Repeat
+                | Role::Program
+                | Role::Sequence
+                | Role::CallCount
+                | Role::CallAgain
+                | Role::Input
+                | Role::Lookahead
+                | Role::OffsetRow
+                | Role::ProbePoint
+        )
+    }
+
+    /// True for a length, counted in least increments where no point is written.
+    pub const fn is_length(self) -> bool {
+        matches!(
+            self,
+            Role::X
+                | Role::Y
+                | Role::Z
+                | Role::E
+                | Role::U
+                | Role::V
+                | Role::W
+                | Role::ArcI
+                | Role::ArcJ
+                | Role::ArcK
+                | Role::ArcRadius
+                | Role::CornerRadius
+                | Role::CornerChamfer
+                | Role::CycleR
+                | Role::CycleQ
+                | Role::PeckFirst
+                | Role::PeckLess
+                | Role::PeckLeast
+                | Role::PeckClear
+                | Role::CycleI
+                | Role::CycleJ
+                | Role::PolarDistance
+                | Role::OffsetValue
+        )
+    }
+}

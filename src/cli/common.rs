@@ -1,0 +1,150 @@
+//! What subcommands share: choosing controls, printing, complaining.
+
+use super::UNUSABLE;
+use crate::dialect::{Control, Profile, registry};
+use crate::library::{Detected, Input, InputError, Project, detect, gather};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Prints data. A reader that has gone away (`| head`) is not a fault.
+pub fn print(text: &str) {
+    let mut out = io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Says what is wrong with the usage or the input, and yields the exit code for it.
+pub fn complain(message: impl std::fmt::Display) -> u8 {
+    eprintln!("macroglot: {message}");
+    UNUSABLE
+}
+
+/// Reads the programs under the paths; faults are said, and any of them is fatal.
+pub fn read(paths: &[PathBuf]) -> Result<Vec<Input>, u8> {
+    let endings: Vec<String> = registry::all()
+        .iter()
+        .filter_map(|entry| entry.dialect().ok())
+        .flat_map(|dialect| dialect.extensions.clone())
+        .collect();
+    let (inputs, errors) = gather(paths, &endings);
+    if errors.is_empty() {
+        return Ok(inputs);
+    }
+    let harmless = |error: &InputError| matches!(error, InputError::Empty(_) | InputError::Binary(..));
+    for error in &errors {
+        complain(error);
+    }
+    // In a folder of good programs one that is no program is left out; alone it is all there was.
+    if inputs.is_empty() || !errors.iter().all(harmless) { Err(UNUSABLE) } else { Ok(inputs) }
+}
+
+/// The control of a dialect, with a machine profile where one is given for it.
+pub fn control(name: &str, machine: Option<&Path>) -> Result<Control, u8> {
+    let Some(entry) = registry::find(name) else {
+        return Err(complain(format!("no dialect is named '{name}': use one of {}", names())));
+    };
+    let plain = || {
+        let mut profile = Profile::default();
+        profile.dialect = name.into();
+        profile
+    };
+    let profile = match machine {
+        Some(path) => profile(path)?.filter(|profile| profile.dialect == name).unwrap_or_else(plain),
+        None => plain(),
+    };
+    Control::new(entry, profile).map_err(|faults| {
+        let path = machine.map_or_else(|| entry.file.into(), |path| path.display().to_string());
+        let text = machine.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
+        complain(crate::dialect::faults_as_text(&path, &text, &faults).trim_end())
+    })
+}
+
+/// The controls of a source and a target, each with its machine profile where one is given; `own` is
+/// the source's where none is.
+pub fn controls(
+    from: &str,
+    to: &str,
+    machines: &[PathBuf],
+    own: Option<&Path>,
+) -> Result<(Control, Control), u8> {
+    let profiles: Vec<(&PathBuf, Profile)> = machines
+        .iter()
+        .map(|path| profile(path).map(|profile| (path, profile.unwrap_or_default())))
+        .collect::<Result<_, _>>()?;
+    if let Some((path, odd)) = profiles.iter().find(|(_, p)| p.dialect != from && p.dialect != to) {
+        let what = "which is neither the source nor the target";
+        return Err(complain(format!("{} is a profile for '{}', {what}", path.display(), odd.dialect)));
+    }
+    let machine_for =
+        |name: &str| profiles.iter().find(|(_, p)| p.dialect == name).map(|(path, _)| path.as_path());
+    Ok((control(from, machine_for(from).or(own))?, control(to, machine_for(to))?))
+}
+
+/// A machine profile.
+pub fn profile(path: &Path) -> Result<Option<Profile>, u8> {
+    let text =
+        std::fs::read_to_string(path).map_err(|error| complain(format!("{}: {error}", path.display())))?;
+    let fault = |faults: Vec<_>| {
+        complain(crate::dialect::faults_as_text(&path.display().to_string(), &text, &faults).trim_end())
+    };
+    Profile::read(&text).map(Some).map_err(fault)
+}
+
+/// The names of all dialects.
+pub fn names() -> String {
+    registry::all().iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
+}
+
+/// The dialect of the machine that the project file names for the library which holds all the
+/// inputs, and that machine's profile.
+pub fn project_machine(inputs: &[Input]) -> Result<Option<(String, Option<PathBuf>)>, u8> {
+    let Some(project) = Project::find(Path::new(".")).map_err(complain)? else { return Ok(None) };
+    let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let holds = |folder: &Path| inputs.iter().all(|input| real(&input.path).starts_with(folder));
+    let libraries = project.libraries.values();
+    let library = libraries.into_iter().find(|library| holds(&real(&project.root.join(&library.path))));
+    let machine = library.and_then(|library| project.machines.get(&library.machine));
+    Ok(machine.map(|machine| {
+        (machine.dialect.clone(), machine.profile.as_ref().map(|profile| project.root.join(profile)))
+    }))
+}
+
+/// The profile of the project's own machine, which speaks for its library where the arguments are silent.
+pub fn own_profile(named: Option<&str>, inputs: &[Input]) -> Result<Option<PathBuf>, u8> {
+    match named {
+        Some(_) => Ok(None),
+        None => Ok(project_machine(inputs)?.and_then(|(_, profile)| profile)),
+    }
+}
+
+/// The dialect that was named, or the one that the text shows.
+pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
+    if let Some(name) = named {
+        return Ok(name.into());
+    }
+    if let Some((dialect, _)) = project_machine(inputs)? {
+        return Ok(dialect);
+    }
+    match detect(inputs) {
+        Detected::Sure(entry) => Ok(entry.name.into()),
+        Detected::Unsure(entries) => {
+            let likely = entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(" or ");
+            Err(complain(format!(
+                "which control the programs are written for is not certain: it may be {likely}. Say it with --from or --dialect"
+            )))
+        }
+    }
+}
+
+/// Runs something long, with a spinner where standard error is a terminal.
+pub fn with_progress<T>(files: usize, work: impl FnOnce() -> T) -> T {
+    use std::io::IsTerminal;
+    if !io::stderr().is_terminal() {
+        return work();
+    }
+    let bar = indicatif::ProgressBar::new_spinner();
+    bar.set_message(format!("converting {files} files"));
+    bar.enable_steady_tick(std::time::Duration::from_millis(100));
+    let done = work();
+    bar.finish_and_clear();
+    done
+}

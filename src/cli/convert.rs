@@ -1,0 +1,126 @@
+//! `macroglot convert PATH...`.
+
+use super::jobs::{Job, Wish, jobs};
+use super::{FOUND, WELL, common, outcome};
+use crate::library::{Conversion, Options, convert, judge, write_all};
+use crate::opt::Level;
+use crate::report::{self, Part};
+use crate::verify::{Certificate, Effort};
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Files, folders, or - for standard input; the project file's libraries where none is given
+    #[arg(value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// The control the programs are written for; recognized where it is left out
+    #[arg(long, value_name = "D")]
+    from: Option<String>,
+    /// The control they are to run on
+    #[arg(long, value_name = "D")]
+    to: Option<String>,
+    /// A machine profile of the source or the target (it names its dialect); may be given twice
+    #[arg(long, value_name = "FILE")]
+    machine: Vec<PathBuf>,
+    /// The folder that conversions are written to; a single program goes to standard output without it
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write refused programs too, with an alarm at every hole
+    #[arg(long)]
+    draft: bool,
+    /// Run every conversion against its source on emulated controls, and write a certificate beside it
+    #[arg(long, overrides_with = "no_verify")]
+    verify: bool,
+    /// Do not verify (the default)
+    #[arg(long)]
+    no_verify: bool,
+    /// How much to optimize: 0 nothing, 1 what conversion itself introduced, 2 more
+    #[arg(short = 'O', value_name = "LEVEL", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=2))]
+    optimize: u8,
+    /// Write a report; its ending says the format: .json .sarif .md .html .txt. May be given more than once
+    #[arg(long, value_name = "FILE")]
+    report: Vec<PathBuf>,
+    /// How to print the outcome
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Print no diagnostics, only the summary
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, clap::ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    Sarif,
+}
+
+pub fn run(arguments: &Arguments) -> u8 {
+    match work(arguments) {
+        Ok(code) | Err(code) => code,
+    }
+}
+
+fn work(arguments: &Arguments) -> Result<u8, u8> {
+    let jobs = jobs(&Wish {
+        paths: &arguments.paths,
+        from: arguments.from.as_deref(),
+        to: arguments.to.as_deref(),
+        machines: &arguments.machine,
+        out: arguments.out.as_deref(),
+    })?;
+    outcome::check_reports(&arguments.report, &jobs)?;
+    let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
+    let options = Options { level, draft: arguments.draft };
+    let files = jobs.iter().map(|job| job.inputs.len()).sum();
+    let mut conversions: Vec<Conversion> = common::with_progress(files, || {
+        jobs.iter()
+            .map(|job| convert(&job.inputs, &job.source, &job.target, job.lock.clone(), options))
+            .collect()
+    });
+    let certificates = common::with_progress(files, || verified(arguments, &jobs, &mut conversions));
+    let targets: Vec<_> = jobs.iter().zip(&conversions).map(|(job, c)| outcome::targets(job, c)).collect();
+    let parts: Vec<Part<'_>> = jobs
+        .iter()
+        .zip(&conversions)
+        .zip(&targets)
+        .map(|((job, conversion), targets)| Part {
+            from: job.source.name(),
+            to: job.target.name(),
+            inputs: &job.inputs,
+            conversion,
+            targets,
+        })
+        .collect();
+    let mut outputs = outcome::outputs(&jobs, &parts, &arguments.report);
+    outputs.extend(outcome::certificates(&targets, &certificates));
+    write_all(&outputs).map_err(common::complain)?;
+    match arguments.format {
+        Format::Json => common::print(&report::json(&parts)),
+        Format::Sarif => common::print(&report::sarif(&parts)),
+        Format::Text => {
+            if !arguments.quiet {
+                parts.iter().for_each(outcome::draw);
+            }
+            outcome::summarize(&jobs, &parts);
+        }
+    }
+    let refused = report::Totals::of(&parts).refused > 0;
+    Ok(if refused { FOUND } else { WELL })
+}
+
+/// The certificates of every job's files, where they are wanted; the outcomes then rest on them.
+fn verified(
+    arguments: &Arguments,
+    jobs: &[Job],
+    conversions: &mut [Conversion],
+) -> Vec<Vec<Option<Certificate>>> {
+    if !arguments.verify || arguments.no_verify {
+        return Vec::new();
+    }
+    let judged = jobs
+        .iter()
+        .zip(conversions)
+        .map(|(job, conversion)| judge(&job.inputs, conversion, &job.source, &job.target, Effort::default()));
+    judged.collect()
+}

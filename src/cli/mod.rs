@@ -1,0 +1,71 @@
+//! The command line: arguments in, exit code out, no logic.
+//!
+//! One file a subcommand. Standard output is data, standard error is for people: progress
+//! (on a terminal only), summaries and diagnostics. Exit codes: 0 all well; 1 something was
+//! refused, differs or fails the check; 2 wrong usage or unreadable input.
+
+mod common;
+mod completions;
+mod convert;
+mod dialects;
+mod explain;
+mod ir;
+mod jobs;
+mod outcome;
+mod parse;
+mod run;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Translates parametric CNC programs from one control to another.
+#[derive(Debug, Parser)]
+#[command(name = "macroglot", version, about, max_term_width = 100, disable_help_subcommand = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Convert programs, whole folders at once, for another control
+    Convert(convert::Arguments),
+    /// Read programs, count their blocks and check that nothing is lost
+    Parse(parse::Arguments),
+    /// Run a program and its conversion on emulated controls and compare what the machines do
+    Verify(verify::Arguments),
+    /// Run a program on its emulated control and print what the machine would do
+    Run(run::Arguments),
+    /// Print the intermediate form of a program
+    Ir(ir::Arguments),
+    /// Print what the controls have and do, with sources
+    Dialects(dialects::Arguments),
+    /// Explain a diagnostic
+    Explain(explain::Arguments),
+    /// Print a completion script for a shell
+    Completions(completions::Arguments),
+}
+
+/// All went well.
+pub(crate) const WELL: u8 = 0;
+/// Something was refused, differs or fails the check.
+pub(crate) const FOUND: u8 = 1;
+/// Wrong usage or unreadable input.
+pub(crate) const UNUSABLE: u8 = 2;
+
+/// Runs the command line.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let code = match cli.command {
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Parse(arguments) => parse::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Ir(arguments) => ir::run(&arguments),
+        Command::Dialects(arguments) => dialects::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+    };
+    ExitCode::from(code)
+}

@@ -1,0 +1,165 @@
+//! `macroglot run FILE`.
+
+use super::common::{complain, control, dialect_of, own_profile, print, read};
+use super::{FOUND, WELL};
+use crate::control::trace::Place;
+use crate::control::{End, LoadedFile, ProgramRef, Run, Scenario};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::library::{Input, Output, write_all};
+use crate::report::{Sheet, backplot, trace_json, trace_text};
+use crate::syntax::{ParsedFile, parse_file};
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// A file, or - for standard input; its first program runs
+    file: PathBuf,
+    /// The control the program is written for; recognized where it is left out
+    #[arg(long, short, value_name = "D")]
+    dialect: Option<String>,
+    /// The machine's profile
+    #[arg(long, value_name = "FILE")]
+    machine: Option<PathBuf>,
+    /// Files and folders with the programs that it calls
+    #[arg(long, value_name = "PATH")]
+    library: Vec<PathBuf>,
+    /// The circumstances of the run: offsets, tools, probe hits, switches (TOML; see docs/trace.md)
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<PathBuf>,
+    /// Start value of a variable, by the control's own name: --set '#1=2.5'; may be given again
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    set: Vec<String>,
+    /// What the operator answers, in order; may be given again
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    answer: Vec<f64>,
+    /// How to print the trace
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    trace: Format,
+    /// Draw the tool's path
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+pub fn run(arguments: &Arguments) -> u8 {
+    match work(arguments) {
+        Ok(code) | Err(code) => code,
+    }
+}
+
+fn work(arguments: &Arguments) -> Result<u8, u8> {
+    let mut inputs = read(std::slice::from_ref(&arguments.file))?;
+    if inputs.len() > 1 {
+        return Err(complain("one program is run at a time: name its file, and the others with --library"));
+    }
+    let name = dialect_of(arguments.dialect.as_deref(), &inputs)?;
+    let own = own_profile(arguments.dialect.as_deref(), &inputs)?;
+    let control = control(&name, arguments.machine.as_deref().or(own.as_deref()))?;
+    if !arguments.library.is_empty() {
+        let others = read(&arguments.library)?;
+        let main = inputs.first().map(|input| input.path.clone());
+        inputs.extend(others.into_iter().filter(|input| Some(&input.path) != main.as_ref()));
+    }
+    let scenario = scenario(arguments, &control)?;
+    let run = execute(&inputs, &control, &scenario)?;
+    print(&match arguments.trace {
+        Format::Text => trace_text(&run, &inputs),
+        Format::Json => trace_json(&run, &inputs),
+    });
+    if let Some(path) = &arguments.plot {
+        if inputs.iter().any(|input| input.path == *path) {
+            return Err(complain(format!("{} is an input and would be overwritten", path.display())));
+        }
+        let title = inputs.first().map_or_else(String::new, |input| input.name.clone());
+        let bytes = backplot(&run.events, &title).into_bytes();
+        write_all(&[Output { path: path.clone(), bytes }]).map_err(complain)?;
+    }
+    let Some((at, finding)) = finding(&run) else { return Ok(WELL) };
+    let file = run.programs.get(at.program as usize).map_or(0, |program| program.file);
+    match inputs.get(file) {
+        Some(input) => {
+            eprint!("{}", Sheet::new(&input.path.display().to_string(), &input.bytes).draw(&finding));
+        }
+        None => eprintln!("{}", finding.message),
+    }
+    Ok(FOUND)
+}
+
+fn execute(inputs: &[Input], control: &Control, scenario: &Scenario) -> Result<Run, u8> {
+    let entry = control.entry();
+    let Some(execute) = entry.execute else {
+        return Err(complain(format!("there is no emulated control for {}", entry.name)));
+    };
+    let parsed: Vec<ParsedFile<'_>> =
+        inputs.iter().map(|input| parse_file(&input.bytes, entry.parse)).collect();
+    let files: Vec<LoadedFile<'_>> = (inputs.iter().zip(&parsed))
+        .map(|(input, parsed)| LoadedFile { name: &input.name, parsed })
+        .collect();
+    Ok(execute(&files, ProgramRef::FIRST, control, scenario))
+}
+
+/// The scenario file with what the command line adds.
+fn scenario(arguments: &Arguments, control: &Control) -> Result<Scenario, u8> {
+    let mut scenario = match &arguments.scenario {
+        None => Scenario::default(),
+        Some(path) => {
+            let text = std::fs::read_to_string(path)
+                .map_err(|error| complain(format!("{}: {error}", path.display())))?;
+            toml::from_str(&text).map_err(|error| complain(format!("{}: {error}", path.display())))?
+        }
+    };
+    for set in &arguments.set {
+        let parts = set.split_once('=').map(|(name, value)| (name.trim(), value.trim().parse::<f64>()));
+        let Some((name, Ok(value))) = parts else {
+            return Err(complain(format!("--set {set}: write NAME=VALUE, as in --set '#1=2.5'")));
+        };
+        if !is_variable(control, name) {
+            return Err(complain(format!(
+                "--set {set}: {} has no variable '{name}'",
+                control.dialect().title
+            )));
+        }
+        scenario.variables.insert(name.into(), value);
+    }
+    scenario.answers.extend(&arguments.answer);
+    scenario.variable_events = true;
+    Ok(scenario)
+}
+
+/// True for a variable that a program may use freely.
+fn is_variable(control: &Control, name: &str) -> bool {
+    let digits = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
+    let (stem, number) = name.split_at(digits);
+    if let Ok(number) = number.parse() {
+        return control.variable_class(stem, number).is_some();
+    }
+    let mut letters = stem.chars();
+    letters
+        .next_back()
+        .is_some_and(|letter| number.is_empty() && control.letter_class(letters.as_str(), letter).is_some())
+}
+
+/// Why the run did not come to its end, and at which place.
+fn finding(run: &Run) -> Option<(Place, Diagnostic)> {
+    let last = run.events.last().map(|event| event.at).unwrap_or_default();
+    let (at, code, message) = match &run.end {
+        End::Ended => return None,
+        End::Alarm { at, stop } => {
+            let parts = [stop.number.as_str(), stop.text.as_str()];
+            let text = parts.iter().filter(|part| !part.is_empty()).copied().collect::<Vec<_>>().join(": ");
+            (*at, Code::AlarmRaised, text)
+        }
+        End::StepBudget => {
+            (last, Code::NoEnd, format!("after {} blocks the program is still running", run.steps))
+        }
+        End::TimeBudget => (last, Code::NoEnd, "the program is still running when its time is up".into()),
+        End::Error { at, text } => (*at, Code::CannotRun, text.clone()),
+    };
+    Some((at, Diagnostic::new(code, at.span, message)))
+}

@@ -1,0 +1,90 @@
+//! `macroglot verify SOURCE TARGET`.
+
+use super::common::{complain, controls, dialect_of, own_profile, print, read};
+use super::{FOUND, WELL};
+use crate::control::LoadedFile;
+use crate::dialect::Control;
+use crate::library::{Input, Lock, Output, write_all};
+use crate::syntax::{ParsedFile, parse_file};
+use crate::verify::{Certificate, Effort, Job, Names, Outcome, Side, verify};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The source: a file, or a folder of programs
+    source: PathBuf,
+    /// Its conversion: a file or a folder. The macroglot.lock beside it says which register is which
+    target: PathBuf,
+    /// The control the source is written for; recognized where it is left out
+    #[arg(long, value_name = "D")]
+    from: Option<String>,
+    /// The control the target is written for; recognized where it is left out
+    #[arg(long, value_name = "D")]
+    to: Option<String>,
+    /// A machine profile of the source or the target (it names its dialect); may be given twice
+    #[arg(long, value_name = "FILE")]
+    machine: Vec<PathBuf>,
+    /// Write the certificate to a file too
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> u8 {
+    match work(arguments) {
+        Ok(code) | Err(code) => code,
+    }
+}
+
+fn work(arguments: &Arguments) -> Result<u8, u8> {
+    let ours = read(std::slice::from_ref(&arguments.source))?;
+    let theirs = read(std::slice::from_ref(&arguments.target))?;
+    let from = dialect_of(arguments.from.as_deref(), &ours)?;
+    let to = dialect_of(arguments.to.as_deref(), &theirs)?;
+    let own = own_profile(arguments.from.as_deref(), &ours)?;
+    let (source, target) = controls(&from, &to, &arguments.machine, own.as_deref())?;
+    let names = names(&arguments.target, &source, &target)?;
+    let certificate = certify((&ours, &source), (&theirs, &target), &names)?;
+    let text = certificate.print();
+    if let Some(path) = &arguments.certificate {
+        if ours.iter().chain(&theirs).any(|input| input.path == *path) {
+            return Err(complain(format!("{} is an input and would be overwritten", path.display())));
+        }
+        write_all(&[Output { path: path.clone(), bytes: text.clone().into_bytes() }]).map_err(complain)?;
+    }
+    print(&text);
+    Ok(if certificate.outcome == Outcome::Same { WELL } else { FOUND })
+}
+
+/// What the lock beside the target says.
+fn names(target: &Path, from: &Control, to: &Control) -> Result<Names, u8> {
+    if from.name() == to.name() {
+        return Ok(Names::default());
+    }
+    let folder = if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) };
+    let lock = Lock::load(&folder.join(Lock::NAME), from.name(), to.name()).map_err(complain)?;
+    Ok(Names { variables: lock.variables, programs: lock.programs })
+}
+
+fn certify(
+    (ours, source): (&[Input], &Control),
+    (theirs, target): (&[Input], &Control),
+    names: &Names,
+) -> Result<Certificate, u8> {
+    let executor = |control: &Control| {
+        let none = || complain(format!("there is no emulated control for '{}'", control.name()));
+        control.entry().execute.ok_or_else(none)
+    };
+    let (run, run_there) = (executor(source)?, executor(target)?);
+    let (ours_parsed, theirs_parsed) = (parsed(ours, source), parsed(theirs, target));
+    let (ours, theirs) = (loaded(ours, &ours_parsed), loaded(theirs, &theirs_parsed));
+    let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
+    Ok(verify(&Job { source: &from, target: &to, names, effort: Effort::default() }, &[]))
+}
+
+fn parsed<'a>(inputs: &'a [Input], control: &Control) -> Vec<ParsedFile<'a>> {
+    inputs.iter().map(|input| parse_file(&input.bytes, control.entry().parse)).collect()
+}
+
+fn loaded<'a>(inputs: &'a [Input], parsed: &'a [ParsedFile<'a>]) -> Vec<LoadedFile<'a>> {
+    inputs.iter().zip(parsed).map(|(input, parsed)| LoadedFile { name: &input.name, parsed }).collect()
+}

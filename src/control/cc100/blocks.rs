@@ -1,0 +1,144 @@
+//! Blocks: statements from left to right, then the words, then jumps and calls.
+
+use super::store::Cell;
+use super::{Interpreter, Next};
+use crate::canon::{Op, Role};
+use crate::control::outcome::Stop;
+use crate::control::session::{Flow, Halt};
+use crate::control::trace::Happening;
+use crate::control::words::{self, Read, Spoken};
+use crate::syntax::{Block, ItemKind};
+use smallvec::SmallVec;
+
+/// G800: cycle nn has the code G8nn.
+const CYCLES: f64 = 800.0;
+
+impl<'r> Interpreter<'r, '_> {
+    /// Runs a block.
+    pub(super) fn run(&mut self, block: &'r Block) -> Flow<Next> {
+        let mut words: SmallVec<[Spoken; 12]> = SmallVec::new();
+        let mut set: SmallVec<[Cell; 4]> = SmallVec::new();
+        for (at, item) in block.items.iter().enumerate() {
+            match &item.kind {
+                ItemKind::Word(word) => {
+                    let Some(expr) = &word.value else { continue };
+                    let value = self.operand(expr)?;
+                    self.last.insert(word.letter, value);
+                    words.push(Spoken { letter: word.letter, value });
+                }
+                other => {
+                    if let ItemKind::Assign { target, .. } = other {
+                        set.extend(Cell::of(target));
+                    }
+                    if self.statement(other)? {
+                        if at + 1 < block.items.len() {
+                            self.session.trace.doubt("machine:block.behind.branch");
+                        }
+                        return Ok(Next::On);
+                    }
+                }
+            }
+        }
+        if words.is_empty() { Ok(Next::On) } else { self.words(block, &words, &set) }
+    }
+
+    fn words(&mut self, block: &'r Block, words: &[Spoken], set: &[Cell]) -> Flow<Next> {
+        let session = &mut self.session;
+        if session.machine.cycle().is_none() {
+            self.lasting.cycle = None;
+        }
+        let mut read = words::read(session.control, words, &mut self.lasting, &mut session.trace)?;
+        self.cycle(&mut read, set);
+        let session = &mut self.session;
+        let command = &mut read.command;
+        let incremental =
+            match command.ops.iter().rev().find(|op| matches!(op, Op::Absolute | Op::Incremental)) {
+                Some(op) => *op == Op::Incremental,
+                None => session.machine.is_incremental(),
+            };
+        self.polar.resolve(command, incremental, &mut session.trace);
+        let message = if command.has(Op::Stop) { self.message(block) } else { None };
+        let command = &mut read.command;
+        if message.is_some() {
+            command.ops.retain(|op| *op != Op::Stop);
+        }
+        let session = &mut self.session;
+        if !command.is_empty() {
+            session.machine.run(command, &mut session.trace)?;
+        }
+        if let Some(text) = message {
+            session.trace.push(Happening::Message { text });
+        }
+        self.flow(&read, words)
+    }
+
+    /// The variables that a drilling cycle takes its planes from, where its block sets them.
+    fn cycle(&mut self, read: &mut Read<'r>, set: &[Cell]) {
+        if !read.codes.iter().any(|row| row.op.is_cycle()) {
+            return;
+        }
+        let planes = [("cycle.variable.retract", Role::CycleR), ("cycle.variable.depth", Role::Z)];
+        for (behaviour, role) in planes {
+            let row = self.session.control.behaviour(behaviour);
+            let cell = row.and_then(|row| row.value.parse().ok()).and_then(Cell::numbered);
+            let Some(cell) = cell.filter(|cell| set.contains(cell)) else { continue };
+            self.session.rest_on(behaviour);
+            if let Some(value) = self.store.get(cell) {
+                read.command.words.push((role, value));
+            }
+        }
+    }
+
+    /// The text that a stop shows: the comment in its block, or alone in the next one.
+    fn message(&self, block: &'r Block) -> Option<String> {
+        if !self.session.control.is("message.shows.comment") {
+            return None;
+        }
+        let next = self.session.block(self.at.section, self.at.index).filter(|next| {
+            let items = &next.items;
+            items.iter().all(|item| {
+                matches!(item.kind, ItemKind::Comment(_) | ItemKind::Sequence { .. } | ItemKind::EndOfBlock)
+            })
+        });
+        let comment = [Some(block), next].into_iter().flatten().find_map(|block| {
+            block.items.iter().find_map(|item| match &item.kind {
+                ItemKind::Comment(comment) => Some(comment.text),
+                _ => None,
+            })
+        })?;
+        let source = self.session.source(self.at.section);
+        let text = source.get(comment.start as usize..comment.end as usize)?;
+        Some(String::from_utf8_lossy(text).trim().to_owned())
+    }
+
+    fn flow(&mut self, read: &Read<'r>, words: &[Spoken]) -> Flow<Next> {
+        for &op in &read.flow {
+            let label = read.command.number(Role::Sequence);
+            let label = || label.ok_or_else(|| Stop::unnamed("a call or a jump without P"));
+            match op {
+                Op::Jump => self.jump(label()?)?,
+                Op::CallLocal => {
+                    let again = read.command.number(Role::CallAgain);
+                    if again.is_some() {
+                        self.session.rest_on("repeat.counts");
+                    }
+                    self.call_local(label()?, again.unwrap_or(0).saturating_add(1))?;
+                }
+                Op::CallCycle => {
+                    let numbers =
+                        words.iter().filter(|word| word.letter == 'G').map(|word| word.value - CYCLES);
+                    let number = numbers.rev().find(|number| (1.0..100.0).contains(number));
+                    self.call_cycle(number.unwrap_or(0.0) as u32)?;
+                }
+                Op::Return if self.depth > 0 => return Ok(Next::Back),
+                Op::Return => {
+                    self.session.trace.doubt("machine:return.without.call");
+                    return Err(Halt::Ended(Op::End));
+                }
+                Op::End | Op::EndRewind => return Err(Halt::Ended(op)),
+                _ => {}
+            }
+        }
+        Ok(Next::On)
+    }
+}

@@ -1,0 +1,90 @@
+//! Jumps, subprograms behind labels, and cycles in files of their own.
+
+use super::{At, Interpreter, Next};
+use crate::control::ProgramRef;
+use crate::control::outcome::Stop;
+use crate::control::session::{Flow, Halt};
+use crate::control::trace::Happening;
+use crate::syntax::{ItemKind, Label};
+use std::collections::HashMap;
+
+/// How deep calls nest before the emulation gives up.
+const DEEPEST: u32 = 40;
+
+impl Interpreter<'_, '_> {
+    /// Goes on at a label of the running program.
+    pub(super) fn jump(&mut self, label: u32) -> Flow<()> {
+        self.at.index = self.label(label)?;
+        Ok(())
+    }
+
+    fn label(&mut self, label: u32) -> Flow<usize> {
+        let section = self.at.section;
+        if !self.labels.contains_key(&section) {
+            let mut found: HashMap<u32, (usize, bool)> = HashMap::new();
+            for (index, block) in (0..).map_while(|at| Some((at, self.session.block(section, at)?))) {
+                for item in &block.items {
+                    if let ItemKind::Label(Label::Number(number)) = item.kind {
+                        found.entry(number).and_modify(|(_, again)| *again = true).or_insert((index, false));
+                    }
+                }
+            }
+            self.labels.insert(section, found);
+        }
+        let found = self.labels.get(&section).and_then(|labels| labels.get(&label)).copied();
+        let Some((index, again)) = found else {
+            return Err(Halt::Error(format!("label ${label} is not there")));
+        };
+        if again {
+            self.session.rest_on("goto.first.label");
+        }
+        Ok(index)
+    }
+
+    /// G22: runs the blocks from a label on, up to G99.
+    pub(super) fn call_local(&mut self, label: u32, count: u32) -> Flow<()> {
+        let index = self.label(label)?;
+        self.call(At { section: self.at.section, index }, count)
+    }
+
+    /// G8nn: runs a cycle.
+    pub(super) fn call_cycle(&mut self, number: u32) -> Flow<()> {
+        let named = format!("cycle{number:02}");
+        let file = self.session.library.iter().position(|file| {
+            let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default().to_ascii_lowercase();
+            let rest = name.strip_prefix(&named);
+            rest.is_some_and(|rest| !rest.starts_with(|next: char| next.is_ascii_digit()))
+        });
+        let Some(file) = file else {
+            return Err(Halt::Error(format!(
+                "cycle {number} is not in the library, in a file named {named}"
+            )));
+        };
+        let section = self.session.section_of(ProgramRef { file, program: 0 })?;
+        self.call(At { section, index: 0 }, 1)
+    }
+
+    fn call(&mut self, to: At, count: u32) -> Flow<()> {
+        if self.session.control.limit("call.all").is_some_and(|most| self.depth >= most) {
+            self.session.trace.doubt("limit:call.all");
+        }
+        if self.depth >= DEEPEST {
+            return Err(Stop::unnamed("calls are nested too deep").into());
+        }
+        self.depth += 1;
+        let back = self.at;
+        let place = self.session.trace.at;
+        for _ in 0..count {
+            self.session.count()?;
+            self.at = to;
+            let program = self.session.program_number(to.section);
+            self.session.trace.push(Happening::Enter { program });
+            while self.step()? == Next::On {}
+            self.session.trace.push(Happening::Leave);
+            self.session.trace.at = place;
+        }
+        self.depth -= 1;
+        self.at = back;
+        Ok(())
+    }
+}

@@ -1,0 +1,103 @@
+//! Runs CC100 programs: plain blocks and parametric ones, by the rules of its course text.
+
+mod blocks;
+mod calls;
+mod condition;
+mod polar;
+mod statements;
+mod store;
+#[cfg(test)]
+mod tests;
+mod values;
+
+use super::library::{LoadedFile, ProgramRef};
+use super::outcome::Run;
+use super::scenario::Scenario;
+use super::session::{Flow, Halt, Session};
+use super::words::Lasting;
+use crate::canon::Op;
+use crate::dialect::Control;
+use condition::Condition;
+use polar::Polar;
+use std::collections::HashMap;
+use store::Store;
+
+/// Runs a program on the emulated control; [`super::Execute`].
+///
+/// The files of the library named `cycle20...` and so on are the cycles: G820 runs the first
+/// program of `cycle20...`.
+pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+    let mut interpreter = Interpreter {
+        session: Session::new(library, control, scenario),
+        store: Store::new(scenario),
+        condition: Condition::default(),
+        polar: Polar::default(),
+        labels: HashMap::new(),
+        last: HashMap::new(),
+        at: At { section: 0, index: 0 },
+        depth: 0,
+        lasting: Lasting::default(),
+    };
+    let halt = interpreter.main(main);
+    let variables = interpreter.store.all();
+    interpreter.session.finish(halt, variables)
+}
+
+/// The next block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct At {
+    section: usize,
+    /// Counted from the section's first block.
+    index: usize,
+}
+
+/// What comes behind a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    /// The block that [`Interpreter::at`] names.
+    On,
+    /// Back to the call.
+    Back,
+}
+
+struct Interpreter<'r, 'f> {
+    session: Session<'r, 'f>,
+    store: Store,
+    condition: Condition,
+    polar: Polar,
+    /// The labels of the programs that jumped so far: the first block of each, and whether it stands again.
+    labels: HashMap<usize, HashMap<u32, (usize, bool)>>,
+    /// The last value of each address.
+    last: HashMap<char, f64>,
+    at: At,
+    /// How many calls are open.
+    depth: u32,
+    lasting: Lasting<'r>,
+}
+
+impl Interpreter<'_, '_> {
+    fn main(&mut self, main: ProgramRef) -> Halt {
+        match self.session.section_of(main) {
+            Ok(section) => self.at = At { section, index: 0 },
+            Err(halt) => return halt,
+        }
+        loop {
+            match self.step() {
+                Ok(Next::On) => {}
+                Ok(Next::Back) => return Halt::Ended(Op::End),
+                Err(halt) => return halt,
+            }
+        }
+    }
+
+    /// Runs one block. Behind the last one the run is over, in a subprogram too.
+    fn step(&mut self) -> Flow<Next> {
+        let Some(block) = self.session.block(self.at.section, self.at.index) else {
+            return Err(Halt::Ended(Op::End));
+        };
+        self.session.enter_block(self.at.section, block.span)?;
+        self.at.index += 1;
+        self.session.refuse_faulty(block)?;
+        self.run(block)
+    }
+}

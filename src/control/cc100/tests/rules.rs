@@ -1,0 +1,88 @@
+//! Rules of the language that no program of the course shows alone.
+
+use crate::control::testing::*;
+use crate::control::trace::Happening;
+use crate::control::{End, Run, Scenario};
+
+fn lines(text: &str) -> Run {
+    run("cc100", &[("t.nc", text.as_bytes())], &given(&[]))
+}
+
+#[test]
+fn a_subprogram_runs_once_more_than_l_says() {
+    let run = lines("V1=0\nG22 P1 L2\nM30\n$1\nV1=V1+1\nG99\n");
+    ended(&run);
+    assert_eq!(run.variables["V1"], 3.0);
+    assert!(doubts(&run).contains(&"behaviour:repeat.counts"));
+    assert_eq!(lines("V1=0\nG22 P1\nM30\n$1\nV1=V1+1\nG99\n").variables["V1"], 1.0);
+}
+
+#[test]
+fn branches_go_to_computed_labels() {
+    let run = lines("V9=4\nTST V9\nBGT V9\nV1=1\n$4\nM30\n");
+    ended(&run);
+    assert!(!run.variables.contains_key("V1"));
+}
+
+/// Whether a load sets the register matters only where the branch would go the other way.
+#[test]
+fn a_load_between_test_and_branch_is_unsure() {
+    let fact = "behaviour:load.sets.condition";
+    let run = lines("V2=3\nV1=V2-3\nV3=5\nBEQ P9\nV4=1\n$9\nM30\n");
+    assert!(doubts(&run).contains(&fact) && !run.variables.contains_key("V4"));
+    let run = lines("V2=4\nV1=V2-3\nV3=5\nBGT P9\nV4=1\n$9\nM30\n");
+    assert!(!doubts(&run).contains(&fact));
+}
+
+#[test]
+fn tests_of_codes_are_zero_for_yes() {
+    let text = |code: &str| format!("G91\nG54\nTST {code}\nBEQ P9\nV1=1\n$9\nM30\n");
+    for (code, yes) in
+        [("G91", true), ("G90", false), ("G54", true), ("G55", false), ("QM", true), ("QX", false)]
+    {
+        let run = lines(&text(code));
+        ended(&run);
+        assert_eq!(run.variables.contains_key("V1"), !yes, "{code}");
+    }
+}
+
+#[test]
+fn polar_words_count_from_the_pole_or_from_here() {
+    let run = lines(
+        "V1=20 V2=10 V3=5\nV4=90 V5=8\nG1 F100\nG=V1 X=V2 Y=V3\nA=V4 D=V5\nG91\nA=V4 D=V5\nTRF=G20 V8=X V9=Y\n",
+    );
+    ended(&run);
+    near(feeds(&run)[0], [10.0, 13.0, 0.0]);
+    near(feeds(&run)[1], [10.0, 21.0, 0.0]);
+    assert_eq!((run.variables["V8"], run.variables["V9"]), (10.0, 5.0));
+}
+
+#[test]
+fn shifts_are_selected_and_cancelled() {
+    let run = lines("V1=10 V2=20\nTRF=G55 X=V1 Y=V2\nG55\nG1 X1 Y1 F100\nG53\nX1 Y1\n");
+    near(feeds(&run)[0], [11.0, 21.0, 0.0]);
+    near(feeds(&run)[1], [1.0, 1.0, 0.0]);
+}
+
+#[test]
+fn what_is_not_there_is_an_error_at_its_block() {
+    for text in ["G24 P7\n", "G22 P7\n", "G877\n", "V1=X\nG24\n"] {
+        assert!(matches!(lines(text).end, End::Error { .. } | End::Alarm { .. }), "{text}");
+    }
+    // Plain and parametric words in one block.
+    assert!(matches!(lines("X0 Y=V1\n").end, End::Error { .. }));
+    assert!(matches!(lines("V1=V2/V3\n").end, End::Alarm { .. }));
+}
+
+#[test]
+fn endless_jumps_end_at_the_budget_and_endless_calls_by_an_alarm() {
+    let few = Scenario { steps: 10_000, ..given(&[]) };
+    assert_eq!(run("cc100", &[("t.nc", b"$1\nG24 P1\n")], &few).end, End::StepBudget);
+    assert!(matches!(lines("$1\nG22 P1\n").end, End::Alarm { .. }));
+}
+
+#[test]
+fn a_stop_without_a_comment_is_a_plain_stop() {
+    let run = lines("M0\nG1 X1 F10\nM30\n");
+    assert!(run.events.iter().any(|event| event.what == Happening::Stop));
+}

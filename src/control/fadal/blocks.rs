@@ -1,0 +1,234 @@
+//! NC lines: words, R set by sign, and the codes of flow.
+
+use super::calls::Local;
+use super::registers::Register;
+use super::{Interpreter, Next};
+use crate::canon::{Op, Role};
+use crate::control::outcome::Stop;
+use crate::control::session::{Flow, Halt};
+use crate::control::words::{self, Read, Spoken};
+use crate::syntax::{Block, Expr, ExprKind, Index, ItemKind};
+use smallvec::SmallVec;
+
+/// The variable that cycles take their retract plane from, and arcs their radius.
+const PLANE: Register = Register::R(0);
+
+/// The words of a block, and which R it set before they were read.
+#[derive(Default)]
+struct Line {
+    words: SmallVec<[Spoken; 12]>,
+    set: SmallVec<[Register; 4]>,
+}
+
+/// What an L without a code of its own asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Asked {
+    Nothing,
+    Call(Local),
+    Times(u32),
+}
+
+impl<'r> Interpreter<'r, '_> {
+    /// Runs a block that stands in no border of a subroutine.
+    pub(super) fn run(&mut self, block: &Block) -> Flow<Next> {
+        let mut line = Line::default();
+        for item in &block.items {
+            match &item.kind {
+                ItemKind::Skip(number) => {
+                    self.session.rest_on("skip.levels");
+                    if self.session.skips(*number) {
+                        break;
+                    }
+                }
+                ItemKind::Word(word) => {
+                    let Some(expr) = &word.value else { continue };
+                    self.doubt_order(expr, &line);
+                    let value = self.value(expr)?;
+                    line.words.push(Spoken { letter: word.letter, value });
+                }
+                ItemKind::Assign { target, value, by_sign: true } => {
+                    let value = self.value(value)?;
+                    self.assign(target, value)?;
+                    if let Index::Number(number) = target.index
+                        && let Some(register) = Register::new(&target.name, number)
+                    {
+                        line.set.push(register);
+                    }
+                }
+                other => self.statement(other)?,
+            }
+        }
+        if line.words.is_empty() && line.set.is_empty() { Ok(Next::On) } else { self.words(line) }
+    }
+
+    /// Whether a word sees what its own block gave to a variable is not stated.
+    fn doubt_order(&mut self, expr: &Expr, line: &Line) {
+        let inner = match &expr.kind {
+            ExprKind::Negate(inner) | ExprKind::Plus(inner) => inner,
+            _ => expr,
+        };
+        if let ExprKind::Variable(variable) = &inner.kind
+            && let Index::Number(number) = variable.index
+            && Register::new(&variable.name, number).is_some_and(|used| line.set.contains(&used))
+        {
+            self.session.rest_on("block.assigns.first");
+        }
+    }
+
+    fn words(&mut self, mut line: Line) -> Flow<Next> {
+        let asked = self.asked(&mut line)?;
+        let session = &mut self.session;
+        if session.machine.cycle().is_none() {
+            self.lasting.cycle = None;
+        }
+        let mut read = words::read(session.control, &line.words, &mut self.lasting, &mut session.trace)?;
+        self.plane(&mut read, &line);
+        self.before(&read, &line, asked)?;
+        self.tell(&mut read, asked)?;
+        if let Asked::Call(call) = asked
+            && !read.flows(Op::CallModal)
+        {
+            if !read.command.is_empty() {
+                self.session.rest_on("call.after.words");
+            }
+            self.call_local(call)?;
+        }
+        self.after(&read)
+    }
+
+    /// Takes an L that calls or repeats out of the words; beside a code that reads L it stays.
+    fn asked(&mut self, line: &mut Line) -> Flow<Asked> {
+        let Some(place) = line.words.iter().position(|word| word.letter == 'L') else {
+            return Ok(Asked::Nothing);
+        };
+        let block: SmallVec<[(char, Option<f64>); 12]> =
+            line.words.iter().map(|word| (word.letter, Some(word.value))).collect();
+        let control = self.session.control;
+        let reads_l = line.words.iter().filter(|word| matches!(word.letter, 'G' | 'M')).any(|word| {
+            control.code(word.letter, word.value, &block).is_some_and(|row| {
+                row.words.contains_key("L")
+                    || row.beside().is_some_and(|all| all.iter().any(|one| one.letter == 'L'))
+            })
+        });
+        if reads_l {
+            return Ok(Asked::Nothing);
+        }
+        let value = line.words.remove(place).value;
+        if value.fract() != 0.0 {
+            self.session.rest_on("integer.word.rounds");
+        }
+        if !(0.0..1e6).contains(&value) {
+            return Err(Stop::unnamed(format!("L{value} is out of range")).into());
+        }
+        let value = value.round() as u32;
+        Ok(Local::new(value).map_or(Asked::Times(value), Asked::Call))
+    }
+
+    /// R0 as the word that a cycle, an arc or a table takes it for.
+    fn plane(&mut self, read: &mut Read<'r>, line: &Line) {
+        let control = self.session.control;
+        let Register::R(number) = PLANE else { return };
+        let role =
+            read.rows(&self.lasting).find_map(|row| control.parametric_role('R', number as u32, Some(row)));
+        let Some(role) = role.filter(|role| read.command.word(*role).is_none()) else { return };
+        let kept = !line.set.contains(&PLANE);
+        let begins = read.codes.iter().any(|row| row.op.is_cycle());
+        match role {
+            _ if !kept => {}
+            // A cycle that is begun without R0 takes what R0 holds.
+            Role::CycleR if begins => self.session.rest_on("cycle.r0.kept"),
+            Role::OffsetValue => self.session.trace.doubt("machine:offset.value.kept"),
+            _ => return,
+        }
+        let Some(value) = self.registers.get(PLANE) else { return };
+        read.command.words.push((role, value));
+    }
+
+    /// What must be in force before the block's words act.
+    fn before(&mut self, read: &Read<'_>, line: &Line, asked: Asked) -> Flow<()> {
+        if read.flows(Op::CallModal) {
+            let Asked::Call(call) = asked else {
+                return Err(Halt::Error("G66 stands without the subroutine that it calls".into()));
+            };
+            self.session.rest_on("call.modal.block.calls");
+            self.modal = Some(call);
+        }
+        if read.flows(Op::CallModalOff) {
+            self.modal = None;
+        }
+        if read.flows(Op::WriteVariable) {
+            let value = |letter| line.words.iter().find(|word| word.letter == letter).map(|word| word.value);
+            let number = value('L').map(|selector| (selector - 100.0).round() as u32);
+            if let Some(register) = number.and_then(|number| Register::new("R", number)) {
+                self.registers.set(register, value('P').unwrap_or(0.0));
+            }
+        }
+        if read.flows(Op::ReadOffset) {
+            return Err(Halt::Error("which table this G10 reads is not known".into()));
+        }
+        Ok(())
+    }
+
+    /// Tells the machine, as often as L says, and runs the modal subroutine after each move.
+    fn tell(&mut self, read: &mut Read<'r>, asked: Asked) -> Flow<()> {
+        let begins = read.codes.iter().any(|row| row.op.is_cycle());
+        let drills = begins || self.session.machine.cycle().is_some() && !read.command.has(Op::CycleOff);
+        let here = read.command.has(Op::CycleHere) && !drills && self.modal.is_some();
+        if here {
+            read.command.ops.retain(|op| *op != Op::CycleHere);
+        }
+        let moves = read.command.has_axes() && !read.command.ops.iter().any(|op| takes_axes(*op));
+        let mut times = 1;
+        if let Asked::Times(count) = asked {
+            if drills {
+                read.command.words.push((Role::Repeat, f64::from(count)));
+            } else {
+                times = count;
+                if count == 0 {
+                    self.session.rest_on("repeat.zero");
+                }
+            }
+        }
+        for turn in 0..times {
+            if turn > 0 {
+                self.session.count()?;
+            }
+            if read.command.is_empty() {
+                break;
+            }
+            let session = &mut self.session;
+            session.machine.run(&read.command, &mut session.trace)?;
+            self.moving |= moves;
+            if moves {
+                self.call_modal()?;
+            }
+        }
+        if here { self.call_modal() } else { Ok(()) }
+    }
+
+    /// Calls, returns and ends, when the words are done.
+    fn after(&mut self, read: &Read<'_>) -> Flow<Next> {
+        for &op in &read.flow {
+            match op {
+                Op::CallProgram => {
+                    let Some(number) = read.command.number(Role::Program) else {
+                        return Err(Stop::unnamed("M98 without P").into());
+                    };
+                    let count = read.command.number(Role::CallCount).unwrap_or(1);
+                    self.call_program(number, count)?;
+                }
+                Op::Return => return self.give_back(read.command.number(Role::Sequence)),
+                Op::SubEnd | Op::SubAreaEnd => return self.end_subroutine(op),
+                Op::End | Op::EndRewind => return Err(Halt::Ended(op)),
+                _ => {}
+            }
+        }
+        Ok(Next::On)
+    }
+}
+
+/// True for an operation that takes the axis words for itself.
+fn takes_axes(op: Op) -> bool {
+    use Op::*;
+    matches!(op, LocalShift | SetPosition | WriteWork | RotateOn | ScaleOn | MirrorOn | MirrorOff | Dwell)
+}

@@ -1,0 +1,163 @@
+//! Runs Fadal programs: macro lines and NC lines, by the rules of its manual.
+//!
+//! The interpreter reads the blocks as they stand. Calls are calls of its own: what a
+//! subroutine's blocks do happens inside `Interpreter::call`, to a bounded depth.
+
+mod blocks;
+mod calls;
+mod macros;
+mod outline;
+mod output;
+mod registers;
+mod system;
+#[cfg(test)]
+mod tests;
+mod values;
+
+use super::library::{LoadedFile, ProgramRef};
+use super::outcome::Run;
+use super::scenario::Scenario;
+use super::session::{Flow, Halt, Session};
+use super::words::Lasting;
+use crate::canon::Op;
+use crate::dialect::Control;
+use crate::syntax::Block;
+use outline::Outline;
+use registers::Registers;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// Runs a program on the emulated control; [`super::Execute`].
+pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+    let session = Session::new(library, control, scenario);
+    let mut interpreter = Interpreter {
+        session,
+        registers: Registers::new(scenario),
+        outlines: HashMap::new(),
+        at: At { section: 0, index: 0 },
+        level: Level::Main,
+        depth: 0,
+        lasting: Lasting::default(),
+        modal: None,
+        in_modal: false,
+        line: String::new(),
+        moving: false,
+    };
+    let halt = interpreter.main(main);
+    interpreter.flush();
+    let variables = interpreter.registers.all();
+    interpreter.session.finish(halt, variables)
+}
+
+/// The next block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct At {
+    section: usize,
+    /// Counted from the section's first block.
+    index: usize,
+}
+
+/// What the running blocks are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Level {
+    /// The main program.
+    Main,
+    /// A subroutine at the head of a program, from its definition on.
+    Subroutine,
+    /// A program that M98 called.
+    Program,
+}
+
+/// What comes behind a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    /// The block that [`Interpreter::at`] names.
+    On,
+    /// Back to the call.
+    Back,
+}
+
+struct Interpreter<'r, 'f> {
+    session: Session<'r, 'f>,
+    registers: Registers,
+    outlines: HashMap<usize, Rc<Outline>>,
+    at: At,
+    level: Level,
+    depth: u32,
+    lasting: Lasting<'r>,
+    /// The subroutine of G66 and its count.
+    modal: Option<calls::Local>,
+    in_modal: bool,
+    /// What PRINT left on the line of the screen.
+    line: String,
+    /// True while moves may still be under way: nothing waited for them.
+    moving: bool,
+}
+
+impl<'r> Interpreter<'r, '_> {
+    fn main(&mut self, main: ProgramRef) -> Halt {
+        let section = match self.session.section_of(main) {
+            Ok(section) => section,
+            Err(halt) => return halt,
+        };
+        self.at = At { section, index: 0 };
+        loop {
+            match self.step() {
+                Ok(Next::On) => {}
+                Ok(Next::Back) => return Halt::Ended(Op::Return),
+                Err(halt) => return halt,
+            }
+        }
+    }
+
+    /// Runs one block.
+    fn step(&mut self) -> Flow<Next> {
+        let Some(block) = self.session.block(self.at.section, self.at.index) else {
+            return self.behind_the_last();
+        };
+        self.session.enter_block(self.at.section, block.span)?;
+        self.at.index += 1;
+        self.session.refuse_faulty(block)?;
+        if let Some(next) = self.area(self.at.index - 1) {
+            return Ok(next);
+        }
+        self.run(block)
+    }
+
+    fn behind_the_last(&mut self) -> Flow<Next> {
+        if self.level == Level::Program {
+            self.session.trace.doubt("machine:program.without.return");
+            return Ok(Next::Back);
+        }
+        Err(Halt::Ended(Op::End))
+    }
+
+    /// What a block at the border of a subroutine does by standing there.
+    fn area(&mut self, index: usize) -> Option<Next> {
+        let outline = self.outline();
+        if !outline.defines(index) {
+            return None;
+        }
+        if self.level == Level::Subroutine {
+            self.session.rest_on("sub.ends.at.next");
+            return Some(Next::Back);
+        }
+        if outline.works_before(index) {
+            self.session.rest_on("sub.area.entered");
+        }
+        self.at.index = outline.main;
+        Some(Next::On)
+    }
+
+    /// The outline of the running program.
+    fn outline(&mut self) -> Rc<Outline> {
+        let section = self.at.section;
+        if let Some(outline) = self.outlines.get(&section) {
+            return Rc::clone(outline);
+        }
+        let blocks: Vec<&'r Block> = (0..).map_while(|index| self.session.block(section, index)).collect();
+        let outline = Rc::new(Outline::new(&blocks));
+        self.outlines.insert(section, Rc::clone(&outline));
+        outline
+    }
+}

@@ -1,0 +1,49 @@
+//! PRINT, SPRINT and the lines that they make.
+
+use super::Interpreter;
+use crate::control::session::Flow;
+use crate::control::trace::Happening;
+use crate::syntax::PrintPart;
+
+/// The longest line that commas at the end of PRINT can build.
+const LONGEST: usize = 10_000;
+
+impl Interpreter<'_, '_> {
+    /// Prints; with `stay` the next one goes on behind it.
+    pub(super) fn print(&mut self, parts: &[PrintPart], stay: bool) -> Flow<()> {
+        for part in parts {
+            match part {
+                PrintPart::Text(span) => {
+                    let source = self.session.source(self.at.section);
+                    let text = source.get(span.start as usize..span.end as usize).unwrap_or_default();
+                    self.line.push_str(&String::from_utf8_lossy(text));
+                }
+                PrintPart::Value(expr) => {
+                    let value = self.value(expr)?;
+                    self.session.rest_on("print.format");
+                    self.line.push_str(&digits(value));
+                }
+            }
+        }
+        if !stay || self.line.len() > LONGEST {
+            let text = std::mem::take(&mut self.line);
+            self.session.trace.push(Happening::Output { text });
+        }
+        Ok(())
+    }
+
+    /// Puts out what is left on the line.
+    pub(super) fn flush(&mut self) {
+        if !self.line.is_empty() {
+            let text = std::mem::take(&mut self.line);
+            self.session.trace.push(Happening::Output { text });
+        }
+    }
+}
+
+/// A number as the manual shows it printed: no zeros at its end (`25.45`, `36920`).
+fn digits(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,161 @@
+//! Rules of the language that no program of the manual shows alone.
+
+use crate::canon::Op;
+use crate::control::testing::*;
+use crate::control::trace::Happening;
+use crate::control::{End, Run, Scenario};
+
+fn lines(text: &str) -> Run {
+    run("fadal", &[("t.nc", text.as_bytes())], &given(&[]))
+}
+
+#[test]
+fn of_two_labels_the_first_counts() {
+    let run = lines("#V1=0\n#:A\n#V1=V1+1\n#IF V1>2 THEN GOTO :B\n#GOTO :A\n#:A\n#V1=99\n#:B\n");
+    assert_eq!(run.variables["V1"], 3.0);
+}
+
+#[test]
+fn then_may_be_any_statement() {
+    let run = lines("#V7=-1\n#IF V7<=0 THEN V7=ABS(V7)\n#IF V7=0 THEN GOTO :X\n#V2=5\n#:X\n");
+    assert_eq!((run.variables["V7"], run.variables["V2"]), (1.0, 5.0));
+}
+
+#[test]
+fn clears_one_a_range_a_list_or_all() {
+    let set = "#V1=1\n#V2=1\n#V3=1\n#V9=1\nR1+4.\n";
+    let left = |statement: &str| {
+        let run = lines(&format!("{set}#{statement}\n"));
+        ["V1", "V2", "V3", "V9", "R1"].map(|name| run.variables[name])
+    };
+    assert_eq!(left("CLEAR V1"), [0.0, 1.0, 1.0, 1.0, 4.0]);
+    assert_eq!(left("CLEAR V1-V3"), [0.0, 0.0, 0.0, 1.0, 4.0]);
+    assert_eq!(left("CLEAR V1,V3-V9"), [0.0, 1.0, 0.0, 0.0, 4.0]);
+    assert_eq!(left("CLEAR"), [0.0, 0.0, 0.0, 0.0, 4.0]);
+}
+
+/// L102 runs L100 twice; the definitions end at the next one and at M17.
+#[test]
+fn the_last_digits_of_a_call_count() {
+    let text = "L100\n#V1=V1+1\nL200\n#V2=V2+1\nL103\nM17\nM30\n#CLEAR\nL102\nR2+201.\nL+R2\nM2\n";
+    let run = lines(text);
+    ended(&run);
+    assert_eq!((run.variables["V1"], run.variables["V2"]), (5.0, 1.0));
+}
+
+#[test]
+fn an_l_below_100_repeats_a_move() {
+    let run = lines("G91 G1 F10. X.5 L20\n");
+    assert_eq!(feeds(&run).len(), 20);
+    near(*feeds(&run).last().unwrap(), [10.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_program_that_is_called_shares_all_variables() {
+    let main = b"O1\n#V1=2\nM98 P20 L3\nM2\n";
+    let called = b"O20\n#V1=V1*2\nM99\n";
+    let run = run("fadal", &[("a", main), ("b", called)], &given(&[]));
+    ended(&run);
+    assert_eq!(run.variables["V1"], 16.0);
+}
+
+#[test]
+fn what_is_not_there_is_an_error_at_its_block() {
+    for text in ["M98 P77\n", "#GOTO :NO\n", "#GOTO N7\n", "L101\n", "#START 7\n", "G10 L13 P1\n"] {
+        assert!(matches!(lines(text).end, End::Error { .. }), "{text}");
+    }
+    assert!(matches!(lines("#V101=1\n").end, End::Alarm { .. } | End::Error { .. }));
+    assert!(matches!(lines("#V1=1/0\n").end, End::Alarm { .. }));
+    assert!(matches!(lines("#AX=1\n").end, End::Alarm { .. } | End::Error { .. }));
+}
+
+#[test]
+fn calls_without_end_are_an_alarm() {
+    let run = run("fadal", &[("a", b"O1\nM98 P1\nM2\n")], &given(&[]));
+    assert!(matches!(run.end, End::Alarm { .. }));
+}
+
+/// R0 is the plane of cycles: a cycle without it takes what R0 holds.
+#[test]
+fn a_cycle_takes_its_plane_from_r0() {
+    let plane = |text: &str| {
+        let run = lines(text);
+        // The first rapid move down ends on the plane.
+        let down = run.events.iter().find_map(|event| match &event.what {
+            Happening::Rapid { from, to } if to.0[2] < from.0[2] => Some(to.0[2]),
+            _ => None,
+        });
+        (down, doubts(&run).contains(&"behaviour:cycle.r0.kept"))
+    };
+    let head = "G90 G0 Z5.\n";
+    assert_eq!(plane(&format!("{head}G81 X1. Z-1. R0+.5 F10.\n")), (Some(0.5), false));
+    assert_eq!(plane(&format!("{head}R0+.25\nG81 X1. Z-1. F10.\n")), (Some(0.25), true));
+}
+
+/// G10 L100 to L109 set R0 to R9; L10 takes its value from R0.
+#[test]
+fn g10_sets_tables_and_variables() {
+    let run = lines("G10 L105 P7.5\nG10 L10 P3 R0+4.25\n#V1=H3\nG10 L2 P1 X1. Y2.\n#V2=FY1\n");
+    ended(&run);
+    assert_eq!((run.variables["R5"], run.variables["V1"], run.variables["V2"]), (7.5, 4.25, 2.0));
+}
+
+#[test]
+fn a_modal_subroutine_runs_after_each_move_until_g67() {
+    let text =
+        "L100\n#V1=V1+1\nG1 Z-1. F10.\nM17\nM30\n#CLEAR\nG0 X0\nL101 G66\nM45\nX1.\nX2. L2\nG67\nX9.\nM2\n";
+    let run = lines(text);
+    ended(&run);
+    // At once by M45, at X1, and twice at X2; its own moves call nothing.
+    assert_eq!(run.variables["V1"], 4.0);
+    assert!(doubts(&run).contains(&"behaviour:call.modal.block.calls"));
+}
+
+#[test]
+fn m30_ends_a_program_without_subroutines() {
+    let run = lines("#V1=1\nM30\n#V1=2\n");
+    assert_eq!((run.end.clone(), run.variables["V1"]), (End::Ended, 1.0));
+    assert!(doubts(&run).contains(&"behaviour:end.alone"));
+    assert!(run.events.iter().any(|event| event.what == Happening::End { by: Op::EndRewind }));
+}
+
+#[test]
+fn m99_p_jumps_in_the_program() {
+    let run = lines("#V1=V1+1\n#IF V1>3 THEN GOTO N9\nM99 P5\n#V1=50\nN5 #V1=V1+10\nN9 M2\n");
+    assert_eq!(run.variables["V1"], 11.0);
+}
+
+/// What nobody set, and what nobody states, is said where it mattered.
+#[test]
+fn doubts_stand_at_their_blocks() {
+    let run = lines("#V2=V1\n#V3=RND(1.4)\n#V4=V(1.5)\n");
+    for fact in
+        ["behaviour:common.at.power.on", "behaviour:round.places.default", "behaviour:index.of.fraction"]
+    {
+        assert!(doubts(&run).contains(&fact), "{fact} in {:?}", doubts(&run));
+    }
+}
+
+#[test]
+fn start_goes_over_for_good() {
+    let run = run("fadal", &[("a", b"O1\n#V1=1\n#START 7\n#V1=5\n"), ("b", b"O7\n#V2=2\nM2\n")], &given(&[]));
+    ended(&run);
+    assert_eq!((run.variables["V1"], run.variables["V2"]), (1.0, 2.0));
+    assert_eq!(run.programs.len(), 2);
+}
+
+/// Fewer digits change what arithmetic keeps, and nothing else.
+#[test]
+fn keeps_the_digits_that_the_scenario_leaves() {
+    let scenario = Scenario { digits: Some(4), ..Scenario::default() };
+    let run = run("fadal", &[("t.nc", b"#V1=1/3\n#V2=1.23456")], &scenario);
+    assert_eq!((run.variables["V1"], run.variables["V2"]), (0.3333, 1.23456));
+}
+
+#[test]
+fn words_stand_before_the_dwell_and_the_gear_suffix_is_no_speed() {
+    let run = lines("M3 S500.1\nG4 P1500\n");
+    let speed = |what: &Happening| matches!(what, Happening::Spindle { speed: 500.0, .. });
+    assert!(run.events.iter().any(|event| speed(&event.what)));
+    assert!(run.events.iter().any(|event| event.what == Happening::Dwell { seconds: 1.5 }));
+}

@@ -1,0 +1,32 @@
+//! The control that runs Haas macros.
+
+use super::library::{LoadedFile, ProgramRef};
+use super::macro_b::{self, Alarms, Style};
+use super::{Run, Scenario};
+use crate::dialect::Control;
+
+/// No source numbers the control's own alarms.
+static STYLE: Style = Style {
+    alarms: Alarms {
+        overflow: "",
+        division: "",
+        domain: "",
+        brackets: "",
+        loops: "",
+        loop_number: "",
+        call_not_alone: "",
+        no_sequence: "",
+        atan: "",
+        digits: "",
+        point: "",
+        no_such_code: "",
+        no_variable: "",
+        too_deep: "",
+        no_modal_call: "",
+    },
+};
+
+/// Runs a program. See [`super::Execute`].
+pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+    macro_b::execute(&STYLE, library, main, control, scenario)
+}

@@ -1,0 +1,85 @@
+//! What a block tells the machine, in common terms.
+
+use crate::canon::{Group, Op, Role};
+use smallvec::SmallVec;
+
+/// A block's operations and words, letters resolved: lengths in the units of the program.
+///
+/// Of a role that stands twice the last word counts. Words that a code fixes (work offset 2
+/// of G55) are words like any other. Flow (calls, jumps, returns, the end) is the interpreter's.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Command {
+    /// The operations, in the order in which they stand.
+    pub ops: SmallVec<[Op; 4]>,
+    /// The words.
+    pub words: SmallVec<[(Role, f64); 8]>,
+    /// The code of an operation that only this control has, for the trace.
+    pub own_code: Option<String>,
+}
+
+impl Command {
+    /// Empties it, to be used again.
+    pub fn clear(&mut self) {
+        self.ops.clear();
+        self.words.clear();
+        self.own_code = None;
+    }
+
+    /// True where it says nothing.
+    pub fn is_empty(&self) -> bool {
+        self.ops.is_empty() && self.words.is_empty()
+    }
+
+    /// True where an operation stands in it.
+    pub fn has(&self, op: Op) -> bool {
+        self.ops.contains(&op)
+    }
+
+    /// The last operation of a modal group.
+    pub fn of(&self, group: Group) -> Option<Op> {
+        self.ops.iter().rev().copied().find(|op| op.group() == group)
+    }
+
+    /// The value of a role.
+    pub fn word(&self, role: Role) -> Option<f64> {
+        self.words.iter().rev().find(|(found, _)| *found == role).map(|(_, value)| *value)
+    }
+
+    /// A whole number that is not negative; zero for what is none.
+    pub fn number(&self, role: Role) -> Option<u32> {
+        // A float outside the range becomes its nearest end.
+        self.word(role).map(|value| value.round() as u32)
+    }
+
+    /// The axis words by common axis number less one.
+    pub fn axes(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.words.iter().filter_map(|(role, value)| Some((axis(*role)?, *value)))
+    }
+
+    /// True where an axis word stands in it.
+    pub fn has_axes(&self) -> bool {
+        self.axes().next().is_some()
+    }
+}
+
+/// The place of an axis in a position.
+pub(super) fn axis(role: Role) -> Option<usize> {
+    Some(match role {
+        Role::X => 0,
+        Role::Y => 1,
+        Role::Z => 2,
+        Role::A => 3,
+        Role::B => 4,
+        Role::C => 5,
+        Role::U => 6,
+        Role::V => 7,
+        Role::W => 8,
+        Role::E => 9,
+        _ => return None,
+    })
+}
+
+/// True for an axis whose values are degrees.
+pub(super) fn is_rotary(axis: usize) -> bool {
+    (3..6).contains(&axis)
+}

@@ -1,0 +1,189 @@
+//! Drilling cycles: their planes, their repeats, where they run.
+
+use super::command::axis;
+use super::state::axes_of;
+use super::{Command, Machine, expand};
+use crate::canon::{Op, Role};
+use crate::control::outcome::Stop;
+use crate::control::trace::{Happening, Trace};
+
+/// A cycle in force. Depths are program coordinates along the drilling axis, millimetres.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cycle {
+    pub op: Op,
+    pub initial: f64,
+    /// Retract plane: the word, and whether it was incremental.
+    r: Option<(f64, bool)>,
+    /// Bottom: the word, and whether it was incremental.
+    z: Option<(f64, bool)>,
+    pub peck: Option<f64>,
+    pub dwell: f64,
+    pub first_peck: Option<f64>,
+    pub less: f64,
+    pub least: f64,
+    pub shift: (f64, f64),
+}
+
+/// The planes of a hole, program coordinates along the drilling axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Planes {
+    pub initial: f64,
+    pub r: f64,
+    pub bottom: f64,
+}
+
+pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let (first, second, along) = axes_of(machine.plane);
+    let begins = command.ops.iter().rev().copied().find(|op| op.is_cycle());
+    if let Some(op) = begins {
+        let height = machine.frame.program(&machine.position)[along];
+        let cycle = machine.cycle.get_or_insert_with(|| Cycle::new(op, height));
+        cycle.op = op;
+    }
+    let (unit, incremental) = (machine.unit(), machine.incremental);
+    let Some(cycle) = &mut machine.cycle else {
+        return Err(Stop::unnamed("no drilling cycle is in force"));
+    };
+    cycle.read(command, (unit, incremental), along);
+    let names = |axis: usize| axis != along;
+    let places = command.axes().any(|(axis, _)| names(axis)) || command.has(Op::CycleHere);
+    let depths = command.word(Role::CycleR).is_some() || command.axes().any(|(axis, _)| axis == along);
+    let rules = &machine.rules;
+    let count = command.number(Role::Repeat).unwrap_or(1);
+    let runs = match (begins.is_some(), places) {
+        _ if count == 0 => false,
+        (true, true) => rules.cycle_block_runs.ask(trace),
+        (false, true) => true,
+        (true, false) => rules.cycle_runs_without_axes.ask(trace),
+        (false, false) => depths && rules.cycle_runs_without_axes.ask(trace),
+    };
+    if count == 0 && places {
+        // What L0 does elsewhere than storing is not known.
+        rules.zero_repeats_stores.ask(trace);
+    }
+    if !runs || count == 0 {
+        return place_only(machine, command, (runs, count), trace);
+    }
+    for _ in 0..count {
+        let mut to = machine.target(&across(command, along));
+        to[along] = machine.position[along];
+        if to[first] != machine.position[first]
+            || to[second] != machine.position[second]
+            || to != machine.position
+        {
+            machine.rapid_to(to, trace);
+        }
+        hole(machine, trace)?;
+        if trace.is_full() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// A block that stores a cycle and does not drill still goes to its place, unless its count is zero.
+fn place_only(
+    machine: &mut Machine,
+    command: &Command,
+    (runs, count): (bool, u32),
+    trace: &mut Trace,
+) -> Result<(), Stop> {
+    let (_, _, along) = axes_of(machine.plane);
+    if !runs && count != 0 {
+        let mut to = machine.target(&across(command, along));
+        to[along] = machine.position[along];
+        machine.rapid_to(to, trace);
+    } else if command.axes().any(|(axis, _)| axis != along) {
+        trace.doubt("machine:cycle.l0.moves");
+    }
+    Ok(())
+}
+
+/// The block without its word along the drilling axis, which is the depth.
+fn across(command: &Command, along: usize) -> Command {
+    let words = command.words.iter().copied().filter(|(role, _)| axis(*role) != Some(along));
+    Command { ops: command.ops.clone(), words: words.collect(), own_code: None }
+}
+
+/// Drills at the present place.
+fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
+    let Some(cycle) = machine.cycle.clone() else { return Ok(()) };
+    let frozen = machine.rules.planes_frozen.peek();
+    if cycle.mixes(machine.incremental) {
+        machine.rules.planes_frozen.ask(trace);
+    }
+    let mode = if frozen { None } else { Some(machine.incremental) };
+    let planes = cycle.planes(mode).ok_or_else(|| Stop::unnamed("a drilling cycle without its depth"))?;
+    if cycle.op == Op::CycleOther {
+        trace.doubt("machine:cycle.other");
+        trace.push(Happening::Other { operation: cycle.op, code: None });
+        return Ok(());
+    }
+    expand::hole(machine, &cycle, planes, trace);
+    Ok(())
+}
+
+/// The cycle at the place that a rotation puts the last programmed one to: rotations by 36 and
+/// then by 72 degrees drill at 36 and at 72, not at 108.
+pub(super) fn at_turned_place(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
+    let (first, second, along) = axes_of(machine.plane);
+    let mut to = machine.frame.machine(&machine.unturned);
+    to[along] = machine.position[along];
+    if to[first] != machine.position[first] || to[second] != machine.position[second] {
+        machine.rapid_to(to, trace);
+    }
+    hole(machine, trace)
+}
+
+impl Cycle {
+    fn new(op: Op, initial: f64) -> Self {
+        Self {
+            op,
+            initial,
+            r: None,
+            z: None,
+            peck: None,
+            dwell: 0.0,
+            first_peck: None,
+            less: 0.0,
+            least: 0.0,
+            shift: (0.0, 0.0),
+        }
+    }
+
+    /// Takes the block's words; those it does not have stay.
+    fn read(&mut self, command: &Command, (unit, incremental): (f64, bool), along: usize) {
+        let length = |role| command.word(role).map(|value| value * unit);
+        if let Some(r) = length(Role::CycleR) {
+            self.r = Some((r, incremental));
+        }
+        if let Some((_, z)) = command.axes().filter(|(axis, _)| *axis == along).last() {
+            self.z = Some((z * unit, incremental));
+        }
+        self.peck = length(Role::CycleQ).or(self.peck);
+        self.dwell = command.word(Role::CycleDwell).map_or(self.dwell, |ms| ms / 1000.0);
+        self.first_peck = length(Role::PeckFirst).or(self.first_peck);
+        self.less = length(Role::PeckLess).unwrap_or(self.less);
+        self.least = length(Role::PeckLeast).unwrap_or(self.least);
+        self.shift =
+            (length(Role::CycleI).unwrap_or(self.shift.0), length(Role::CycleJ).unwrap_or(self.shift.1));
+    }
+
+    /// True where a plane was given in the other mode of coordinates than the present one.
+    fn mixes(&self, incremental: bool) -> bool {
+        [self.r, self.z].iter().flatten().any(|(_, given)| *given != incremental)
+    }
+
+    /// The planes; none without a bottom. Incremental, the retract plane counts from the initial
+    /// one and the bottom from the retract plane.
+    fn planes(&self, mode: Option<bool>) -> Option<Planes> {
+        let r = match self.r {
+            Some((r, given)) if mode.unwrap_or(given) => self.initial + r,
+            Some((r, _)) => r,
+            None => self.initial,
+        };
+        let (z, given) = self.z?;
+        let bottom = if mode.unwrap_or(given) { r + z } else { z };
+        Some(Planes { initial: self.initial, r, bottom })
+    }
+}

@@ -1,0 +1,182 @@
+//! The moves of a drilling cycle at one hole.
+
+use super::Machine;
+use super::cycle::{Cycle, Planes};
+use super::state::axes_of;
+use crate::canon::Op;
+use crate::control::scenario::Axes;
+use crate::control::trace::{Happening, Position, Spindle, Trace};
+
+/// Drills where the machine stands over the hole.
+pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
+    let mut driver = Driver::new(machine, planes, trace);
+    driver.rapid(planes.r);
+    let at = Position(driver.machine.position);
+    let bottom = driver.place(planes.bottom)[driver.along];
+    driver.trace.push(Happening::Hole { cycle: cycle.op, at, bottom });
+    driver.drill(cycle);
+    if !driver.machine.return_to_r {
+        driver.rapid(planes.initial);
+    }
+}
+
+struct Driver<'a> {
+    machine: &'a mut Machine,
+    trace: &'a mut Trace,
+    planes: Planes,
+    along: usize,
+}
+
+impl<'a> Driver<'a> {
+    fn new(machine: &'a mut Machine, planes: Planes, trace: &'a mut Trace) -> Self {
+        let along = axes_of(machine.plane).2;
+        Self { machine, trace, planes, along }
+    }
+
+    fn drill(&mut self, cycle: &Cycle) {
+        let Planes { r, bottom, .. } = self.planes;
+        match cycle.op {
+            Op::CyclePeck | Op::CycleChipBreak => self.peck(cycle),
+            Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid | Op::CycleTapByLead => self.tap(cycle),
+            Op::CycleBore | Op::CycleBoreDwell => {
+                self.feed(bottom);
+                self.dwell(cycle.dwell);
+                self.feed(r);
+            }
+            Op::CycleBoreStop | Op::CycleBoreManual => {
+                self.feed(bottom);
+                self.dwell(cycle.dwell);
+                let before = self.machine.spindle;
+                self.turn(Spindle::Stopped);
+                if cycle.op == Op::CycleBoreManual {
+                    self.trace.push(Happening::Stop);
+                }
+                self.rapid(r);
+                self.turn(before);
+            }
+            Op::CycleFineBore => {
+                self.feed(bottom);
+                self.dwell(cycle.dwell);
+                let before = self.machine.spindle;
+                self.turn(Spindle::Oriented);
+                self.shift(cycle, 1.0);
+                self.rapid(r);
+                self.shift(cycle, -1.0);
+                self.turn(before);
+            }
+            Op::CycleBackBore => {
+                self.trace.doubt("machine:cycle.back.bore");
+                let before = self.machine.spindle;
+                self.turn(Spindle::Oriented);
+                self.shift(cycle, 1.0);
+                self.rapid(r);
+                self.shift(cycle, -1.0);
+                self.turn(before);
+                self.feed(bottom);
+                self.dwell(cycle.dwell);
+            }
+            _ => {
+                self.feed(bottom);
+                if cycle.op == Op::CycleDrillDwell {
+                    self.dwell(cycle.dwell);
+                }
+                self.rapid(r);
+            }
+        }
+    }
+
+    /// In steps: out of the hole each time, or back a little to break the chip.
+    fn peck(&mut self, cycle: &Cycle) {
+        let Planes { r, bottom, .. } = self.planes;
+        let (whole, down) = ((bottom - r).abs(), (bottom - r).signum());
+        let mut step = cycle.first_peck.or(cycle.peck).unwrap_or(whole).abs();
+        let clearance = self.machine.peck_clearance;
+        let mut depth = 0.0;
+        while depth < whole && !self.trace.is_full() {
+            if depth > 0.0 {
+                let back = (depth - clearance).max(0.0);
+                if cycle.op == Op::CyclePeck {
+                    self.rapid(r);
+                }
+                self.rapid(r + down * back);
+            }
+            // A step of nothing would never end: the rest goes in one.
+            let next = if step > 0.0 { depth + step } else { whole };
+            depth = if next >= whole - 1e-9 { whole } else { next };
+            self.feed(if depth == whole { bottom } else { r + down * depth });
+            if cycle.first_peck.is_some() {
+                step = (step - cycle.less.abs()).max(cycle.least.abs());
+            }
+        }
+        self.dwell(cycle.dwell);
+        self.rapid(r);
+    }
+
+    fn tap(&mut self, cycle: &Cycle) {
+        let Planes { r, bottom, .. } = self.planes;
+        self.feed(bottom);
+        let (before, back) = match (self.machine.spindle, cycle.op) {
+            (Spindle::CounterClockwise, _) | (_, Op::CycleTapLeft) => {
+                (Spindle::CounterClockwise, Spindle::Clockwise)
+            }
+            _ => (Spindle::Clockwise, Spindle::CounterClockwise),
+        };
+        self.dwell(cycle.dwell);
+        self.turn(back);
+        self.feed(r);
+        self.turn(before);
+    }
+
+    /// Moves the tool off the wall by the cycle's shift, or back.
+    fn shift(&mut self, cycle: &Cycle, sign: f64) {
+        let (first, second, _) = axes_of(self.machine.plane);
+        let (mut dx, dy) = cycle.shift;
+        if (dx, dy) == (0.0, 0.0) {
+            // Which way Q shifts is a parameter of the machine.
+            self.trace.doubt("machine:cycle.shift.direction");
+            dx = cycle.peck.unwrap_or(0.0);
+        }
+        let mut to = self.machine.position;
+        to[first] += sign * dx;
+        to[second] += sign * dy;
+        self.machine.rapid_to(to, self.trace);
+    }
+
+    /// The machine position over or in the hole at a height.
+    fn place(&self, height: f64) -> Axes {
+        let frame = &self.machine.frame;
+        if !frame.is_shaped() {
+            let mut to = self.machine.position;
+            to[self.along] = height + frame.shift(self.along);
+            return to;
+        }
+        let mut work = frame.program(&self.machine.position);
+        work[self.along] = height;
+        frame.machine(&work)
+    }
+
+    fn rapid(&mut self, height: f64) {
+        let to = self.place(height);
+        self.machine.rapid_to(to, self.trace);
+    }
+
+    fn feed(&mut self, height: f64) {
+        let to = self.place(height);
+        self.machine.feed_to(to, self.trace);
+    }
+
+    fn dwell(&mut self, seconds: f64) {
+        if seconds > 0.0 {
+            self.machine.clock += seconds * 1000.0;
+            self.trace.push(Happening::Dwell { seconds });
+        }
+    }
+
+    fn turn(&mut self, direction: Spindle) {
+        if self.machine.spindle != direction {
+            self.machine.spindle = direction;
+            let (speed, surface) = (self.machine.speed, self.machine.surface_speed);
+            self.trace.push(Happening::Spindle { direction, speed, surface });
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The machine: one for all controls, driven in common terms.
+//!
+//! An interpreter resolves the letters of a block by its control's tables and hands on a
+//! [`Command`]; the machine changes its state and records what happens. Values come in the
+//! units of the program (inch or millimetres as the units in force say) and are kept in
+//! millimetres.
+
+mod arc;
+mod block;
+mod command;
+mod cycle;
+mod expand;
+mod frame;
+mod motion;
+mod offsets;
+mod rules;
+mod state;
+mod system;
+#[cfg(test)]
+mod tests;
+mod tooling;
+
+pub use command::Command;
+pub use frame::Frame;
+
+use super::outcome::Stop;
+use super::scenario::{Axes, Probe, Scenario, Tool};
+use super::trace::{FeedMode, Plane, Side, Spindle, Trace};
+use crate::canon::{Op, Sys};
+use crate::dialect::{Control, Units};
+use cycle::Cycle;
+use rules::Rules;
+use std::collections::{BTreeMap, HashMap};
+
+/// Millimetres of an inch.
+pub const INCH: f64 = 25.4;
+
+/// The state of the machine.
+#[derive(Debug)]
+pub struct Machine {
+    rules: Rules,
+    /// Machine position.
+    position: Axes,
+    /// Machine position at the end of the last block that moved.
+    probed: Axes,
+    frame: Frame,
+    /// Program coordinates, millimetres, at which the last rotation found the machine: without
+    /// the rotation before it.
+    unturned: Axes,
+    work_offsets: BTreeMap<u32, Axes>,
+    inch: bool,
+    incremental: bool,
+    motion: Op,
+    cycle: Option<Cycle>,
+    return_to_r: bool,
+    plane: Plane,
+    feed: f64,
+    feed_mode: FeedMode,
+    speed: f64,
+    surface_speed: bool,
+    spindle: Spindle,
+    coolant: Op,
+    tool_ready: f64,
+    tool: f64,
+    tools: BTreeMap<u32, Tool>,
+    length_op: Op,
+    length_offset: u32,
+    side: Side,
+    radius_offset: u32,
+    path_mode: Op,
+    polar: bool,
+    references: [Axes; 2],
+    probes: std::vec::IntoIter<Probe>,
+    peck_clearance: f64,
+    /// Simulated time, milliseconds, and where the timers were set to zero in it.
+    clock: f64,
+    timer_ms_from: f64,
+    timer_hours_from: f64,
+    tick: f64,
+    date: f64,
+    time: f64,
+    /// State that nothing here models.
+    cells: HashMap<(Sys, [u32; 2]), f64>,
+}
+
+impl Machine {
+    /// A machine of a control, as a scenario finds it.
+    pub fn new(control: &Control, scenario: &Scenario) -> Self {
+        let mut machine = Self {
+            rules: Rules::new(control),
+            position: scenario.start,
+            probed: scenario.start,
+            frame: Frame::new(scenario),
+            unturned: scenario.start,
+            work_offsets: scenario.work_offsets.clone(),
+            inch: scenario.inch.unwrap_or(control.units() == Some(Units::Inch)),
+            incremental: false,
+            motion: Op::Rapid,
+            cycle: None,
+            return_to_r: false,
+            plane: Plane::Xy,
+            feed: 0.0,
+            feed_mode: FeedMode::PerMinute,
+            speed: 0.0,
+            surface_speed: false,
+            spindle: Spindle::Stopped,
+            coolant: Op::CoolantOff,
+            tool_ready: f64::from(scenario.tool),
+            tool: f64::from(scenario.tool),
+            tools: scenario.tools.clone(),
+            length_op: Op::LengthOff,
+            length_offset: 0,
+            side: Side::Off,
+            radius_offset: 0,
+            path_mode: Op::CuttingMode,
+            polar: false,
+            references: scenario.references,
+            probes: scenario.probes.clone().into_iter(),
+            peck_clearance: scenario.peck_clearance,
+            clock: 0.0,
+            timer_ms_from: 0.0,
+            timer_hours_from: 0.0,
+            tick: scenario.tick_ms,
+            date: scenario.date,
+            time: scenario.time,
+            cells: HashMap::new(),
+        };
+        for cell in &scenario.state {
+            machine.cells.insert(system::cell(cell.state, &cell.subscripts), cell.value);
+        }
+        machine.select(1);
+        machine
+    }
+
+    /// Does what a block says. What it moved and switched stands in the trace; an alarm
+    /// leaves the machine where it was when the alarm came.
+    pub fn run(&mut self, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+        block::run(self, command, trace)
+    }
+
+    /// True where dimensions are inches.
+    pub fn is_inch(&self) -> bool {
+        self.inch
+    }
+
+    /// True where coordinates are incremental.
+    pub fn is_incremental(&self) -> bool {
+        self.incremental
+    }
+
+    /// The drilling cycle in force.
+    pub fn cycle(&self) -> Option<Op> {
+        self.cycle.as_ref().map(|cycle| cycle.op)
+    }
+
+    /// The interpolation in force, a drilling cycle left out.
+    pub fn motion(&self) -> Op {
+        self.motion
+    }
+
+    /// Machine position, millimetres.
+    pub fn position(&self) -> Axes {
+        self.position
+    }
+
+    /// Simulated time, milliseconds.
+    pub fn clock(&self) -> f64 {
+        self.clock
+    }
+
+    /// Millimetres of one unit of length of the program.
+    pub fn unit(&self) -> f64 {
+        if self.inch { INCH } else { 1.0 }
+    }
+}

@@ -1,0 +1,274 @@
+//! Moves.
+
+use super::command::is_rotary;
+use super::state::axes_of;
+use super::{Command, Machine, arc, cycle};
+use crate::canon::{Group, Op, Role};
+use crate::control::outcome::Stop;
+use crate::control::scenario::{AXES, Axes, Probe};
+use crate::control::trace::{Happening, Position, Trace};
+
+pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    if let Some(op) = command.of(Group::Motion) {
+        machine.motion = op;
+        if machine.cycle.is_some() && machine.rules.motion_ends_cycle.ask(trace) {
+            machine.cycle = None;
+        }
+    }
+    if command.has(Op::CycleOff) {
+        machine.cycle = None;
+    }
+    for &op in &command.ops {
+        match op {
+            Op::ReferenceReturn => return reference(machine, command, 0, trace),
+            Op::Reference2 => return reference(machine, command, 1, trace),
+            Op::Home => {
+                let home = machine.references[0];
+                machine.rapid_to(home, trace);
+                return Ok(());
+            }
+            Op::ReferenceFrom => {
+                trace.doubt("machine:reference.from");
+                let to = machine.target(command);
+                machine.rapid_to(to, trace);
+                return Ok(());
+            }
+            Op::Probe | Op::ProbeOther => {
+                probe(machine, command, trace);
+                return Ok(());
+            }
+            Op::MachineOnce => {
+                in_machine_coordinates(machine, command, trace);
+                return Ok(());
+            }
+            Op::RotateOn if machine.cycle.is_some() && machine.rules.rotation_runs_cycle.ask(trace) => {
+                return cycle::at_turned_place(machine, trace);
+            }
+            _ => {}
+        }
+    }
+    let takes_axes = command.ops.iter().any(|op| {
+        matches!(op, Op::LocalShift | Op::SetPosition | Op::WriteWork | Op::RotateOn | Op::ScaleOn)
+            || matches!(op, Op::MirrorOn | Op::MirrorOff | Op::Pole | Op::Dwell)
+    });
+    if takes_axes {
+        return Ok(());
+    }
+    if machine.cycle.is_some() || command.ops.iter().any(|op| op.is_cycle()) || command.has(Op::CycleHere) {
+        return cycle::run(machine, command, trace);
+    }
+    let arc_words = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| command.word(*role).is_some());
+    let arcs = matches!(machine.motion, Op::ArcCw | Op::ArcCcw);
+    let polar = [Role::PolarDistance, Role::PolarAngle].iter().any(|role| command.word(*role).is_some());
+    let moves = command.has_axes() || polar || (arcs && arc_words);
+    if !moves {
+        return Ok(());
+    }
+    match machine.motion {
+        _ if command.has(Op::RapidOnce) => {
+            let to = machine.target(command);
+            machine.rapid_to(to, trace);
+        }
+        Op::Rapid => {
+            let to = machine.target(command);
+            machine.rapid_to(to, trace);
+        }
+        Op::ArcCw | Op::ArcCcw => arc::run(machine, command, trace)?,
+        Op::Thread => {
+            let (from, to) = (machine.position, machine.target(command));
+            machine.position = to;
+            let lead = command.word(Role::Lead).map_or(machine.feed, |lead| lead * machine.unit());
+            trace.push(Happening::Thread { from: Position(from), to: Position(to), lead });
+        }
+        other => {
+            if other == Op::ArcTangent {
+                trace.doubt("machine:arc.tangent");
+            }
+            let to = machine.target(command);
+            machine.feed_to(to, trace);
+        }
+    }
+    for (role, chamfer) in [(Role::CornerRadius, false), (Role::CornerChamfer, true)] {
+        if let Some(size) = command.word(role) {
+            let size = size * machine.unit();
+            trace.push(Happening::Corner { chamfer, size });
+        }
+    }
+    Ok(())
+}
+
+/// To the reference position of the named axes, by way of the block's point.
+fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut Trace) -> Result<(), Stop> {
+    let home = machine.references[which];
+    let mut named: Vec<usize> = machine.named_axes(command).iter().map(|(axis, _)| *axis).collect();
+    if named.is_empty() && machine.rules.reference_takes_all.ask(trace) {
+        named = (0..AXES).collect();
+    }
+    if command.has_axes() {
+        let by = machine.target(command);
+        machine.rapid_to(by, trace);
+    }
+    let mut to = machine.position;
+    for axis in named {
+        let axis = machine.own_axis(axis).0;
+        to[axis] = home[axis];
+    }
+    machine.rapid_to(to, trace);
+    Ok(())
+}
+
+fn in_machine_coordinates(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    let mut to = machine.position;
+    for (axis, value) in machine.named_axes(command) {
+        to[axis] = value;
+    }
+    if machine.incremental && command.has_axes() {
+        trace.doubt("machine:machine.coordinates.incremental");
+    }
+    if to == machine.position {
+        return;
+    }
+    match machine.motion {
+        Op::Rapid => machine.rapid_to(to, trace),
+        _ => machine.feed_to(to, trace),
+    }
+}
+
+fn probe(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    let (from, aim) = (machine.position, machine.target(command));
+    let (to, hit) = match machine.probes.next().unwrap_or(Probe::Miss) {
+        Probe::Miss => (aim, false),
+        Probe::At(at) => (at, true),
+        Probe::Part(part) => {
+            let part = part.clamp(0.0, 1.0);
+            (std::array::from_fn(|axis| from[axis] + (aim[axis] - from[axis]) * part), true)
+        }
+    };
+    machine.position = to;
+    machine.probed = to;
+    trace.push(Happening::Probe {
+        from: Position(from),
+        aim: Position(aim),
+        to: Position(to),
+        hit,
+        feed: machine.feed,
+    });
+}
+
+impl Machine {
+    /// A rapid move; none where the machine is there.
+    pub(super) fn rapid_to(&mut self, to: Axes, trace: &mut Trace) {
+        let from = std::mem::replace(&mut self.position, to);
+        if from != to {
+            trace.push(Happening::Rapid { from: Position(from), to: Position(to) });
+        }
+    }
+
+    /// A move at feed; none where the machine is there.
+    pub(super) fn feed_to(&mut self, to: Axes, trace: &mut Trace) {
+        let from = std::mem::replace(&mut self.position, to);
+        if from != to {
+            self.pass(distance(&from, &to));
+            trace.push(Happening::Feed {
+                from: Position(from),
+                to: Position(to),
+                feed: self.feed,
+                mode: self.feed_mode,
+            });
+        }
+    }
+
+    /// Lets the time pass that a feed move over so many millimetres takes.
+    pub(super) fn pass(&mut self, millimetres: f64) {
+        let per_minute = match self.feed_mode {
+            super::FeedMode::PerMinute => self.feed,
+            super::FeedMode::PerTurn => self.feed * self.speed,
+            super::FeedMode::Inverse => self.feed * millimetres,
+        };
+        if per_minute > 0.0 {
+            self.clock += millimetres / per_minute * 60_000.0;
+        }
+    }
+
+    /// The axis that a word of this axis moves, and whether it is incremental by itself:
+    /// U, V and W of a lathe are incremental X, Y and Z.
+    pub(super) fn own_axis(&self, axis: usize) -> (usize, bool) {
+        if self.rules.lathe && (6..9).contains(&axis) { (axis - 6, true) } else { (axis, false) }
+    }
+
+    /// Machine position that the axis words of a block aim at.
+    pub(super) fn target(&self, command: &Command) -> Axes {
+        if self.polar {
+            return self.polar_target(command);
+        }
+        let unit = self.unit();
+        if !self.frame.is_shaped() {
+            let mut to = self.position;
+            for (axis, value) in command.axes() {
+                let (axis, by_itself) = self.own_axis(axis);
+                let value = if is_rotary(axis) { value } else { value * unit };
+                to[axis] = if self.incremental || by_itself {
+                    to[axis] + value
+                } else {
+                    value + self.frame.shift(axis)
+                };
+            }
+            return to;
+        }
+        let mut work = self.frame.program(&self.position);
+        for (axis, value) in command.axes() {
+            let (axis, by_itself) = self.own_axis(axis);
+            let value = if is_rotary(axis) { value } else { value * unit };
+            work[axis] = if self.incremental || by_itself { work[axis] + value } else { value };
+        }
+        self.frame.machine(&work)
+    }
+
+    /// Under polar words the first axis of the plane is a distance, the second an angle.
+    fn polar_target(&self, command: &Command) -> Axes {
+        let (first, second, _) = axes_of(self.plane);
+        let mut work = self.frame.program(&self.position);
+        let mut distance = work[first].hypot(work[second]);
+        let mut angle = work[second].atan2(work[first]).to_degrees();
+        let mut turned = false;
+        for (axis, value) in command.axes() {
+            let length = value * self.unit();
+            if axis == first {
+                distance = if self.incremental { distance + length } else { length };
+                turned = true;
+            } else if axis == second {
+                angle = if self.incremental { angle + value } else { value };
+                turned = true;
+            } else {
+                let value = if is_rotary(axis) { value } else { length };
+                work[axis] = if self.incremental { work[axis] + value } else { value };
+            }
+        }
+        if let Some(value) = command.word(Role::PolarDistance) {
+            distance = value * self.unit();
+            turned = true;
+        }
+        if let Some(value) = command.word(Role::PolarAngle) {
+            angle = value;
+            turned = true;
+        }
+        if turned {
+            let (sin, cos) = super::frame::sin_cos(angle);
+            (work[first], work[second]) = (distance * cos, distance * sin);
+        }
+        self.frame.machine(&work)
+    }
+}
+
+/// The length of a straight way over the linear axes, over all axes where only rotary ones move.
+fn distance(from: &Axes, to: &Axes) -> f64 {
+    let over = |rotary: bool| {
+        (0..AXES)
+            .filter(|axis| is_rotary(*axis) == rotary)
+            .map(|axis| (to[axis] - from[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    let linear = over(false);
+    if linear > 0.0 { linear } else { over(true) }
+}

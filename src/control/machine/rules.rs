@@ -1,0 +1,155 @@
+//! The facts of a control that the machine acts by, read once.
+
+use crate::canon::Sys;
+use crate::control::trace::Trace;
+use crate::dialect::{Control, Machine};
+
+/// A fact: the answer acted by, and its name where nobody confirmed it.
+#[derive(Clone, Debug)]
+pub struct Fact<T> {
+    value: T,
+    unsure: Option<String>,
+}
+
+impl<T: Copy> Fact<T> {
+    /// The answer, in a place where it matters.
+    pub fn ask(&self, trace: &mut Trace) -> T {
+        if let Some(name) = &self.unsure {
+            trace.doubt(name);
+        }
+        self.value
+    }
+
+    /// The answer, in a place where it does not matter yet.
+    pub fn peek(&self) -> T {
+        self.value
+    }
+}
+
+/// The answer to a question of behaviour. A silent table and an unknown answer give `otherwise`, unsure.
+pub fn fact<T>(control: &Control, name: &str, read: impl Fn(&str) -> Option<T>, otherwise: T) -> Fact<T> {
+    let row = control.behaviour(name);
+    let known = row.and_then(|row| Some((read(&row.value)?, row.origin.confirmed)));
+    let unsure = !known.as_ref().is_some_and(|(_, confirmed)| *confirmed);
+    Fact {
+        value: known.map_or(otherwise, |(value, _)| value),
+        unsure: unsure.then(|| format!("behaviour:{name}")),
+    }
+}
+
+/// The answer to a yes-or-no question.
+pub fn yes(control: &Control, name: &str, otherwise: bool) -> Fact<bool> {
+    let read = |value: &str| match value {
+        "true" => Some(true),
+        "false" => Some(false),
+        _ => None,
+    };
+    fact(control, name, read, otherwise)
+}
+
+/// What the offset values of cutter radii are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RadiusTable {
+    /// Radii.
+    Radius,
+    /// Diameters.
+    Diameter,
+}
+
+/// What becomes of an arc without a centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoCentre {
+    /// An alarm.
+    Alarm,
+    /// A straight move.
+    Straight,
+}
+
+/// The facts.
+#[derive(Debug)]
+pub struct Rules {
+    pub negative_radius_is_long: Fact<bool>,
+    pub positive_radius_is_short: Fact<bool>,
+    pub no_centre: Fact<NoCentre>,
+    pub centre_is_incremental: Fact<bool>,
+    pub planes_frozen: Fact<bool>,
+    pub zero_repeats_stores: Fact<bool>,
+    pub cycle_block_runs: Fact<bool>,
+    pub cycle_runs_without_axes: Fact<bool>,
+    pub rotation_runs_cycle: Fact<bool>,
+    pub rotation_is_ccw: Fact<bool>,
+    pub motion_ends_cycle: Fact<bool>,
+    pub offset_acts_at_once: Fact<bool>,
+    pub radius_table: Fact<RadiusTable>,
+    pub tool_word_changes: bool,
+    pub tool_word_selects_length: bool,
+    pub cutter_takes_tool: bool,
+    pub end_cancels_length: Fact<bool>,
+    pub reference_takes_all: Fact<bool>,
+    /// True where length and radius share a table.
+    pub shared_offsets: bool,
+    /// True on a lathe: U, V and W are incremental X, Y and Z, and X is a diameter.
+    pub lathe: bool,
+}
+
+impl Rules {
+    /// The facts of a control.
+    pub fn new(control: &Control) -> Self {
+        let word = |yes: &'static str, no: &'static str| {
+            move |value: &str| (value == yes || value == no).then_some(value == yes)
+        };
+        let has = |state| control.system_run(state).is_some();
+        let table = |value: &str| match value {
+            "radius" => Some(RadiusTable::Radius),
+            "diameter" => Some(RadiusTable::Diameter),
+            _ => None,
+        };
+        let no_centre = |value: &str| match value {
+            "error" => Some(NoCentre::Alarm),
+            "straight" => Some(NoCentre::Straight),
+            _ => None,
+        };
+        Self {
+            negative_radius_is_long: fact(control, "arc.radius.negative", word("long", "short"), true),
+            positive_radius_is_short: fact(control, "arc.radius.positive", word("short", "long"), true),
+            no_centre: fact(control, "arc.without.centre", no_centre, NoCentre::Alarm),
+            centre_is_incremental: fact(control, "arc.centre", word("incremental", "absolute"), true),
+            planes_frozen: yes(control, "cycle.planes.frozen", true),
+            zero_repeats_stores: yes(control, "cycle.l0.stores", true),
+            cycle_block_runs: yes(control, "cycle.block.runs", true).or_silent(control, "cycle.block.runs"),
+            cycle_runs_without_axes: yes(control, "cycle.runs.without.axes", false),
+            rotation_runs_cycle: yes(control, "rotation.runs.cycle", false),
+            rotation_is_ccw: fact(control, "rotation.direction", word("ccw", "cw"), true),
+            motion_ends_cycle: motion_ends_cycle(control),
+            offset_acts_at_once: yes(control, "offset.active.immediately", true),
+            radius_table: fact(control, "radius.offset.table", table, RadiusTable::Radius),
+            tool_word_changes: control.behaviour("tool.change.word").is_some_and(|row| row.value == "t"),
+            tool_word_selects_length: control.is("tool.word.selects.length"),
+            cutter_takes_tool: control.is("radius.offset.active.tool"),
+            end_cancels_length: yes(control, "end.cancels.length", false),
+            reference_takes_all: yes(control, "reference.all.axes", false),
+            shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),
+            lathe: control.machine() == Machine::Lathe,
+        }
+    }
+}
+
+/// Whether an interpolation code ends the drilling cycle: it does, where the table is silent.
+fn motion_ends_cycle(control: &Control) -> Fact<bool> {
+    let asked = ["cycle.ends.by.motion", "cycle.ends.with.motion"];
+    let name = asked.into_iter().find(|name| control.behaviour(name).is_some());
+    match name {
+        Some(name) => yes(control, name, true),
+        None => Fact { value: true, unsure: None },
+    }
+}
+
+impl<T> Fact<T> {
+    /// Sure where the table does not ask: then the control is like all others.
+    fn or_silent(mut self, control: &Control, name: &str) -> Self {
+        if control.behaviour(name).is_none() {
+            self.unsure = None;
+        }
+        self
+    }
+}

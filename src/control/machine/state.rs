@@ -1,0 +1,141 @@
+//! Modes: units, planes, distance, feed, and the frames of coordinates.
+
+use super::frame::Rotation;
+use super::{Command, INCH, Machine};
+use crate::canon::{Group, Op, Role};
+use crate::control::scenario::AXES;
+use crate::control::trace::{FeedMode, Happening, Plane, Trace};
+
+/// Modes that the rest of the block is read by.
+pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    for &op in &command.ops {
+        match op {
+            Op::Inch => machine.inch = true,
+            Op::Metric => machine.inch = false,
+            Op::PlaneXy => machine.plane = Plane::Xy,
+            Op::PlaneZx => machine.plane = Plane::Zx,
+            Op::PlaneYz => machine.plane = Plane::Yz,
+            Op::Absolute => machine.incremental = false,
+            Op::Incremental => machine.incremental = true,
+            Op::FeedPerMinute => machine.feed_mode = FeedMode::PerMinute,
+            Op::FeedPerTurn => machine.feed_mode = FeedMode::PerTurn,
+            Op::FeedInverse => machine.feed_mode = FeedMode::Inverse,
+            Op::ReturnInitial => machine.return_to_r = false,
+            Op::ReturnR => machine.return_to_r = true,
+            Op::SurfaceSpeed => machine.surface_speed = true,
+            Op::TurnsPerMinute => machine.surface_speed = false,
+            Op::PolarOn => machine.polar = true,
+            Op::PolarOff => machine.polar = false,
+            _ if op.group() == Group::PathMode && machine.path_mode != op => {
+                machine.path_mode = op;
+                trace.push(Happening::Other { operation: op, code: None });
+            }
+            Op::PlaneOther | Op::Wrap => trace.doubt("machine:plane"),
+            Op::Thread if command.word(Role::Lead).is_some() => {}
+            _ => {}
+        }
+    }
+    if let Some(feed) = command.word(Role::Feed) {
+        let scale = if machine.inch && machine.feed_mode != FeedMode::Inverse { INCH } else { 1.0 };
+        machine.feed = feed * scale;
+    }
+}
+
+/// Selects and shapes the frame of coordinates.
+pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    for &op in &command.ops {
+        match op {
+            Op::SelectWork => {
+                let number = command.number(Role::WorkOffset).unwrap_or(machine.frame.number);
+                machine.select(number);
+                trace.push(Happening::WorkOffset { number });
+            }
+            Op::ShiftCancel => {
+                machine.select(0);
+                machine.frame.local = [0.0; AXES];
+                machine.frame.datum = [0.0; AXES];
+                trace.push(Happening::WorkOffset { number: 0 });
+            }
+            Op::LocalShift => {
+                for (axis, value) in machine.named_axes(command) {
+                    machine.frame.local[axis] = value;
+                }
+            }
+            Op::SetPosition => {
+                let at = machine.frame.program(&machine.position);
+                for (axis, value) in machine.named_axes(command) {
+                    machine.frame.datum[axis] += at[axis] - value;
+                }
+            }
+            Op::RotateOn => rotate(machine, command, trace),
+            Op::RotateOff => machine.frame.rotation = None,
+            Op::MirrorOn => {
+                for (axis, value) in machine.named_axes(command) {
+                    machine.frame.mirror[axis] = Some(value);
+                }
+            }
+            Op::MirrorOff => {
+                let axes = machine.named_axes(command);
+                for axis in 0..AXES {
+                    if axes.is_empty() || axes.iter().any(|(named, _)| *named == axis) {
+                        machine.frame.mirror[axis] = None;
+                    }
+                }
+            }
+            Op::ScaleOn => scale(machine, command),
+            Op::ScaleOff => machine.frame.scale = None,
+            _ => {}
+        }
+    }
+}
+
+/// The axes of a plane, the one that counts as X first, and the axis that drilling goes along.
+pub(super) fn axes_of(plane: Plane) -> (usize, usize, usize) {
+    match plane {
+        Plane::Xy => (0, 1, 2),
+        Plane::Zx => (2, 0, 1),
+        Plane::Yz => (1, 2, 0),
+    }
+}
+
+fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    let (first, second, _) = axes_of(machine.plane);
+    machine.unturned = machine.frame.program(&machine.position);
+    machine.frame.rotation = None;
+    let mut centre = machine.frame.program(&machine.position);
+    for (axis, value) in machine.named_axes(command) {
+        centre[axis] = if machine.incremental { centre[axis] + value } else { value };
+    }
+    let angle = command.word(Role::Angle).unwrap_or(0.0);
+    let degrees = if machine.rules.rotation_is_ccw.ask(trace) { angle } else { -angle };
+    if machine.incremental {
+        trace.doubt("machine:rotation.incremental");
+    }
+    let centre = (centre[first], centre[second]);
+    machine.frame.rotation = Some(Rotation { axes: (first, second), centre, degrees });
+}
+
+fn scale(machine: &mut Machine, command: &Command) {
+    let mut centre = machine.frame.program(&machine.position);
+    for (axis, value) in machine.named_axes(command) {
+        centre[axis] = value;
+    }
+    let factor = command.word(Role::Scale).unwrap_or(1.0);
+    let mut factors = [1.0; AXES];
+    factors[..3].fill(factor);
+    machine.frame.scale = Some((factors, centre));
+}
+
+impl Machine {
+    /// Selects a work offset without a trace.
+    pub(super) fn select(&mut self, number: u32) {
+        self.frame.number = number;
+        self.frame.work = self.work_offsets.get(&number).copied().unwrap_or([0.0; AXES]);
+    }
+
+    /// The axis words of a block, lengths in millimetres.
+    pub(super) fn named_axes(&self, command: &Command) -> Vec<(usize, f64)> {
+        let unit = |axis| if super::command::is_rotary(axis) { 1.0 } else { self.unit() };
+        command.axes().map(|(axis, value)| (axis, value * unit(axis))).collect()
+    }
+}

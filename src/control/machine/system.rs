@@ -1,0 +1,234 @@
+//! State of the machine that programs read and write.
+//!
+//! What the machine models is answered from it; all else (inputs, parameters, counters) is a
+//! cell that holds what the scenario or the program put there, zero otherwise.
+
+use super::Machine;
+use super::rules::RadiusTable;
+use crate::canon::{Op, Sys};
+use crate::control::outcome::Stop;
+use crate::control::scenario::AXES;
+use crate::control::trace::{Happening, Spindle, Trace};
+
+/// The key of a cell; states have two subscripts at the most.
+pub(super) fn cell(state: Sys, subscripts: &[u32]) -> (Sys, [u32; 2]) {
+    let at = |place: usize| subscripts.get(place).copied().unwrap_or(0);
+    (state, [at(0), at(1)])
+}
+
+/// How a cutter value that a control keeps is made of a radius.
+fn factor(table: RadiusTable) -> f64 {
+    if table == RadiusTable::Diameter { 2.0 } else { 1.0 }
+}
+
+impl Machine {
+    /// Reads state, lengths in the units of the program. None where the subscripts name nothing.
+    ///
+    /// What only an interpreter knows (modal codes as its control numbers them, the last
+    /// words, variables) it answers itself. Reading a timer lets it move on.
+    pub fn read(&mut self, state: Sys, subscripts: &[u32], trace: &mut Trace) -> Option<f64> {
+        let passed = self.clock;
+        match state {
+            Sys::TimerMs => {
+                self.clock += self.tick;
+                return Some(passed - self.timer_ms_from);
+            }
+            Sys::TimerHours => {
+                self.clock += self.tick;
+                return Some((passed - self.timer_hours_from) / 3_600_000.0);
+            }
+            Sys::CycleSeconds => {
+                self.clock += self.tick;
+                return Some(passed / 1000.0);
+            }
+            Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
+                self.rules.radius_table.ask(trace);
+            }
+            Sys::AxisPosition => trace.doubt("system:position.frame"),
+            _ => {}
+        }
+        self.peek(state, subscripts)
+    }
+
+    /// Reads state without a trace and without letting time pass.
+    pub fn peek(&self, state: Sys, subscripts: &[u32]) -> Option<f64> {
+        let axis = || usize::try_from(*subscripts.last()?).ok()?.checked_sub(1).filter(|axis| *axis < AXES);
+        let length = |axis: usize, value: f64| value / self.axis_unit(axis);
+        let along = |values: &[f64; AXES]| axis().map(|axis| length(axis, values[axis]));
+        let tool = || {
+            let number = subscripts.first()?;
+            Some(self.tools.get(number).copied().unwrap_or_default())
+        };
+        let unit = self.unit();
+        let both = factor(self.rules.radius_table.peek());
+        Some(match state {
+            Sys::MachinePosition => along(&self.position)?,
+            Sys::EndPosition | Sys::WorkPosition | Sys::AxisPosition => {
+                along(&self.frame.program(&self.position))?
+            }
+            Sys::SkipPosition => along(&self.frame.program(&self.probed))?,
+            Sys::ActiveOffset => {
+                let axis = axis()?;
+                if axis == 2 { length(axis, self.frame.length) } else { 0.0 }
+            }
+            Sys::ExternalShift => along(&self.frame.external)?,
+            Sys::SetPosition => along(&self.frame.datum)?,
+            Sys::HomeOffset => along(&self.references[0])?,
+            Sys::WorkOffset => {
+                let number = subscripts.first()?;
+                along(&self.work_offsets.get(number).copied().unwrap_or([0.0; AXES]))?
+            }
+            Sys::LengthGeometry | Sys::ToolOffset => tool()?.length / unit,
+            Sys::LengthWear => tool()?.length_wear / unit,
+            Sys::RadiusGeometry => tool()?.radius / unit,
+            Sys::RadiusWear => tool()?.radius_wear / unit,
+            Sys::DiameterGeometry => tool()?.radius * 2.0 / unit,
+            Sys::DiameterWear => tool()?.radius_wear * 2.0 / unit,
+            Sys::DiameterOrRadius => tool()?.radius * both / unit,
+            Sys::DiameterOrRadiusWear => tool()?.radius_wear * both / unit,
+            Sys::ActiveTool => self.tool,
+            Sys::TimerMs => self.clock - self.timer_ms_from,
+            Sys::TimerHours => (self.clock - self.timer_hours_from) / 3_600_000.0,
+            Sys::CycleSeconds => self.clock / 1000.0,
+            Sys::Date => self.date,
+            Sys::Time => self.time,
+            Sys::SpindleActual => {
+                if matches!(self.spindle, Spindle::Clockwise | Spindle::CounterClockwise) {
+                    self.speed
+                } else {
+                    0.0
+                }
+            }
+            Sys::CyclePlane => f64::from(u8::from(self.return_to_r)),
+            Sys::Pi => std::f64::consts::PI,
+            Sys::Euler => std::f64::consts::E,
+            _ => self.cells.get(&cell(state, subscripts)).copied().unwrap_or(0.0),
+        })
+    }
+
+    /// Writes state, lengths in the units of the program. Alarms and stops are the interpreter's.
+    pub fn write(
+        &mut self,
+        state: Sys,
+        subscripts: &[u32],
+        value: f64,
+        trace: &mut Trace,
+    ) -> Result<(), Stop> {
+        let nothing = || Stop::unnamed(format!("there is no such {state}"));
+        let axis =
+            subscripts.last().and_then(|axis| (*axis as usize).checked_sub(1)).filter(|axis| *axis < AXES);
+        let first = subscripts.first().copied();
+        let unit = self.unit();
+        match state {
+            Sys::ExternalShift | Sys::WorkOffset => {
+                let axis = axis.ok_or_else(nothing)?;
+                let number = if state == Sys::WorkOffset { Some(first.ok_or_else(nothing)?) } else { None };
+                self.keep_work(number, axis, value * self.axis_unit(axis), trace);
+            }
+            Sys::LengthGeometry
+            | Sys::LengthWear
+            | Sys::RadiusGeometry
+            | Sys::RadiusWear
+            | Sys::ToolOffset => {
+                self.keep_tool(state, first.ok_or_else(nothing)?, value * unit, trace);
+            }
+            Sys::DiameterGeometry => {
+                self.keep_tool(Sys::RadiusGeometry, first.ok_or_else(nothing)?, value * unit / 2.0, trace);
+            }
+            Sys::DiameterWear => {
+                self.keep_tool(Sys::RadiusWear, first.ok_or_else(nothing)?, value * unit / 2.0, trace);
+            }
+            Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
+                let kept = if state == Sys::DiameterOrRadius { Sys::RadiusGeometry } else { Sys::RadiusWear };
+                let radius = value * unit / factor(self.rules.radius_table.ask(trace));
+                self.keep_tool(kept, first.ok_or_else(nothing)?, radius, trace);
+            }
+            Sys::SetPosition => {
+                let axis = axis.ok_or_else(nothing)?;
+                self.frame.datum[axis] = value * self.axis_unit(axis);
+            }
+            Sys::TimerMs => self.timer_ms_from = self.clock - value,
+            Sys::TimerHours => self.timer_hours_from = self.clock - value * 3_600_000.0,
+            _ => {
+                self.cells.insert(cell(state, subscripts), value);
+                trace.push(Happening::Write { state, subscripts: subscripts.to_vec(), value });
+            }
+        }
+        Ok(())
+    }
+
+    /// The operation in force in a modal group that the machine keeps.
+    pub fn modal(&self, group: crate::canon::Group) -> Option<Op> {
+        use crate::canon::Group;
+        Some(match group {
+            Group::Motion => self.motion,
+            Group::Cycle => self.cycle().unwrap_or(Op::CycleOff),
+            Group::Plane => match self.plane {
+                super::Plane::Xy => Op::PlaneXy,
+                super::Plane::Zx => Op::PlaneZx,
+                super::Plane::Yz => Op::PlaneYz,
+            },
+            Group::Distance => {
+                if self.incremental {
+                    Op::Incremental
+                } else {
+                    Op::Absolute
+                }
+            }
+            Group::FeedMode => match self.feed_mode {
+                super::FeedMode::PerMinute => Op::FeedPerMinute,
+                super::FeedMode::PerTurn => Op::FeedPerTurn,
+                super::FeedMode::Inverse => Op::FeedInverse,
+            },
+            Group::Units => {
+                if self.inch {
+                    Op::Inch
+                } else {
+                    Op::Metric
+                }
+            }
+            Group::RadiusComp => match self.side {
+                super::Side::Off => Op::RadiusOff,
+                super::Side::Left => Op::RadiusLeft,
+                super::Side::Right => Op::RadiusRight,
+            },
+            Group::LengthComp => self.length_op,
+            Group::ReturnPlane => {
+                if self.return_to_r {
+                    Op::ReturnR
+                } else {
+                    Op::ReturnInitial
+                }
+            }
+            Group::WorkOffset => {
+                if self.frame.number == 0 {
+                    Op::ShiftCancel
+                } else {
+                    Op::SelectWork
+                }
+            }
+            Group::PathMode => self.path_mode,
+            Group::SpeedMode => {
+                if self.surface_speed {
+                    Op::SurfaceSpeed
+                } else {
+                    Op::TurnsPerMinute
+                }
+            }
+            Group::Rotation => {
+                if self.frame.rotation.is_some() {
+                    Op::RotateOn
+                } else {
+                    Op::RotateOff
+                }
+            }
+            Group::Coolant => self.coolant,
+            _ => return None,
+        })
+    }
+
+    /// The selected work offset's common number.
+    pub fn work_offset(&self) -> u32 {
+        self.frame.number
+    }
+}

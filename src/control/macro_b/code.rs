@@ -1,0 +1,198 @@
+//! Programs prepared to be run: variables and codes looked up once, loops and labels matched.
+
+use crate::canon::{Func, Role, Sys};
+use crate::control::outcome::Stop;
+use crate::dialect::{Alias, CodeMeaning};
+use crate::syntax::BinaryOp;
+use crate::text::Span;
+use std::cell::Cell;
+use std::collections::HashMap;
+
+/// A program.
+pub struct Program<'c> {
+    pub blocks: Vec<Block<'c>>,
+    /// Blocks of each sequence number, in order.
+    pub labels: HashMap<u32, Vec<usize>>,
+    /// The innermost loop that each block stands in, as a place in `loops`.
+    pub loop_of: Vec<Option<usize>>,
+    pub loops: Vec<Loop>,
+}
+
+/// A loop that has its end.
+pub struct Loop {
+    pub head: usize,
+    pub tail: usize,
+    pub outer: Option<usize>,
+}
+
+/// A block.
+pub struct Block<'c> {
+    pub span: Span,
+    /// Its sequence number.
+    pub sequence: Option<u32>,
+    pub steps: Vec<Step<'c>>,
+    /// Facts that it rests on whatever the values are.
+    pub facts: Vec<String>,
+    /// True once they are in the trace.
+    pub told: Cell<bool>,
+}
+
+/// What a block does, one after the other.
+pub enum Step<'c> {
+    /// The block is skipped from here on where this switch is on.
+    Skip(u8),
+    Assign {
+        target: Var,
+        value: Ex,
+    },
+    /// `#3000=..` and `#3006=..` with the text beside them.
+    Signal {
+        alarm: bool,
+        value: Ex,
+        text: String,
+    },
+    If {
+        condition: Ex,
+        branch: usize,
+        body: Vec<Step<'c>>,
+    },
+    /// The head of a loop: where it ends, and its condition.
+    While {
+        condition: Option<(Ex, usize)>,
+        tail: usize,
+    },
+    /// The end of a loop: where it begins.
+    Repeat {
+        head: usize,
+    },
+    Goto {
+        target: Goto,
+        branch: usize,
+    },
+    Words(Words<'c>),
+    Names {
+        first: u32,
+        names: Vec<String>,
+    },
+    Output {
+        binary: bool,
+        parts: Vec<Part>,
+    },
+    /// What the control answers with an alarm.
+    Alarm(Stop),
+    /// What cannot be run.
+    Unreadable(String),
+}
+
+/// Where a jump goes.
+pub enum Goto {
+    Number(u32),
+    Computed(Ex),
+}
+
+/// A piece of output.
+pub enum Part {
+    Text(String),
+    Value { value: Ex, whole: u32, fraction: u32 },
+}
+
+/// An expression.
+pub enum Ex {
+    Number(f64),
+    Read(Box<Var>),
+    Group(Box<Ex>),
+    Negate(Box<Ex>),
+    Plus(Box<Ex>),
+    Binary(BinaryOp, Box<Ex>, Box<Ex>),
+    Call(Func, Box<Ex>),
+    Call2(Func, Box<Ex>, Box<Ex>),
+}
+
+/// A variable.
+pub enum Var {
+    Local(usize),
+    /// A variable by its number that is no local and no system variable.
+    Shared(u32),
+    System(Box<System>),
+    /// The bit of a system variable.
+    Bit(Box<System>, u32),
+    Named(String),
+    Computed(Box<Ex>),
+    /// A family with a fixed name: `#_ABSIO[1]`.
+    Family(Sys, Vec<u32>, Box<Ex>),
+    /// No such variable.
+    Missing(u32),
+}
+
+/// A system variable.
+#[derive(Clone, Debug)]
+pub struct System {
+    pub number: u32,
+    pub state: Sys,
+    pub subscripts: Vec<u32>,
+    pub readable: bool,
+    pub writable: bool,
+    /// Its fact, where no source confirms it.
+    pub unsure: Option<String>,
+}
+
+/// The words of a block.
+pub struct Words<'c> {
+    pub words: Vec<Word>,
+    /// What they mean; absent where a code is computed.
+    pub meaning: Option<Meaning<'c>>,
+}
+
+/// A word.
+pub struct Word {
+    pub letter: char,
+    pub comma: bool,
+    pub value: Ex,
+    /// How it is written.
+    pub form: Form,
+}
+
+/// How a word's value is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Digits without a decimal point.
+    Bare,
+    /// Digits with a decimal point.
+    Point,
+    /// A variable.
+    Variable,
+    /// Brackets round one variable, or a sign before it.
+    Wrapped,
+    /// Anything else.
+    Computed,
+}
+
+impl Form {
+    pub fn is_literal(self) -> bool {
+        matches!(self, Form::Bare | Form::Point)
+    }
+}
+
+/// What the words of a block mean together.
+#[derive(Clone, Debug, Default)]
+pub struct Meaning<'c> {
+    pub codes: Vec<Coded<'c>>,
+    /// The role of each word beside the codes, where one reads it.
+    pub beside: Vec<Option<(Role, &'c CodeMeaning)>>,
+    /// The role of each word by itself.
+    pub alone: Vec<Option<Role>>,
+    /// Facts that it rests on.
+    pub facts: Vec<String>,
+    pub fault: Option<Stop>,
+}
+
+/// A code of a block.
+#[derive(Clone, Copy, Debug)]
+pub struct Coded<'c> {
+    /// Its place among the words.
+    pub word: usize,
+    pub letter: char,
+    pub number: f64,
+    pub row: Option<&'c CodeMeaning>,
+    pub alias: Option<Alias>,
+}

@@ -1,0 +1,234 @@
+//! The words of a block: what they tell the machine, and where they send the program.
+
+use super::code::{Coded, Meaning, Words};
+use super::meaning::is_code;
+use super::run::{Next, Runner};
+use crate::canon::{Group, Op, Role};
+use crate::control::session::Halt;
+use crate::control::trace::Happening;
+use smallvec::SmallVec;
+
+impl<'c> Runner<'c> {
+    /// Does what the words say.
+    pub fn words(&mut self, words: &Words<'c>) -> Result<Next, Halt> {
+        let count = words.words.len();
+        let mut values: SmallVec<[Option<f64>; 16]> = smallvec::smallvec![None; count];
+        let mut there: SmallVec<[bool; 16]> = smallvec::smallvec![true; count];
+        for (at, word) in words.words.iter().enumerate() {
+            if is_code(word.letter, word.comma) {
+                let value = self.eval(&word.value)?;
+                there[at] = value.is_some();
+                // A computed code is a whole number, the nearest one.
+                values[at] = value.map(|value| if word.form.is_literal() { value } else { value.round() });
+            }
+        }
+        let fresh = match &words.meaning {
+            Some(_) => None,
+            None => Some(self.meaning_now(&words.words, &there, &values)),
+        };
+        let Some(mut meaning) = fresh.as_ref().or(words.meaning.as_ref()) else { return Ok(Next::On) };
+        let call = self.macro_call(meaning);
+        for (at, word) in words.words.iter().enumerate() {
+            let argument = call.is_some_and(|call| at > call.word || call.alias.is_some());
+            if argument || is_code(word.letter, word.comma) {
+                continue;
+            }
+            let known = self.role_of(meaning, at, word);
+            values[at] = self.word_value(word, known)?;
+            if values[at].is_none() {
+                self.rules.vacant_word_dropped.ask(&mut self.session.trace);
+                there[at] = false;
+            }
+        }
+        // A word that is dropped may have picked the meaning of a code, and so may a computed one.
+        let mended = (there.contains(&false) || meaning.fault.is_some())
+            .then(|| self.meaning_now(&words.words, &there, &values));
+        meaning = mended.as_ref().unwrap_or(meaning);
+        if fresh.is_some() || mended.is_some() {
+            meaning.facts.iter().for_each(|fact| self.session.trace.doubt(fact));
+        }
+        if let Some(stop) = &meaning.fault {
+            return Err(Halt::Alarm(stop.clone()));
+        }
+        self.gather(words, meaning, call, &values);
+        let mut command = std::mem::take(&mut self.command);
+        let moves = command.has_axes() && !command.ops.iter().any(|op| keeps_axes(*op));
+        let done = if command.is_empty() {
+            Ok(())
+        } else {
+            self.session.machine.run(&command, &mut self.session.trace)
+        };
+        command.clear();
+        self.command = command;
+        done?;
+        match call {
+            Some(call) => self.call_macro(words, call),
+            None => self.flow(words, meaning, &values, moves),
+        }
+    }
+
+    /// The code of the block whose other words are arguments.
+    fn macro_call(&self, meaning: &Meaning<'c>) -> Option<Coded<'c>> {
+        meaning.codes.iter().copied().find(|code| {
+            code.alias.is_some_and(|alias| alias.arguments && self.aliases_count())
+                || code
+                    .row
+                    .is_some_and(|row| matches!(row.op, Op::CallMacro | Op::CallModal | Op::CallModalEach))
+        })
+    }
+
+    /// Makes the command of those words that are no arguments.
+    fn gather(
+        &mut self,
+        words: &Words<'c>,
+        meaning: &Meaning<'c>,
+        call: Option<Coded<'c>>,
+        values: &[Option<f64>],
+    ) {
+        let mut command = std::mem::take(&mut self.command);
+        for code in &meaning.codes {
+            let Some(row) = code.row else {
+                if code.alias.is_none() || !self.aliases_count() {
+                    command.ops.push(Op::Builder);
+                    command.own_code = Some(format!("{}{}", code.letter, code.number));
+                    self.session.trace.doubt(&format!("code:{}{}", code.letter, code.number));
+                }
+                continue;
+            };
+            self.keep_modal(code, row.op);
+            command.words.extend(row.fixed.iter().map(|(role, value)| (*role, *value)));
+            if row.op.is_flow() {
+                continue;
+            }
+            if matches!(row.op, Op::MachineSpecific | Op::Builder | Op::CycleOther) {
+                command.own_code = Some(row.code.clone());
+            }
+            command.ops.push(row.op);
+            if row.op.is_cycle() {
+                self.cycle = Some(row);
+            }
+        }
+        let last = call.map_or(usize::MAX, |call| if call.alias.is_some() { 0 } else { call.word });
+        let flow = meaning.codes.iter().any(|code| code.row.is_some_and(|row| row.op.is_flow()));
+        for (at, word) in words.words.iter().enumerate().take(last) {
+            let Some(value) = values.get(at).copied().flatten() else { continue };
+            if !word.comma {
+                let place = (word.letter as usize).wrapping_sub('A' as usize) + 1;
+                if let Some(address) = self.addresses.get_mut(place) {
+                    *address = value;
+                }
+            }
+            if is_code(word.letter, word.comma) {
+                continue;
+            }
+            match self.role_of(meaning, at, word) {
+                // Words of the call, the jump or the return are not the machine's.
+                Some((_, Some(row))) if row.op.is_flow() => {}
+                Some((role, row)) => {
+                    let value = match role {
+                        Role::WorkOffset | Role::OffsetRow => {
+                            self.session.control.canonical(row, role, value)
+                        }
+                        _ => value,
+                    };
+                    if let (None, Some(op)) =
+                        (row, self.session.control.word(word.letter, word.comma).and_then(|row| row.op))
+                    {
+                        command.ops.push(op);
+                    }
+                    command.words.push((role, value));
+                }
+                None if flow => {}
+                None => self.session.trace.doubt(&format!("word:{}", word.letter)),
+            }
+        }
+        self.command = command;
+    }
+
+    /// Notes the code in force in a modal group, and the end of a drilling cycle.
+    fn keep_modal(&mut self, code: &Coded<'c>, op: Op) {
+        let group = op.group();
+        if let Some(place) = group.number().and_then(|number| self.modal.get_mut(number as usize)) {
+            *place = code.number;
+        }
+        if group == Group::Motion || op == Op::CycleOff {
+            self.cycle = None;
+            if group == Group::Motion && self.session.machine.cycle().is_some() {
+                let off = self.session.control.code_for(Op::CycleOff, &Default::default());
+                let head = off.and_then(crate::dialect::CodeMeaning::head);
+                if let (Some(head), Some(place)) = (head, self.modal.get_mut(9)) {
+                    *place = head.number();
+                }
+            }
+        }
+    }
+
+    /// Where the codes of the block send the program.
+    fn flow(
+        &mut self,
+        words: &Words<'c>,
+        meaning: &Meaning<'c>,
+        values: &[Option<f64>],
+        moves: bool,
+    ) -> Result<Next, Halt> {
+        let value = |wanted: Role| {
+            meaning.beside.iter().zip(values).find_map(|(beside, value)| {
+                let (role, row) = beside.as_ref()?;
+                (row.op.is_flow() && *role == wanted).then_some(*value)?
+            })
+        };
+        for code in &meaning.codes {
+            if let Some(alias) = code.alias.filter(|_| self.aliases_count()) {
+                return self.call_program(f64::from(alias.program), None, true);
+            }
+            let Some(row) = code.row.filter(|row| row.op.is_flow()) else { continue };
+            return match row.op {
+                Op::End | Op::EndRewind => Err(Halt::Ended(row.op)),
+                Op::Return => {
+                    let to = value(Role::Sequence);
+                    self.give_back(to).map(|()| Next::Block)
+                }
+                Op::CallProgram => match value(Role::Program) {
+                    Some(program) => self.call_program(program, value(Role::CallCount), false),
+                    None => Err(Halt::Error("a call without its program".into())),
+                },
+                Op::CallLocal => match value(Role::Sequence) {
+                    Some(sequence) => self.call_local(sequence, value(Role::CallCount)),
+                    None => Err(Halt::Error("a call without its sequence number".into())),
+                },
+                Op::JumpInputOff => {
+                    let bit = value(Role::Input).unwrap_or(0.0).max(0.0).round() as u32;
+                    let on =
+                        self.session.machine.peek(crate::canon::Sys::Input, &[bit]).unwrap_or(0.0) != 0.0;
+                    self.session.branches.took(self.session.trace.at, i64::from(!on));
+                    let at = self.frames.last().map_or(0, |frame| frame.at);
+                    match (on, value(Role::Sequence)) {
+                        (false, Some(to)) => self.jump(to.max(0.0).round() as u32, at).map(Next::At),
+                        _ => Ok(Next::On),
+                    }
+                }
+                Op::CallModalOff => {
+                    self.end_modal()?;
+                    Ok(Next::On)
+                }
+                _ => Err(Halt::Error(format!("{} is not run", row.code))),
+            };
+        }
+        let each = self.modal_call_each();
+        if moves || (each && !words.words.is_empty()) { self.trigger_modal() } else { Ok(Next::On) }
+    }
+
+    /// Notes that a program was entered.
+    pub fn enter(&mut self, program: u32) {
+        self.session.trace.push(Happening::Enter { program });
+    }
+}
+
+/// Operations whose axis words do not move.
+fn keeps_axes(op: Op) -> bool {
+    use Op::*;
+    matches!(
+        op,
+        LocalShift | SetPosition | WriteWork | RotateOn | ScaleOn | MirrorOn | MirrorOff | Pole | Dwell
+    )
+}

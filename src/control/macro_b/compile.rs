@@ -1,0 +1,340 @@
+//! From syntax to programs that are ready to run.
+
+use super::Style;
+use super::code::*;
+use super::expressions::Expressions;
+use super::meaning;
+use crate::control::library::{LoadedFile, Section};
+use crate::control::outcome::Stop;
+use crate::control::trace::Place;
+use crate::diag::Severity;
+use crate::dialect::{Control, Row};
+use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
+use crate::text::Span;
+use std::cell::Cell;
+use std::collections::HashMap;
+
+/// Prepares programs of a library.
+pub struct Compiler<'c, 'a> {
+    pub control: &'c Control,
+    pub style: &'static Style,
+    pub file: &'a LoadedFile<'a>,
+    /// The number of the program among those that ran.
+    pub program: u32,
+    /// Where the branches of all programs stand.
+    pub branches: &'a mut Vec<Place>,
+}
+
+/// What is gathered while a block is read.
+struct Gather<'c> {
+    steps: Vec<Step<'c>>,
+    words: Vec<Word>,
+    facts: Vec<String>,
+}
+
+/// A loop head or end met so far.
+struct Open {
+    number: u32,
+    block: usize,
+    index: Option<usize>,
+}
+
+impl<'c> Compiler<'c, '_> {
+    /// Prepares a program.
+    pub fn program(&mut self, section: &Section) -> Program<'c> {
+        let blocks = self.file.parsed.blocks.get(section.blocks.clone()).unwrap_or_default();
+        let mut program = Program {
+            blocks: Vec::with_capacity(blocks.len()),
+            labels: HashMap::new(),
+            loop_of: Vec::new(),
+            loops: Vec::new(),
+        };
+        for block in blocks {
+            let at = program.blocks.len();
+            let sequence = self.sequence(&block.items);
+            if let Some(number) = sequence {
+                program.labels.entry(number).or_default().push(at);
+            }
+            let compiled = self.block(block, sequence);
+            program.blocks.push(compiled);
+        }
+        match_loops(&mut program, self.style);
+        program
+    }
+
+    /// The block's sequence number, where a jump finds it: at its head, on some controls anywhere.
+    fn sequence(&self, items: &[Item]) -> Option<u32> {
+        let anywhere = self.control.is("sequence.anywhere");
+        for item in items {
+            match &item.kind {
+                ItemKind::Sequence { number, .. } => return Some(*number),
+                ItemKind::Skip(_) | ItemKind::Comment(_) | ItemKind::Program(_) | ItemKind::EndOfBlock => {}
+                _ if anywhere => {}
+                _ => return None,
+            }
+        }
+        None
+    }
+
+    fn block(&mut self, block: &syntax::Block, sequence: Option<u32>) -> Block<'c> {
+        let mut gather = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new() };
+        let fault = block.errors.iter().find(|error| error.code.severity() == Severity::Error);
+        if let Some(fault) = fault {
+            let step = match self.style.alarm_of(fault.code) {
+                Some(number) => Step::Alarm(Stop::alarm(number, fault.message.clone())),
+                None => Step::Unreadable(fault.message.clone()),
+            };
+            gather.steps.push(step);
+        } else {
+            let text = self.comment(&block.items);
+            self.items(&block.items, &text, &mut gather);
+            self.flush(&mut gather);
+            self.shared_block(&block.items, &mut gather.facts);
+        }
+        gather.facts.sort();
+        gather.facts.dedup();
+        Block { span: block.span, sequence, steps: gather.steps, facts: gather.facts, told: Cell::new(false) }
+    }
+
+    /// The text of the block's comments, which alarms and messages show.
+    fn comment(&self, items: &[Item]) -> String {
+        let texts = items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Comment(comment) => Some(self.text(comment.text)),
+            _ => None,
+        });
+        texts.collect::<Vec<_>>().join(" ")
+    }
+
+    fn text(&self, span: Span) -> String {
+        String::from_utf8_lossy(span.of(self.file.parsed.source)).into_owned()
+    }
+
+    /// Several statements in one block, or a statement and words.
+    fn shared_block(&self, items: &[Item], facts: &mut Vec<String>) {
+        let words = items.iter().any(|item| matches!(item.kind, ItemKind::Word(_)));
+        let statements = items.iter().filter(|item| {
+            use ItemKind::*;
+            matches!(item.kind, Assign { .. } | If { .. } | Do { .. } | End { .. } | Goto(_))
+        });
+        let statements: Vec<&Item> = statements.collect();
+        let assigns = |item: &&Item| matches!(item.kind, ItemKind::Assign { .. });
+        if statements.len() > 1 && statements.iter().all(assigns) {
+            self.rest_on_behaviour("assign.shares.block", facts);
+        } else if statements.len() > 1 || (words && !statements.is_empty()) {
+            self.rest_on_behaviour("statement.shares.block", facts);
+        }
+    }
+
+    /// Notes a fact that is not confirmed, or that the table denies or leaves open.
+    fn rest_on_behaviour(&self, name: &str, facts: &mut Vec<String>) {
+        let sure =
+            self.control.behaviour(name).is_some_and(|row| row.origin.confirmed && row.value == "true");
+        if !sure {
+            facts.push(format!("behaviour:{name}"));
+        }
+    }
+
+    fn rest_on_statement(&self, name: &str, facts: &mut Vec<String>) {
+        match self.control.statement(name) {
+            Some(row) if row.origin.confirmed => {}
+            Some(row) => facts.push(row.fact()),
+            None => facts.push(format!("statement:{name}")),
+        }
+    }
+
+    fn items(&mut self, items: &[Item], text: &str, gather: &mut Gather<'c>) {
+        for item in items {
+            self.item(item, text, gather);
+        }
+    }
+
+    fn item(&mut self, item: &Item, text: &str, gather: &mut Gather<'c>) {
+        let control = self.control;
+        match &item.kind {
+            ItemKind::Skip(level) => {
+                self.flush(gather);
+                gather.steps.push(Step::Skip(level.unwrap_or(1)));
+            }
+            ItemKind::Word(word) => {
+                let Some(value) = &word.value else {
+                    gather.steps.push(Step::Unreadable("a word without a value".into()));
+                    return;
+                };
+                let mut expressions = Expressions::new(control, &mut gather.facts);
+                let word = expressions.word(word.letter, word.comma, value);
+                gather.words.push(word);
+            }
+            ItemKind::Assign { target, value, .. } => {
+                let mut expressions = Expressions::new(control, &mut gather.facts);
+                let (target, value) = (expressions.variable(target), expressions.value(value));
+                let step = match expressions.signal(&target) {
+                    Some(alarm) => Step::Signal { alarm, value, text: text.into() },
+                    None => Step::Assign { target, value },
+                };
+                gather.steps.push(step);
+            }
+            ItemKind::If { condition, body, bare, .. } => {
+                self.conditional((condition, body, *bare), text, gather)
+            }
+            ItemKind::Do { condition, number } => {
+                self.flush(gather);
+                let condition = condition.as_ref().map(|condition| {
+                    let mut expressions = Expressions::new(control, &mut gather.facts);
+                    (expressions.condition(condition), self.branch(condition.span))
+                });
+                // The number stands in for the place of the end, which is found later.
+                gather.steps.push(Step::While { condition, tail: *number as usize });
+            }
+            ItemKind::End { number } => {
+                self.flush(gather);
+                gather.steps.push(Step::Repeat { head: *number as usize });
+            }
+            ItemKind::Goto(target) => {
+                self.flush(gather);
+                let target = match target {
+                    Target::Sequence(number) => Goto::Number(*number),
+                    Target::Computed(value) => {
+                        self.rest_on_statement("goto.computed", &mut gather.facts);
+                        Goto::Computed(Expressions::new(control, &mut gather.facts).value(value))
+                    }
+                    Target::Label(_) => {
+                        gather.steps.push(Step::Unreadable("no such labels".into()));
+                        return;
+                    }
+                };
+                let branch = self.branch(item.span);
+                gather.steps.push(Step::Goto { target, branch });
+            }
+            ItemKind::SetNames { first, names } => {
+                gather.steps.push(Step::Names { first: *first, names: names.clone() });
+            }
+            ItemKind::Output { binary, parts } => {
+                self.rest_on_statement("output.formatted", &mut gather.facts);
+                let parts = parts.iter().map(|part| match part {
+                    OutputPart::Text(span) => Part::Text(self.text(*span).replace('*', " ")),
+                    OutputPart::Value { value, whole, fraction } => Part::Value {
+                        value: Expressions::new(control, &mut gather.facts).value(value),
+                        whole: *whole,
+                        fraction: *fraction,
+                    },
+                });
+                let parts = parts.collect();
+                gather.steps.push(Step::Output { binary: *binary, parts });
+            }
+            ItemKind::Tape
+            | ItemKind::EndOfBlock
+            | ItemKind::Program(_)
+            | ItemKind::Sequence { .. }
+            | ItemKind::Comment(_)
+            | ItemKind::OpenPort
+            | ItemKind::ClosePort => {}
+            _ => gather.steps.push(Step::Unreadable("a statement that this control does not have".into())),
+        }
+    }
+
+    fn conditional(
+        &mut self,
+        (condition, body, bare): (&syntax::Expr, &[Item], bool),
+        text: &str,
+        gather: &mut Gather<'c>,
+    ) {
+        self.flush(gather);
+        if bare {
+            self.rest_on_statement("if.bare", &mut gather.facts);
+        }
+        if body.iter().any(|item| matches!(item.kind, ItemKind::Word(_))) {
+            self.rest_on_behaviour("then.words", &mut gather.facts);
+        }
+        let branch = self.branch(condition.span);
+        let condition = Expressions::new(self.control, &mut gather.facts).condition(condition);
+        let mut inner = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new() };
+        let own = self.comment(body);
+        self.items(body, if own.is_empty() { text } else { &own }, &mut inner);
+        self.flush(&mut inner);
+        gather.facts.append(&mut inner.facts);
+        gather.steps.push(Step::If { condition, branch, body: inner.steps });
+    }
+
+    fn branch(&mut self, span: Span) -> usize {
+        self.branches.push(Place { program: self.program, span });
+        self.branches.len() - 1
+    }
+
+    /// Puts the words gathered so far into the steps.
+    fn flush(&mut self, gather: &mut Gather<'c>) {
+        if gather.words.is_empty() {
+            return;
+        }
+        let words = std::mem::take(&mut gather.words);
+        let mut meaning = meaning::fixed(self.control, self.style, &words);
+        if let Some(meaning) = &mut meaning {
+            gather.facts.append(&mut meaning.facts);
+        }
+        gather.steps.push(Step::Words(Words { words, meaning }));
+    }
+}
+
+/// Finds the ends of loops. A loop without its end, and an end without its loop, is an alarm where it is met.
+fn match_loops(program: &mut Program<'_>, style: &Style) {
+    let mut open: Vec<Open> = Vec::new();
+    let mut faults: Vec<(usize, &'static str)> = Vec::new();
+    program.loop_of = vec![None; program.blocks.len()];
+    for at in 0..program.blocks.len() {
+        let mut head = None;
+        let mut end = None;
+        for step in &program.blocks[at].steps {
+            match step {
+                Step::While { tail, .. } => head = Some(*tail as u32),
+                Step::Repeat { head } => end = Some(*head as u32),
+                _ => {}
+            }
+        }
+        if let Some(number) = head {
+            if open.iter().any(|loop_| loop_.number == number) {
+                faults.push((at, "a loop of this number is open already"));
+            }
+            let outer = open.last().and_then(|open| open.index);
+            program.loops.push(Loop { head: at, tail: usize::MAX, outer });
+            open.push(Open { number, block: at, index: Some(program.loops.len() - 1) });
+        }
+        program.loop_of[at] = open.last().and_then(|open| open.index);
+        if let Some(number) = end {
+            match open.iter().rposition(|loop_| loop_.number == number) {
+                None => faults.push((at, "END without DO")),
+                Some(place) => {
+                    if place + 1 != open.len() {
+                        faults.push((at, "loops cross"));
+                    }
+                    if let Some(loop_) =
+                        open.remove(place).index.and_then(|index| program.loops.get_mut(index))
+                    {
+                        loop_.tail = at;
+                    }
+                }
+            }
+        }
+    }
+    faults.extend(open.iter().map(|open| (open.block, "DO without END")));
+    for loop_ in program.loops.iter().filter(|loop_| loop_.tail != usize::MAX) {
+        let (head, tail) = (loop_.head, loop_.tail);
+        set_ends(&mut program.blocks, head, tail);
+    }
+    for (at, text) in faults {
+        if let Some(block) = program.blocks.get_mut(at) {
+            block.steps = vec![Step::Alarm(Stop::alarm(style.alarms.loops, text))];
+        }
+    }
+}
+
+fn set_ends(blocks: &mut [Block<'_>], head_block: usize, tail_block: usize) {
+    for step in blocks.get_mut(head_block).into_iter().flat_map(|block| &mut block.steps) {
+        if let Step::While { tail, .. } = step {
+            *tail = tail_block;
+        }
+    }
+    for step in blocks.get_mut(tail_block).into_iter().flat_map(|block| &mut block.steps) {
+        if let Step::Repeat { head } = step {
+            *head = head_block;
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Evaluates expressions.
+
+use super::code::{Ex, Var};
+use super::numeric::Value;
+use super::run::Runner;
+use crate::canon::Func;
+use crate::control::outcome::Stop;
+use crate::control::session::Halt;
+
+impl Runner<'_> {
+    /// The value of an expression outside a word.
+    pub fn eval(&mut self, ex: &Ex) -> Result<Value, Halt> {
+        self.eval_in(ex, None)
+    }
+
+    /// The value of an expression; in a word ROUND rounds to so many units' least increment.
+    pub fn eval_in(&mut self, ex: &Ex, increment: Option<f64>) -> Result<Value, Halt> {
+        Ok(match ex {
+            Ex::Number(value) => Some(*value),
+            Ex::Read(var) => match var.as_ref() {
+                Var::Local(number) => self.memory.local(*number),
+                Var::Shared(number) => self.memory.get(*number),
+                var => self.read(var)?,
+            },
+            Ex::Group(inner) => {
+                let value = self.eval_in(inner, increment)?;
+                if value.is_none() && !self.rules.bracket_copies_vacancy.ask(&mut self.session.trace) {
+                    Some(0.0)
+                } else {
+                    value
+                }
+            }
+            Ex::Plus(inner) => self.eval_in(inner, increment)?,
+            Ex::Negate(inner) => {
+                let value = self.eval_in(inner, increment)?;
+                Some(-self.numeric.number(value, &mut self.session.trace))
+            }
+            Ex::Binary(op, a, b) => {
+                let a = self.eval_in(a, increment)?;
+                let b = self.eval_in(b, increment)?;
+                Some(self.numeric.binary(*op, a, b, &mut self.session.trace)?)
+            }
+            Ex::Call(Func::Round, inner) if increment.is_some() => {
+                let value = self.eval_in(inner, increment)?;
+                let value = self.numeric.number(value, &mut self.session.trace);
+                let count = increment.map_or(1.0, |increment| (1.0 / increment).round());
+                Some(self.numeric.round(value * count, &mut self.session.trace) / count)
+            }
+            Ex::Call(Func::AddPoint, inner) => {
+                let value = self.eval(inner)?;
+                Some(self.numeric.number(value, &mut self.session.trace) * self.length_increment())
+            }
+            Ex::Call(Func::Parameter, inner) => {
+                let number = self.eval(inner)?;
+                Some(self.parameter(number, None))
+            }
+            Ex::Call2(Func::Parameter, a, b) => {
+                let (number, bit) = (self.eval(a)?, self.eval(b)?);
+                Some(self.parameter(number, bit))
+            }
+            Ex::Call(function, inner) => {
+                let value = self.eval_in(inner, increment)?;
+                Some(self.numeric.call(*function, value, &mut self.session.trace)?)
+            }
+            Ex::Call2(function, a, b) => {
+                let a = self.eval_in(a, increment)?;
+                let b = self.eval_in(b, increment)?;
+                Some(self.numeric.call2(*function, a, b, &mut self.session.trace)?)
+            }
+        })
+    }
+
+    fn parameter(&mut self, number: Value, bit: Value) -> f64 {
+        let whole = |value: Value| value.unwrap_or(0.0).round() as u32;
+        let subscripts = [whole(number), whole(bit)];
+        self.session.machine.peek(crate::canon::Sys::Parameter, &subscripts).unwrap_or(0.0)
+    }
+
+    /// A subscript.
+    pub fn index(&mut self, ex: &Ex) -> Result<u32, Halt> {
+        let value = self.eval(ex)?.unwrap_or(0.0);
+        let whole = if value.fract() == 0.0 {
+            value
+        } else if self.rules.index_rounds.ask(&mut self.session.trace) {
+            value.round()
+        } else {
+            value.trunc()
+        };
+        if (0.0..=f64::from(u32::MAX)).contains(&whole) {
+            // In range by the test.
+            Ok(whole as u32)
+        } else {
+            let text = format!("#{whole} is no variable");
+            Err(Halt::Alarm(Stop::alarm(self.style.alarms.no_variable, text)))
+        }
+    }
+
+    /// The least increment of a length in the units in force.
+    pub fn length_increment(&self) -> f64 {
+        if self.session.machine.is_inch() { self.rules.increment_inch } else { self.rules.increment_mm }
+    }
+}
+
+/// The nearest multiple of an increment, half-way ones away from zero.
+pub fn to_increment(value: f64, increment: f64) -> f64 {
+    let count = (1.0 / increment).round();
+    let scaled = value * count;
+    // A value that means a half-way one may lie a last digit beside it.
+    let nearest = (scaled + scaled.signum() * 1e-9).round();
+    nearest / count
+}

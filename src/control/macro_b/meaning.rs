@@ -1,0 +1,121 @@
+//! What the words of a block mean together: their codes, and the role of each word beside them.
+
+use super::Style;
+use super::code::{Coded, Ex, Meaning, Word};
+use crate::canon::{Op, Role};
+use crate::control::outcome::Stop;
+use crate::dialect::{Control, Row};
+
+/// The meaning, where no code is computed.
+pub fn fixed<'c>(control: &'c Control, style: &Style, words: &[Word]) -> Option<Meaning<'c>> {
+    let constant = |word: &Word| match word.value {
+        Ex::Number(value) if word.form.is_literal() => Some(value),
+        _ => None,
+    };
+    let computed = |word: &&Word| is_code(word.letter, word.comma) && constant(word).is_none();
+    if words.iter().any(|word| computed(&word)) {
+        return None;
+    }
+    // What is dropped when the block runs is looked at again then.
+    let values: Vec<Option<f64>> = words.iter().map(constant).collect();
+    let mut meaning = of(control, style, words, &vec![true; words.len()], &values);
+    let measured = |role: &Option<Role>| role.is_some_and(|role| role.is_length() || role.is_axis());
+    let computed = |(word, role): (&Word, &Option<Role>)| !word.form.is_literal() && measured(role);
+    if words.iter().zip(&meaning.alone).any(computed) {
+        behaviour(control, "word.bare.expression", &mut meaning.facts);
+    }
+    Some(meaning)
+}
+
+fn behaviour(control: &Control, name: &str, facts: &mut Vec<String>) {
+    if !control.behaviour(name).is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
+        facts.push(format!("behaviour:{name}"));
+    }
+}
+
+/// True for the letters whose numbers are codes.
+pub fn is_code(letter: char, comma: bool) -> bool {
+    !comma && matches!(letter, 'G' | 'M')
+}
+
+/// The meaning of those words that are there; `values` holds the values that are known.
+pub fn of<'c>(
+    control: &'c Control,
+    style: &Style,
+    words: &[Word],
+    there: &[bool],
+    values: &[Option<f64>],
+) -> Meaning<'c> {
+    let mut meaning = Meaning::default();
+    let present = || words.iter().zip(there).zip(values).enumerate().filter(|(_, ((_, there), _))| **there);
+    let block: Vec<(char, Option<f64>)> = present()
+        .filter(|(_, ((word, _), _))| !word.comma)
+        .map(|(_, ((word, _), value))| (word.letter, *value))
+        .collect();
+    let mut called = false;
+    for (at, ((word, _), value)) in present() {
+        if !is_code(word.letter, word.comma) {
+            continue;
+        }
+        // Behind a macro call every other letter is an argument, M too.
+        if called {
+            if word.letter == 'G' {
+                meaning.fault =
+                    Some(Stop::alarm(style.alarms.call_not_alone, "a G code among the arguments of a call"));
+            }
+            continue;
+        }
+        let number = value.unwrap_or(f64::NAN);
+        let alias = control.alias(word.letter, number);
+        let row = if alias.is_some() { None } else { control.code(word.letter, number, &block) };
+        called = alias.is_some_and(|alias| alias.arguments)
+            || row.is_some_and(|row| matches!(row.op, Op::CallMacro | Op::CallModal | Op::CallModalEach));
+        if let Some(row) = row.filter(|row| !row.origin.confirmed) {
+            meaning.facts.push(row.fact());
+        }
+        if row.is_none() && alias.is_none() && word.letter == 'G' {
+            let text = format!("G{number} is no code of this control");
+            meaning.fault.get_or_insert(Stop::alarm(style.alarms.no_such_code, text));
+        }
+        meaning.codes.push(Coded { word: at, letter: word.letter, number, row, alias });
+    }
+    count_m(control, &meaning.codes, &mut meaning.facts);
+    for (at, word) in words.iter().enumerate() {
+        let here = there.get(at).copied().unwrap_or(false) && !is_code(word.letter, word.comma);
+        let beside = meaning.codes.iter().filter_map(|code| code.row).find_map(|row| {
+            let role = control.role(word.letter, word.comma, Some(row))?;
+            (row.words.iter().any(|(_, found)| *found == role) && reads(row, word)).then_some((role, row))
+        });
+        meaning.beside.push(beside.filter(|_| here));
+        let alone = control.word(word.letter, word.comma).filter(|_| here);
+        if let Some(row) = alone.filter(|row| beside.is_none() && !called && !row.origin.confirmed) {
+            meaning.facts.push(row.fact());
+        }
+        meaning.alone.push(alone.map(|row| row.role));
+    }
+    meaning
+}
+
+/// True where a code names the letter among its own words.
+fn reads(row: &crate::dialect::CodeMeaning, word: &Word) -> bool {
+    row.words.keys().any(|written| {
+        let (comma, letter) = match written.strip_prefix(',') {
+            Some(letter) => (true, letter),
+            None => (false, written.as_str()),
+        };
+        let mut chars = letter.chars();
+        comma == word.comma && chars.next() == Some(word.letter) && chars.as_str().is_empty()
+    })
+}
+
+fn count_m(control: &Control, codes: &[Coded<'_>], facts: &mut Vec<String>) {
+    let count = codes.iter().filter(|code| code.letter == 'M').count();
+    let most = match control.behaviour("m.codes.per.block").map(|row| row.value.as_str()) {
+        Some("any") => usize::MAX,
+        Some("3") => 3,
+        _ => 1,
+    };
+    if count > most {
+        facts.push("behaviour:m.codes.per.block".into());
+    }
+}

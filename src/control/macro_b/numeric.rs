@@ -1,0 +1,328 @@
+//! Arithmetic of the control: vacancy, digits, domains.
+
+use super::Alarms;
+use crate::canon::Func;
+use crate::control::outcome::Stop;
+use crate::control::trace::Trace;
+use crate::dialect::Control;
+use crate::syntax::BinaryOp;
+
+/// A value; none is vacant.
+pub type Value = Option<f64>;
+
+/// An answer of the table, and its fact where it is not confirmed.
+#[derive(Clone, Debug)]
+pub struct Answer<T> {
+    value: T,
+    unsure: Option<String>,
+}
+
+impl<T: Copy> Answer<T> {
+    /// Reads a question of behaviour; unknown and missing answers give `otherwise`, unsure.
+    pub fn new(control: &Control, name: &str, read: impl Fn(&str) -> Option<T>, otherwise: T) -> Self {
+        let row = control.behaviour(name);
+        let known = row.and_then(|row| Some((read(&row.value)?, row.origin.confirmed)));
+        let sure = known.is_some_and(|(_, confirmed)| confirmed);
+        let value = known.map_or(otherwise, |(value, _)| value);
+        Self { value, unsure: (!sure).then(|| format!("behaviour:{name}")) }
+    }
+
+    /// The answer, where it matters.
+    pub fn ask(&self, trace: &mut Trace) -> T {
+        if let Some(fact) = &self.unsure {
+            trace.doubt(fact);
+        }
+        self.value
+    }
+
+    /// The answer, where nothing rests on it.
+    pub fn peek(&self) -> T {
+        self.value
+    }
+}
+
+/// The answer to a yes-or-no question.
+pub fn yes(control: &Control, name: &str, otherwise: bool) -> Answer<bool> {
+    let read = |value: &str| match value {
+        "true" => Some(true),
+        "false" => Some(false),
+        _ => None,
+    };
+    Answer::new(control, name, read, otherwise)
+}
+
+fn is(word: &'static str, no: &'static str) -> impl Fn(&str) -> Option<bool> {
+    move |value| (value == word || value == no).then_some(value == word)
+}
+
+/// How the control calculates.
+#[derive(Debug)]
+pub struct Numeric {
+    /// Significant digits that are kept; none for all of a double's.
+    digits: Option<i32>,
+    largest: f64,
+    smallest: f64,
+    alarms: &'static Alarms,
+    vacant_equals_zero: Answer<bool>,
+    vacant_orders_as_zero: Answer<bool>,
+    vacant_adds_as_zero: Answer<bool>,
+    mod_rounds: Answer<bool>,
+    mod_sign_of_dividend: Answer<bool>,
+    bits_round: Answer<bool>,
+    round_half_away: Answer<bool>,
+    fix_toward_zero: Answer<bool>,
+    atan2_full_turn: Answer<bool>,
+    asin_full_turn: Answer<bool>,
+    divide_by_zero: Answer<bool>,
+    root_of_negative: Answer<bool>,
+    tangent_by_quotient: bool,
+}
+
+impl Numeric {
+    /// The arithmetic of a control; `digits` in place of its own where given.
+    pub fn new(control: &Control, digits: Option<u32>, alarms: &'static Alarms) -> Self {
+        let short = control.numbers().arithmetic == "decimal8";
+        let digits = digits.or(short.then_some(8)).map(|digits| digits.clamp(1, 17) as i32);
+        let alarm = |value: &str| (value == "alarm").then_some(true);
+        Self {
+            digits,
+            largest: if short { 1e47 } else { f64::MAX },
+            smallest: if short { 1e-29 } else { 0.0 },
+            alarms,
+            vacant_equals_zero: yes(control, "vacant.eq.zero", false),
+            vacant_orders_as_zero: yes(control, "vacant.compares.as.zero", true),
+            vacant_adds_as_zero: yes(control, "vacant.arithmetic.zero", true),
+            mod_rounds: yes(control, "mod.rounds.operands", true),
+            mod_sign_of_dividend: Answer::new(control, "mod.sign", is("dividend", "divisor"), true),
+            bits_round: Answer::new(control, "bits.of.fraction", is("round", "truncate"), true),
+            round_half_away: yes(control, "round.half.away", true),
+            fix_toward_zero: yes(control, "fix.toward.zero", true),
+            atan2_full_turn: Answer::new(control, "atan2.range", is("0..360", "-180..180"), false),
+            asin_full_turn: Answer::new(control, "asin.range", is("270..90", "-90..90"), false),
+            divide_by_zero: Answer::new(control, "divide.by.zero", alarm, true),
+            root_of_negative: Answer::new(control, "sqrt.of.negative", alarm, true),
+            tangent_by_quotient: short,
+        }
+    }
+
+    /// A result as the control keeps it.
+    pub fn keep(&self, value: f64) -> Result<f64, Stop> {
+        if value.is_nan() || value.abs() > self.largest {
+            return Err(Stop::alarm(self.alarms.overflow, "the result is too large"));
+        }
+        if value.abs() < self.smallest {
+            return Ok(0.0);
+        }
+        let Some(digits) = self.digits else { return Ok(value) };
+        if value == 0.0 {
+            return Ok(value);
+        }
+        // Through decimal text, so that every value kept is the nearest double to its digits.
+        let places = usize::try_from(digits - 1).unwrap_or(0);
+        Ok(format!("{value:.places$e}").parse().unwrap_or(value))
+    }
+
+    /// An operand of arithmetic.
+    pub fn number(&self, value: Value, trace: &mut Trace) -> f64 {
+        value.unwrap_or_else(|| {
+            self.vacant_adds_as_zero.ask(trace);
+            0.0
+        })
+    }
+
+    /// Two operands joined.
+    pub fn binary(&self, op: BinaryOp, a: Value, b: Value, trace: &mut Trace) -> Result<f64, Stop> {
+        use BinaryOp::*;
+        let truth = |yes: bool| Ok(f64::from(u8::from(yes)));
+        match op {
+            Equal => return truth(self.equal(a, b, trace)),
+            NotEqual => return truth(!self.equal(a, b, trace)),
+            Less | LessEqual | Greater | GreaterEqual => {
+                if a.is_none() || b.is_none() {
+                    self.vacant_orders_as_zero.ask(trace);
+                }
+                let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
+                return truth(match op {
+                    Less => a < b,
+                    LessEqual => a <= b,
+                    Greater => a > b,
+                    _ => a >= b,
+                });
+            }
+            _ => {}
+        }
+        let (a, b) = (self.number(a, trace), self.number(b, trace));
+        let result = match op {
+            Add => a + b,
+            Subtract => a - b,
+            Multiply => a * b,
+            Divide if b == 0.0 => {
+                self.divide_by_zero.ask(trace);
+                return Err(Stop::alarm(self.alarms.division, "division by zero"));
+            }
+            Divide => a / b,
+            Modulo => self.modulo(a, b, trace)?,
+            _ => self.bits(op, a, b, trace),
+        };
+        self.keep(result)
+    }
+
+    fn equal(&self, a: Value, b: Value, trace: &mut Trace) -> bool {
+        if a.is_some() == b.is_some() {
+            return a == b;
+        }
+        // A vacant one against a number: it matters what it counts as where that is zero.
+        let other = a.or(b).unwrap_or(0.0);
+        other == 0.0 && self.vacant_equals_zero.ask(trace)
+    }
+
+    fn modulo(&self, a: f64, b: f64, trace: &mut Trace) -> Result<f64, Stop> {
+        let fractions = a.fract() != 0.0 || b.fract() != 0.0;
+        let rounds = if fractions { self.mod_rounds.ask(trace) } else { true };
+        let (a, b) = if rounds { (a.round(), b.round()) } else { (a, b) };
+        if b == 0.0 {
+            return Err(Stop::alarm(self.alarms.division, "division by zero"));
+        }
+        if a < 0.0 || b < 0.0 {
+            self.mod_sign_of_dividend.ask(trace);
+        }
+        Ok(a % b)
+    }
+
+    fn bits(&self, op: BinaryOp, a: f64, b: f64, trace: &mut Trace) -> f64 {
+        let round = if a.fract() == 0.0 && b.fract() == 0.0 { true } else { self.bits_round.ask(trace) };
+        let whole = |value: f64| (if round { value.round() } else { value.trunc() }) as i64 as i32;
+        let (a, b) = (whole(a), whole(b));
+        f64::from(match op {
+            BinaryOp::And => a & b,
+            BinaryOp::Or => a | b,
+            _ => a ^ b,
+        })
+    }
+
+    /// A function of one argument.
+    pub fn call(&self, function: Func, value: Value, trace: &mut Trace) -> Result<f64, Stop> {
+        let x = self.number(value, trace);
+        let domain = |inside: bool| {
+            if inside { Ok(()) } else { Err(Stop::alarm(self.alarms.domain, format!("{function} of {x}"))) }
+        };
+        let result = match function {
+            Func::Sin => sin_cos(x).0,
+            Func::Cos => sin_cos(x).1,
+            Func::Tan => {
+                let (sin, cos) = sin_cos(x);
+                if cos == 0.0 {
+                    trace.doubt("function:tan");
+                    return Err(Stop::alarm(self.alarms.domain, "tan of a right angle"));
+                }
+                if self.tangent_by_quotient { self.keep(sin)? / self.keep(cos)? } else { sin / cos }
+            }
+            Func::Asin => {
+                domain(x.abs() <= 1.0)?;
+                let angle = x.asin().to_degrees();
+                if angle < 0.0 && self.asin_full_turn.ask(trace) { angle + 360.0 } else { angle }
+            }
+            Func::Acos => {
+                domain(x.abs() <= 1.0)?;
+                x.acos().to_degrees()
+            }
+            Func::Atan => x.atan().to_degrees(),
+            Func::Sqrt => {
+                if x < 0.0 {
+                    self.root_of_negative.ask(trace);
+                }
+                domain(x >= 0.0)?;
+                x.sqrt()
+            }
+            Func::Abs => x.abs(),
+            Func::Round => self.round(x, trace),
+            Func::Fix => {
+                if x < 0.0 && x.fract() != 0.0 {
+                    self.fix_toward_zero.ask(trace);
+                }
+                x.trunc()
+            }
+            Func::Fup => {
+                if x < 0.0 {
+                    x.floor()
+                } else {
+                    x.ceil()
+                }
+            }
+            Func::Sign => {
+                if x < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                }
+            }
+            Func::Ln => {
+                domain(x > 0.0)?;
+                x.ln()
+            }
+            Func::Exp => {
+                let result = x.exp();
+                domain(result <= self.largest)?;
+                result
+            }
+            Func::Bin => digits_to(x, 10, 16),
+            Func::Bcd => digits_to(x, 16, 10),
+            _ => return Err(Stop::unnamed(format!("no rule for the function {function}"))),
+        };
+        self.keep(result)
+    }
+
+    /// The nearest whole number.
+    pub fn round(&self, x: f64, trace: &mut Trace) -> f64 {
+        if x < 0.0 && x.fract() == -0.5 {
+            self.round_half_away.ask(trace);
+        }
+        x.round()
+    }
+
+    /// A function of two arguments.
+    pub fn call2(&self, function: Func, a: Value, b: Value, trace: &mut Trace) -> Result<f64, Stop> {
+        let (a, b) = (self.number(a, trace), self.number(b, trace));
+        match function {
+            Func::Atan => {
+                // Zero over zero has no angle; no source says what a control makes of it.
+                if a == 0.0 && b == 0.0 {
+                    trace.doubt("function:atan/2");
+                    return Ok(0.0);
+                }
+                let angle = (a + 0.0).atan2(b + 0.0).to_degrees();
+                self.keep(if angle < 0.0 && self.atan2_full_turn.ask(trace) { angle + 360.0 } else { angle })
+            }
+            Func::Pow => {
+                let result = a.powf(b);
+                if result.is_nan() {
+                    return Err(Stop::alarm(self.alarms.domain, format!("{a} to the power of {b}")));
+                }
+                self.keep(result)
+            }
+            _ => Err(Stop::unnamed(format!("no rule for the function {function} of two"))),
+        }
+    }
+}
+
+/// Reads the digits of a whole number in one base as digits of another: BIN and BCD.
+fn digits_to(value: f64, write: u64, read: u64) -> f64 {
+    let (mut rest, mut place, mut out) = (value.abs().round() as u64, 1u64, 0u64);
+    while rest > 0 {
+        out = out.saturating_add((rest % read).saturating_mul(place));
+        place = place.saturating_mul(write);
+        rest /= read;
+    }
+    (out as f64).copysign(value)
+}
+
+/// Sine and cosine of degrees, exact at the quarters.
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        turn => turn.to_radians().sin_cos(),
+    }
+}

@@ -1,0 +1,34 @@
+//! Formatted output.
+
+use super::code::Part;
+use super::run::Runner;
+use crate::control::session::Halt;
+use crate::control::trace::Happening;
+use std::fmt::Write;
+
+impl Runner<'_> {
+    /// A line of output: text, and values with their places before and behind the point.
+    ///
+    /// Leading places are blank, the fraction is rounded and its zeros are printed; a value too
+    /// long for its places takes more.
+    pub fn output(&mut self, binary: bool, parts: &[Part]) -> Result<(), Halt> {
+        if binary {
+            self.session.trace.doubt("statement:output.binary");
+        }
+        let mut text = String::new();
+        for part in parts {
+            match part {
+                Part::Text(piece) => text.push_str(piece),
+                Part::Value { value, whole, fraction } => {
+                    let value = self.eval(value)?.unwrap_or(0.0);
+                    let places = (*fraction).min(20) as usize;
+                    let width = (*whole).min(20) as usize + if places > 0 { places + 1 } else { 0 };
+                    // Writing to a string does not fail.
+                    let _ = write!(text, "{value:>width$.places$}");
+                }
+            }
+        }
+        self.session.trace.push(Happening::Output { text });
+        Ok(())
+    }
+}

@@ -1,0 +1,102 @@
+//! The answers of the table that running rests on, read once.
+
+use super::numeric::{Answer, yes};
+use crate::dialect::{BareLength, Control};
+
+/// What a number of a dwell counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dwell {
+    Milliseconds,
+    Seconds,
+    Refused,
+}
+
+/// What becomes of a word whose brackets hold one vacant variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VacantBracket {
+    Dropped,
+    Zero,
+}
+
+/// The answers.
+#[derive(Debug)]
+pub struct Rules {
+    pub vacant_word_dropped: Answer<bool>,
+    pub vacant_bracket: Answer<VacantBracket>,
+    pub bracket_copies_vacancy: Answer<bool>,
+    pub word_rounds: bool,
+    pub integer_word_rounds: Answer<bool>,
+    pub round_in_address: bool,
+    pub goto_forward: Answer<bool>,
+    pub return_jumps_here: Answer<bool>,
+    pub main_restarts: Answer<bool>,
+    pub index_rounds: Answer<bool>,
+    pub dwell_bare: Answer<Dwell>,
+    pub dwell_point: Answer<Dwell>,
+    pub dwell_expression: Answer<Dwell>,
+    pub mixed_later_wins: Answer<bool>,
+    pub order_ijk: Answer<bool>,
+    pub repeat_reloads: Answer<bool>,
+    pub repeat_zero_none: Answer<bool>,
+    pub modal_block_calls: Answer<bool>,
+    pub alias_nested: Answer<bool>,
+    pub bare_length: BareLength,
+    pub bare_feed: BareLength,
+    pub numbers_unsure: bool,
+    pub increment_mm: f64,
+    pub increment_inch: f64,
+    pub increment_degrees: f64,
+    pub alarm_offset: f64,
+}
+
+impl Rules {
+    /// The answers of a control.
+    pub fn new(control: &Control) -> Self {
+        let word = |yes: &'static str, no: &'static str| {
+            move |value: &str| (value == yes || value == no).then_some(value == yes)
+        };
+        let dwell = |value: &str| match value {
+            "ms" => Some(Dwell::Milliseconds),
+            "seconds" => Some(Dwell::Seconds),
+            "error" => Some(Dwell::Refused),
+            _ => None,
+        };
+        let bracket = |value: &str| match value {
+            "dropped" => Some(VacantBracket::Dropped),
+            "zero" => Some(VacantBracket::Zero),
+            _ => None,
+        };
+        let numbers = control.numbers();
+        let offset = control.behaviour("alarm.offset").and_then(|row| row.value.parse().ok());
+        Self {
+            vacant_word_dropped: yes(control, "vacant.word.dropped", true),
+            vacant_bracket: Answer::new(control, "bracket.vacant.word", bracket, VacantBracket::Dropped),
+            bracket_copies_vacancy: yes(control, "bracket.copies.vacancy", true),
+            word_rounds: control.is("word.rounds.to.increment"),
+            integer_word_rounds: yes(control, "integer.word.rounds", true),
+            round_in_address: control
+                .behaviour("round.in.address")
+                .is_some_and(|row| row.value == "increment"),
+            goto_forward: yes(control, "goto.forward.first", true),
+            return_jumps_here: yes(control, "m99.p.jumps.here", false),
+            main_restarts: yes(control, "m99.main.restarts", true),
+            index_rounds: Answer::new(control, "index.of.fraction", word("round", "truncate"), true),
+            dwell_bare: Answer::new(control, "dwell.bare", dwell, Dwell::Milliseconds),
+            dwell_point: Answer::new(control, "dwell.point", dwell, Dwell::Seconds),
+            dwell_expression: Answer::new(control, "dwell.expression", dwell, Dwell::Milliseconds),
+            mixed_later_wins: yes(control, "arguments.mixed.later.wins", true),
+            order_ijk: yes(control, "arguments.order.ijk", true),
+            repeat_reloads: yes(control, "call.repeat.reloads.arguments", false),
+            repeat_zero_none: Answer::new(control, "repeat.zero", word("none", "once"), true),
+            modal_block_calls: yes(control, "call.modal.block.calls", false),
+            alias_nested: yes(control, "call.alias.nested", false),
+            bare_length: numbers.bare_length,
+            bare_feed: numbers.bare_feed,
+            numbers_unsure: !numbers.origin.confirmed,
+            increment_mm: numbers.increment_mm,
+            increment_inch: numbers.increment_inch,
+            increment_degrees: numbers.increment_degrees,
+            alarm_offset: offset.unwrap_or(0.0),
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! Runs programs, block by block.
+
+use super::calls::{Frame, ModalCall};
+use super::code::{Goto, Program, Step};
+use super::compile::Compiler;
+use super::memory::{Locals, Memory};
+use super::numeric::Numeric;
+use super::rules::Rules;
+use super::{Style, meaning};
+use crate::canon::{Op, Role};
+use crate::control::library::{LoadedFile, ProgramRef};
+use crate::control::machine::Command;
+use crate::control::outcome::{Run, Stop};
+use crate::control::scenario::Scenario;
+use crate::control::session::{Halt, Session};
+use crate::control::trace::{Happening, Place};
+use crate::dialect::{CodeMeaning, Control};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// A program and its number among those that ran.
+#[derive(Clone)]
+pub struct Loaded<'c> {
+    pub code: Rc<Program<'c>>,
+    pub number: u32,
+}
+
+/// Where the run goes on.
+pub enum Next {
+    /// With the next step of the block.
+    On,
+    /// With the next block.
+    Block,
+    /// With this block.
+    At(usize),
+}
+
+/// A control that runs.
+pub struct Runner<'c> {
+    pub session: Session<'c, 'c>,
+    pub style: &'static Style,
+    pub rules: Rules,
+    pub numeric: Numeric,
+    loaded: HashMap<usize, Loaded<'c>>,
+    /// Where the branches of the programs stand, and the ways each went: bit 0 for false, bit 1 for true.
+    pub branches: Vec<Place>,
+    ways: Vec<u8>,
+    pub memory: Memory,
+    pub frames: Vec<Frame<'c>>,
+    pub modal_calls: Vec<ModalCall>,
+    /// The command in the making, kept to be used again.
+    pub command: Command,
+    /// Codes of the modal groups as this control numbers them.
+    pub modal: [f64; 32],
+    /// Last values of addresses, A at 1.
+    pub addresses: [f64; 27],
+    /// The row of the drilling cycle in force.
+    pub cycle: Option<&'c CodeMeaning>,
+}
+
+/// Runs a program of a library.
+pub fn execute(
+    style: &'static Style,
+    library: &[LoadedFile<'_>],
+    main: ProgramRef,
+    control: &Control,
+    scenario: &Scenario,
+) -> Run {
+    let mut runner = Runner::new(style, library, control, scenario);
+    let halt = match runner.session.section_of(main) {
+        Ok(section) => runner.run(section),
+        Err(halt) => halt,
+    };
+    runner.finish(halt)
+}
+
+impl<'c> Runner<'c> {
+    fn new(
+        style: &'static Style,
+        library: &'c [LoadedFile<'c>],
+        control: &'c Control,
+        scenario: &'c Scenario,
+    ) -> Self {
+        let mut runner = Self {
+            session: Session::new(library, control, scenario),
+            style,
+            rules: Rules::new(control),
+            numeric: Numeric::new(control, scenario.digits, &style.alarms),
+            loaded: HashMap::new(),
+            branches: Vec::new(),
+            ways: Vec::new(),
+            memory: Memory::new(&scenario.variables),
+            frames: Vec::new(),
+            modal_calls: Vec::new(),
+            command: Command::default(),
+            modal: [0.0; 32],
+            addresses: [0.0; 27],
+            cycle: None,
+        };
+        runner.start_modes();
+        runner
+    }
+
+    fn run(&mut self, main: usize) -> Halt {
+        let program = self.load(main);
+        self.frames.push(Frame::main(program));
+        loop {
+            if let Err(halt) = self.block() {
+                return halt;
+            }
+        }
+    }
+
+    /// The prepared program of a section.
+    pub fn load(&mut self, section: usize) -> Loaded<'c> {
+        if let Some(loaded) = self.loaded.get(&section) {
+            return loaded.clone();
+        }
+        let number = self.session.program_number(section);
+        let found = self.session.sections.all().get(section);
+        let file = found.and_then(|found| self.session.library.get(found.file));
+        let code = match (found, file) {
+            (Some(found), Some(file)) => {
+                let (control, branches) = (self.session.control, &mut self.branches);
+                Compiler { control, style: self.style, file, program: number, branches }.program(found)
+            }
+            _ => Program::empty(),
+        };
+        self.ways.resize(self.branches.len(), 0);
+        let loaded = Loaded { code: Rc::new(code), number };
+        self.loaded.insert(section, loaded.clone());
+        loaded
+    }
+
+    /// Executes one block and goes to the next.
+    fn block(&mut self) -> Result<(), Halt> {
+        let Some(frame) = self.frames.last() else { return Err(Halt::Ended(Op::End)) };
+        let (program, at) = (Rc::clone(&frame.program.code), frame.at);
+        let number = frame.program.number;
+        let Some(block) = program.blocks.get(at) else {
+            return self.runs_out();
+        };
+        self.session.trace.at = Place { program: number, span: block.span };
+        self.session.count()?;
+        if let Some(sequence) = block.sequence {
+            self.addresses[14] = f64::from(sequence);
+        }
+        if !block.told.replace(true) {
+            block.facts.iter().for_each(|fact| self.session.trace.doubt(fact));
+        }
+        let next = self.steps_of(&block.steps, at)?;
+        if let Next::At(place) = next {
+            self.go(place);
+        } else if let Some(frame) = self.frames.last_mut().filter(|_| matches!(next, Next::On)) {
+            frame.at = at + 1;
+        }
+        Ok(())
+    }
+
+    /// Executes steps. [`Next::On`] where all are done, [`Next::Block`] where the frame knows where to go on.
+    fn steps_of(&mut self, steps: &[Step<'c>], at: usize) -> Result<Next, Halt> {
+        for step in steps {
+            match step {
+                Step::Assign { target, value } => {
+                    let value = self.eval(value)?;
+                    self.write(target, value)?;
+                }
+                Step::If { condition, branch, body } => {
+                    let holds = self.holds(condition, *branch)?;
+                    if holds {
+                        match self.steps_of(body, at)? {
+                            Next::On => {}
+                            other => return Ok(other),
+                        }
+                    }
+                }
+                Step::While { condition, tail } => {
+                    let holds = match condition {
+                        Some((condition, branch)) => self.holds(condition, *branch)?,
+                        None => true,
+                    };
+                    if !holds {
+                        return Ok(Next::At(tail + 1));
+                    }
+                }
+                Step::Repeat { head } => return Ok(Next::At(*head)),
+                Step::Goto { target, branch } => {
+                    let number = match target {
+                        Goto::Number(number) => *number,
+                        Goto::Computed(value) => self.jump_target(value, *branch)?,
+                    };
+                    return self.jump(number, at).map(Next::At);
+                }
+                Step::Words(words) => match self.words(words)? {
+                    Next::On => {}
+                    other => return Ok(other),
+                },
+                Step::Signal { alarm, value, text } => {
+                    let value = self.eval(value)?.unwrap_or(0.0);
+                    self.signal(*alarm, value, text)?;
+                }
+                Step::Skip(level) => {
+                    if self.session.skips(Some(*level)) {
+                        return Ok(Next::On);
+                    }
+                }
+                Step::Names { first, names } => {
+                    for (number, name) in (*first..).zip(names) {
+                        self.memory.names.insert(name.clone(), number);
+                    }
+                }
+                Step::Output { binary, parts } => self.output(*binary, parts)?,
+                Step::Alarm(stop) => return Err(Halt::Alarm(stop.clone())),
+                Step::Unreadable(text) => return Err(Halt::Error(text.clone())),
+            }
+        }
+        Ok(Next::On)
+    }
+
+    /// A condition, and the way it went.
+    fn holds(&mut self, condition: &super::code::Ex, branch: usize) -> Result<bool, Halt> {
+        let holds = self.eval(condition)?.unwrap_or(0.0) != 0.0;
+        if let Some(ways) = self.ways.get_mut(branch) {
+            *ways |= if holds { 2 } else { 1 };
+        }
+        Ok(holds)
+    }
+
+    fn signal(&mut self, alarm: bool, value: f64, text: &str) -> Result<(), Halt> {
+        if !alarm {
+            self.session.trace.push(Happening::Message { text: text.into() });
+            self.answer_in(text);
+            return Ok(());
+        }
+        let number = format!("{}", self.rules.alarm_offset + value);
+        Err(Halt::Alarm(Stop { number, program_number: Some(value), text: text.into() }))
+    }
+
+    /// An operator who reads the name of a variable in a message enters the next answer into it.
+    fn answer_in(&mut self, text: &str) {
+        let digits = text.split_once('#').map(|(_, rest)| rest);
+        let number =
+            digits.and_then(|rest| rest.split(|sign: char| !sign.is_ascii_digit()).next()?.parse().ok());
+        if let Some(number) = number.filter(|_| self.session.has_answer()) {
+            let answer = self.session.answer();
+            self.memory.set(number, Some(answer));
+        }
+    }
+
+    /// Behind the last block of a program.
+    fn runs_out(&mut self) -> Result<(), Halt> {
+        if self.frames.len() <= 1 {
+            return Err(Halt::Ended(Op::End));
+        }
+        self.session.trace.doubt("machine:program.runs.out");
+        self.give_back(None)
+    }
+
+    fn finish(mut self, halt: Halt) -> Run {
+        for (place, ways) in self.branches.iter().zip(&self.ways) {
+            for way in [0, 1] {
+                if ways & (1 << way) != 0 {
+                    self.session.branches.took(*place, way);
+                }
+            }
+        }
+        self.session.finish(halt, self.memory.dump())
+    }
+
+    /// Locals of the running level.
+    pub fn locals(&self) -> Locals {
+        self.memory.levels.last().copied().unwrap_or([None; 34])
+    }
+
+    /// The codes that are in force before a program says any.
+    fn start_modes(&mut self) {
+        use crate::canon::Group;
+        for group in Group::ALL {
+            let (Some(number), Some(op)) = (group.number(), self.session.machine.modal(*group)) else {
+                continue;
+            };
+            let mut operands = std::collections::BTreeMap::new();
+            if op == Op::SelectWork {
+                operands.insert(Role::WorkOffset, 1.0);
+            }
+            let head = self.session.control.code_for(op, &operands).and_then(CodeMeaning::head);
+            if let (Some(head), Some(place)) = (head, self.modal.get_mut(number as usize)) {
+                *place = head.number();
+            }
+        }
+    }
+
+    /// The meaning of words whose codes are computed or of which some are dropped.
+    pub fn meaning_now(
+        &self,
+        words: &[super::code::Word],
+        there: &[bool],
+        values: &[Option<f64>],
+    ) -> super::code::Meaning<'c> {
+        meaning::of(self.session.control, self.style, words, there, values)
+    }
+}
+
+impl Program<'_> {
+    fn empty() -> Self {
+        Self { blocks: Vec::new(), labels: HashMap::new(), loop_of: Vec::new(), loops: Vec::new() }
+    }
+}

@@ -1,0 +1,149 @@
+//! Reads and writes variables, those of the machine included.
+
+use super::code::{System, Var};
+use super::expressions::numbered;
+use super::numeric::Value;
+use super::run::Runner;
+use crate::canon::{Group, Sys};
+use crate::control::outcome::Stop;
+use crate::control::session::Halt;
+use crate::control::trace::Happening;
+
+impl Runner<'_> {
+    /// The value of a variable.
+    pub fn read(&mut self, var: &Var) -> Result<Value, Halt> {
+        match var {
+            Var::Local(number) => Ok(self.memory.local(*number)),
+            Var::Shared(number) => Ok(self.memory.get(*number)),
+            Var::System(system) => self.read_system(system),
+            Var::Bit(system, bit) => {
+                let value = self.read_system(system)?.unwrap_or(0.0).abs() as u64;
+                Ok(Some(value.checked_shr(*bit).map_or(0.0, |rest| f64::from((rest & 1) as u8))))
+            }
+            Var::Named(name) => {
+                let var = self.named(name)?;
+                self.read(&var)
+            }
+            Var::Computed(index) => {
+                let number = self.index(index)?;
+                let var = self.found(number);
+                self.read(&var)
+            }
+            Var::Family(state, fixed, index) => {
+                let mut subscripts = fixed.clone();
+                subscripts.push(self.index(index)?);
+                let value = self.session.machine.read(*state, &subscripts, &mut self.session.trace);
+                value.map(Some).ok_or_else(|| self.no_variable(0))
+            }
+            Var::Missing(number) => Err(self.no_variable(*number)),
+        }
+    }
+
+    /// Gives a variable a value.
+    pub fn write(&mut self, var: &Var, value: Value) -> Result<(), Halt> {
+        match var {
+            Var::Local(number) => self.memory.set_local(*number, value),
+            Var::Shared(number) => self.write_shared(*number, value),
+            Var::System(system) => return self.write_system(system, value),
+            Var::Named(name) => {
+                let var = self.named(name)?;
+                return self.write(&var, value);
+            }
+            Var::Computed(index) => {
+                let number = self.index(index)?;
+                let var = self.found(number);
+                return self.write(&var, value);
+            }
+            Var::Family(state, fixed, index) => {
+                let mut subscripts = fixed.clone();
+                subscripts.push(self.index(index)?);
+                self.session.machine.write(
+                    *state,
+                    &subscripts,
+                    value.unwrap_or(0.0),
+                    &mut self.session.trace,
+                )?;
+            }
+            Var::Bit(system, _) => return Err(self.no_variable(system.number)),
+            Var::Missing(number) => return Err(self.no_variable(*number)),
+        }
+        Ok(())
+    }
+
+    fn write_shared(&mut self, number: u32, value: Value) {
+        self.memory.set(number, value);
+        if self.session.scenario.variable_events {
+            let name = format!("#{number}");
+            self.session.trace.push(Happening::Variable { name, value });
+        }
+    }
+
+    /// The variable with a computed number; what it rests on is noted now.
+    fn found(&mut self, number: u32) -> Var {
+        let var = numbered(self.session.control, number);
+        if let Var::System(system) = &var {
+            system.unsure.iter().for_each(|fact| self.session.trace.doubt(fact));
+        }
+        var
+    }
+
+    fn named(&mut self, name: &str) -> Result<Var, Halt> {
+        match self.memory.names.get(name) {
+            Some(number) => Ok(numbered(self.session.control, *number)),
+            None => {
+                let text = format!("no variable is named {name}");
+                Err(Halt::Alarm(Stop::alarm(self.style.alarms.no_variable, text)))
+            }
+        }
+    }
+
+    fn no_variable(&self, number: u32) -> Halt {
+        let text = format!("#{number} is not there, or cannot be read or written");
+        Halt::Alarm(Stop::alarm(self.style.alarms.no_variable, text))
+    }
+
+    fn read_system(&mut self, system: &System) -> Result<Value, Halt> {
+        if !system.readable {
+            return Err(self.no_variable(system.number));
+        }
+        let subscript = system.subscripts.last().copied().unwrap_or(0);
+        Ok(match system.state {
+            Sys::Empty => None,
+            Sys::Modal | Sys::ModalNow => {
+                if !Group::ALL.iter().any(|group| group.number() == Some(subscript)) {
+                    self.session.trace.doubt(&format!("system:#{}", system.number));
+                }
+                Some(self.modal.get(subscript as usize).copied().unwrap_or(0.0))
+            }
+            Sys::Address | Sys::AddressNow => {
+                Some(self.addresses.get(subscript as usize).copied().unwrap_or(0.0))
+            }
+            Sys::MainProgram => {
+                let name = self.session.main_name();
+                Some(name.trim_start_matches('O').parse().unwrap_or(0.0))
+            }
+            state => {
+                let value = self.session.machine.read(state, &system.subscripts, &mut self.session.trace);
+                Some(value.ok_or_else(|| self.no_variable(system.number))?)
+            }
+        })
+    }
+
+    fn write_system(&mut self, system: &System, value: Value) -> Result<(), Halt> {
+        if !system.writable {
+            return Err(self.no_variable(system.number));
+        }
+        let value = value.unwrap_or(0.0);
+        if matches!(system.state, Sys::Alarm | Sys::StopMessage) {
+            // Reached by a computed number, so that no text is known.
+            let number = format!("{}", self.rules.alarm_offset + value);
+            if system.state == Sys::StopMessage {
+                self.session.trace.push(Happening::Message { text: String::new() });
+                return Ok(());
+            }
+            return Err(Halt::Alarm(Stop { number, program_number: Some(value), text: String::new() }));
+        }
+        self.session.machine.write(system.state, &system.subscripts, value, &mut self.session.trace)?;
+        Ok(())
+    }
+}

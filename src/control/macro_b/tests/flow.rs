@@ -1,0 +1,176 @@
+//! Jumps, loops, calls and returns.
+
+use super::*;
+
+#[test]
+fn an_endless_loop_is_a_result() {
+    let control = Control::plain("fanuc").expect("the table loads");
+    let scenario = Scenario { steps: 5000, ..Scenario::default() };
+    for text in ["O1\nN1 GOTO1\n", "O1\nDO1\nEND1\n", "O1\nG4 P1\nM99\n", "O1\nM98 P1\n"] {
+        let run = run_on(&control, &[text], &scenario);
+        assert!(run.end == End::StepBudget || alarm(&run) == "PS0077", "{text}: {:?}", run.end);
+    }
+}
+
+#[test]
+fn sub_programs_share_locals_and_macros_do_not() {
+    let run = fanuc(
+        "O1\n#1=5\nM98 P2\n#101=#1\nG65 P3 A9.\n#102=#1\nM30\nO2\n#1=#1+1\nM99\nO3\n#103=#1\n#1=0\nM99\n",
+    );
+    let found = ["#101", "#102", "#103"].map(|name| value(&run, name));
+    assert_eq!(found, [Some(6.0), Some(6.0), Some(9.0)]);
+}
+
+#[test]
+fn repeats_run_in_all_so_often() {
+    let run =
+        fanuc("O1\nM98 P2 L3\nG65 P2 L2\nM98 P40003\nM30\nO2\n#101=#101+1\nM99\nO3\n#102=#102+1\nM99\n");
+    assert_eq!((value(&run, "#101"), value(&run, "#102")), (Some(5.0), Some(4.0)));
+    assert!(doubts(&run, "statement:call.repeat.digits"));
+}
+
+#[test]
+fn repeated_macros_of_haas_keep_what_they_left() {
+    let run = haas("O1\nG65 P2 L3 A1.\nM30\nO2\n#1=#1+1\n#101=#1\nM99\n");
+    assert_eq!(value(&run, "#101"), Some(4.0));
+}
+
+#[test]
+fn returns_to_a_number_go_to_the_caller_or_stay() {
+    let text = "O1\nM98 P2\n#101=1\nN5 #102=1\nM30\nO2\n#103=#103+1\nIF[#103 GT 1]GOTO9\nM99 P5\nN5 #104=1\nN9 M99\n";
+    let run = fanuc(text);
+    let found = |run: &Run| ["#101", "#102", "#104"].map(|name| value(run, name).is_some());
+    assert_eq!(found(&run), [false, true, false]);
+    let run = haas(text);
+    assert_eq!(found(&run), [true, true, true]);
+}
+
+#[test]
+fn local_calls_of_haas_return() {
+    let run = haas("O1\nM97 P100 L2\n#102=1\nM30\nN100 #101=#101+1\nM99\n");
+    assert_eq!((value(&run, "#101"), value(&run, "#102")), (Some(2.0), Some(1.0)));
+}
+
+#[test]
+fn a_skipped_block_is_passed_over_where_its_switch_is_on() {
+    let control = Control::plain("fanuc").expect("the table loads");
+    let text = "O1\n/#101=1\n/2#102=1\nG4 P1 / M3\nM30\n";
+    let with = |block_skip| run_on(&control, &[text], &Scenario { block_skip, ..Scenario::default() });
+    let spindle = |run: &Run| run.events.iter().any(|event| matches!(event.what, Happening::Spindle { .. }));
+    let run = with(0);
+    assert!(value(&run, "#101").is_some() && value(&run, "#102").is_some() && spindle(&run));
+    let run = with(1 << 1);
+    assert!(value(&run, "#101").is_none() && value(&run, "#102").is_some() && !spindle(&run));
+}
+
+#[test]
+fn alarms_and_messages_show_their_text() {
+    let run = fanuc("O1\n#3006=1(CHECK PART)\n#3000=101 (TOO SMALL)\n#101=1\n");
+    assert_eq!(value(&run, "#101"), None);
+    let End::Alarm { stop, .. } = &run.end else { panic!("{:?}", run.end) };
+    assert_eq!(
+        (stop.number.as_str(), stop.program_number, stop.text.as_str()),
+        ("3101", Some(101.0), "TOO SMALL")
+    );
+    assert!(run.events.iter().any(|event| event.what == Happening::Message { text: "CHECK PART".into() }));
+    assert_eq!(alarm(&haas("O1\n#3000=1\n")), "1001");
+}
+
+#[test]
+fn output_has_its_places() {
+    let run = haas("O1\n#1=1.5\n#2=-12.3456\nDPRNT[X#1[53]*Y#2[32]Z#1[40]]\nM30\n");
+    let text = run.events.iter().find_map(|event| match &event.what {
+        Happening::Output { text } => Some(text.as_str()),
+        _ => None,
+    });
+    // Five and three places round the point are nine characters, three and two are six.
+    assert_eq!(text, Some("X    1.500 Y-12.35Z   2"));
+}
+
+#[test]
+fn branches_tell_which_way_they_went() {
+    let run = fanuc("O1\n#1=1\nIF[#1 EQ 1]GOTO5\n#1=2\nN5 WHILE[#1 LT 3]DO1\n#1=#1+1\nEND1\nM30\n");
+    let ways: Vec<Vec<i64>> = run.branches.iter().map(|(_, ways)| ways.iter().copied().collect()).collect();
+    assert_eq!(ways, [vec![1], vec![0, 1]]);
+}
+
+#[test]
+fn state_is_read_where_the_tables_put_it() {
+    let control = Control::plain("fanuc").expect("the table loads");
+    let mut scenario = Scenario::default();
+    scenario.work_offsets.insert(2, [100.0, 20.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let text = "O1\nG21 G91 G55\nG90 G0 X1.5 Y2.\n#101=#4003\n#102=#5041\n#103=#5021\n#104=#5241\n#105=#4014\n#5242=7.5\n#106=#5242\nM30\n";
+    let run = run_on(&control, &[text], &scenario);
+    let found = ["#101", "#102", "#103", "#104", "#105", "#106"].map(|name| value(&run, name));
+    assert_eq!(found, [90.0, 1.5, 101.5, 100.0, 55.0, 7.5].map(Some));
+}
+
+#[test]
+fn any_bytes_run_to_some_end() {
+    let scenario = Scenario { steps: 2000, ..Scenario::default() };
+    let pieces = [
+        "O1",
+        "N1",
+        "N2",
+        "GOTO1",
+        "GOTO#1",
+        "#1=#1+1",
+        "#[#1]=2",
+        "IF[#1 LT 5]GOTO2",
+        "WHILE[#1 LT 3]DO1",
+        "END1",
+        "END2",
+        "DO2",
+        "G65P1A1.",
+        "G66P1",
+        "G67",
+        "M98P1",
+        "M99",
+        "M99P2",
+        "M97P1",
+        "G1X#1",
+        "G2X1.I1.",
+        "G2X1.R#1",
+        "G81Z-1.R1.L5",
+        "G83X1.Z-9.Q.001R1.",
+        "G#1",
+        "M#1",
+        "G10L2P1X#1",
+        "#5221=#1",
+        "#3001=0",
+        "DPRNT[#1[53]]",
+        "G68X0Y0R30.",
+        "G16",
+        "G31X1.",
+        "G28X0",
+        "G53X0",
+        "G52X1.",
+        "G92X1.",
+        "#1=SQRT[-1]",
+        "#1=1/#2",
+        "T#1M6",
+        "%",
+        "",
+        "/#1=2",
+        "[#1]GOTO2",
+        "G54.1P#1",
+        "#1=#[#1*1000000000]",
+        "G4P#1",
+        "#30057.21=1",
+        "#1=#30057.21",
+    ];
+    // A fixed sequence: the state of a small generator.
+    let mut seed = 0x2545_f491_u32;
+    let mut draw = |below: usize| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as usize % below
+    };
+    for name in ["fanuc", "haas"] {
+        let control = Control::plain(name).expect("the table loads");
+        for _ in 0..300 {
+            let text: Vec<&str> = (0..12).map(|_| pieces[draw(pieces.len())]).collect();
+            let run = run_on(&control, &[&text.join("\n")], &scenario);
+            assert!(run.steps <= 2001);
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The value of a word: decimal points, least increments, whole numbers, vacancy.
+
+use super::code::{Form, Meaning, Word};
+use super::eval::to_increment;
+use super::rules::{Dwell, VacantBracket};
+use super::run::Runner;
+use crate::canon::{Op, Role};
+use crate::control::outcome::Stop;
+use crate::control::session::Halt;
+use crate::dialect::{BareLength, CodeMeaning};
+
+/// A word's role, and the code that gives it where one does.
+pub type Known<'c> = Option<(Role, Option<&'c CodeMeaning>)>;
+
+impl<'c> Runner<'c> {
+    /// The role of a word: beside a code of the block, beside the drilling cycle in force, or by itself.
+    pub fn role_of(&self, meaning: &Meaning<'c>, at: usize, word: &Word) -> Known<'c> {
+        if let Some(Some((role, row))) = meaning.beside.get(at) {
+            return Some((*role, Some(row)));
+        }
+        let alone = || Some((meaning.alone.get(at).copied().flatten()?, None));
+        let Some(cycle) = self.cycle else { return alone() };
+        let ends = meaning.codes.iter().filter_map(|code| code.row).any(|row| {
+            row.op == Op::CycleOff
+                || (row.op.group() == crate::canon::Group::Motion)
+                || moves_by_itself(row.op)
+        });
+        if ends {
+            return alone();
+        }
+        self.session
+            .control
+            .role(word.letter, word.comma, Some(cycle))
+            .map(|role| (role, Some(cycle)))
+            .or_else(alone)
+    }
+
+    /// The value of a word in the units of the program; none where the word is dropped.
+    pub fn word_value(&mut self, word: &Word, known: Known<'_>) -> Result<Option<f64>, Halt> {
+        let role = known.map(|(role, _)| role);
+        if word.form.is_literal() {
+            let value = self.eval(&word.value)?.unwrap_or(0.0);
+            return self.literal(word, value, role).map(Some);
+        }
+        let increment = role.and_then(|role| self.increment_of(role));
+        let rounds = increment.filter(|_| self.rules.round_in_address);
+        let Some(value) = self.eval_in(&word.value, rounds)? else {
+            return Ok(None);
+        };
+        // A sign before a vacant variable leaves nothing to drop but a zero: the variable decides.
+        if word.form == Form::Wrapped && self.is_vacant(word)? {
+            return Ok(match self.rules.vacant_bracket.ask(&mut self.session.trace) {
+                VacantBracket::Dropped => None,
+                VacantBracket::Zero => Some(0.0),
+            });
+        }
+        Ok(Some(self.computed(value, role, increment)))
+    }
+
+    /// True where the one variable of a word is vacant.
+    fn is_vacant(&mut self, word: &Word) -> Result<bool, Halt> {
+        use super::code::Ex;
+        let mut inner = &word.value;
+        while let Ex::Group(next) | Ex::Negate(next) | Ex::Plus(next) = inner {
+            inner = next;
+        }
+        match inner {
+            Ex::Read(_) => Ok(self.eval(inner)?.is_none()),
+            _ => Ok(false),
+        }
+    }
+
+    /// The least increment that the values of a role have, in the units in force.
+    pub fn increment_of(&self, role: Role) -> Option<f64> {
+        if role.is_length() {
+            Some(self.length_increment())
+        } else if role.is_axis() || matches!(role, Role::Angle | Role::PolarAngle) {
+            Some(self.rules.increment_degrees)
+        } else {
+            None
+        }
+    }
+
+    fn literal(&mut self, word: &Word, value: f64, role: Option<Role>) -> Result<f64, Halt> {
+        let Some(role) = role else { return Ok(value) };
+        if matches!(role, Role::DwellMs | Role::CycleDwell | Role::DwellS) {
+            let answer = match word.form {
+                // Seconds are written with a point; without one they count thousandths.
+                Form::Point if role == Role::DwellS => return Ok(value),
+                Form::Point => self.rules.dwell_point.ask(&mut self.session.trace),
+                _ => self.rules.dwell_bare.ask(&mut self.session.trace),
+            };
+            return self.dwell(value, role, answer);
+        }
+        if value == 0.0 || word.form == Form::Point {
+            return Ok(value);
+        }
+        let (bare, increment) = match role {
+            Role::Feed => (self.rules.bare_feed, Some(self.length_increment())),
+            _ => (self.rules.bare_length, self.increment_of(role)),
+        };
+        let Some(increment) = increment else { return Ok(value) };
+        if self.rules.numbers_unsure || bare == BareLength::Unknown {
+            self.session.trace.doubt("numbers");
+        }
+        Ok(match bare {
+            BareLength::Increments => to_increment(value * increment, increment),
+            _ => value,
+        })
+    }
+
+    fn dwell(&mut self, value: f64, role: Role, answer: Dwell) -> Result<f64, Halt> {
+        let milliseconds = match answer {
+            Dwell::Milliseconds => value,
+            Dwell::Seconds => value * 1000.0,
+            Dwell::Refused => {
+                let stop = Stop::alarm(self.style.alarms.point, "a decimal point in the time of a dwell");
+                return Err(Halt::Alarm(stop));
+            }
+        };
+        Ok(if role == Role::DwellS { milliseconds / 1000.0 } else { milliseconds })
+    }
+
+    fn computed(&mut self, value: f64, role: Option<Role>, increment: Option<f64>) -> f64 {
+        match role {
+            Some(Role::DwellMs | Role::CycleDwell) => {
+                match self.rules.dwell_expression.ask(&mut self.session.trace) {
+                    Dwell::Seconds => value * 1000.0,
+                    _ => value,
+                }
+            }
+            Some(role) if role.is_integer() && value.fract() != 0.0 => {
+                if self.rules.integer_word_rounds.ask(&mut self.session.trace) {
+                    value.round()
+                } else {
+                    value
+                }
+            }
+            _ => match increment {
+                Some(increment) if self.rules.word_rounds => to_increment(value, increment),
+                _ => value,
+            },
+        }
+    }
+}
+
+/// Codes whose words are their own though a cycle is in force.
+fn moves_by_itself(op: Op) -> bool {
+    use Op::*;
+    matches!(op, Dwell | ReferenceReturn | Reference2 | ReferenceFrom | WriteWork | LocalShift | SetPosition)
+        || matches!(op, WriteLength | WriteLengthWear | WriteRadius | WriteRadiusWear | WriteOffset | Probe)
+}

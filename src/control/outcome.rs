@@ -1,0 +1,104 @@
+//! What a run amounts to.
+
+use super::trace::{Event, Place, Program};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A finished run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Run {
+    /// What happened, in order.
+    pub events: Vec<Event>,
+    /// The programs that ran, by the number that [`Place::program`] holds.
+    pub programs: Vec<Program>,
+    /// Final values of the variables that are not vacant, by the dialect's own names: `#100`, `V1`, `R3`.
+    pub variables: BTreeMap<String, f64>,
+    /// How it ended.
+    pub end: End,
+    /// Blocks that were executed.
+    pub steps: u64,
+    /// Which branching blocks went which way.
+    pub branches: Branches,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "end", rename_all = "snake_case")]
+pub enum End {
+    /// By its end code, or behind its last block.
+    Ended,
+    /// At an alarm; the last event says which.
+    Alarm {
+        /// The block that raised it.
+        at: Place,
+        /// What the control shows.
+        #[serde(flatten)]
+        stop: Stop,
+    },
+    /// The scenario's number of blocks or events was used up: as good as endless.
+    StepBudget,
+    /// The scenario's time was used up.
+    TimeBudget,
+    /// It could not be run: a program is not there, a block cannot be read.
+    Error {
+        /// Where.
+        at: Place,
+        /// Why.
+        text: String,
+    },
+}
+
+/// Why the control stops with an alarm.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stop {
+    /// The alarm's name on the control: `PS0112`, `3001`; empty where no source names it.
+    pub number: String,
+    /// The number that the program gave it, where it is the program's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program_number: Option<f64>,
+    /// What is the matter, or the program's own message.
+    pub text: String,
+}
+
+impl Stop {
+    /// An alarm of the control itself.
+    pub fn alarm(number: &str, text: impl Into<String>) -> Self {
+        Self { number: number.into(), program_number: None, text: text.into() }
+    }
+
+    /// An alarm that the sources do not name.
+    pub fn unnamed(text: impl Into<String>) -> Self {
+        Self::alarm("", text)
+    }
+}
+
+/// A block that chose between ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Branch {
+    /// The condition or computed target.
+    pub at: Place,
+}
+
+/// The ways that each branch took: 0 for false and 1 for true, or the number it computed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Branches(BTreeMap<Place, BTreeSet<i64>>);
+
+impl Branches {
+    /// Notes a way. A branch with very many ways (a computed jump) keeps the first hundred.
+    pub fn took(&mut self, at: Place, way: i64) {
+        let ways = self.0.entry(at).or_default();
+        if ways.len() < 100 {
+            ways.insert(way);
+        }
+    }
+
+    /// The branches and their ways, in the order of the source.
+    pub fn iter(&self) -> impl Iterator<Item = (Branch, &BTreeSet<i64>)> {
+        self.0.iter().map(|(at, ways)| (Branch { at: *at }, ways))
+    }
+
+    /// The ways that the branch at a place took.
+    pub fn ways(&self, at: Place) -> Option<&BTreeSet<i64>> {
+        self.0.get(&at)
+    }
+}

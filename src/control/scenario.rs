@@ -1,0 +1,137 @@
+//! The circumstances of a run: all that a program meets from outside.
+
+use crate::canon::Sys;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How many axes a position has: X Y Z A B C U V W E.
+pub const AXES: usize = 10;
+
+/// A position: one value an axis in the common order, millimetres, or degrees for A, B and C.
+pub type Axes = [f64; AXES];
+
+/// The circumstances of a run. [`Scenario::default`] is a machine at its reference position
+/// with all offsets zero, no variable set, and a probe that never touches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scenario {
+    /// Start values of variables, by the dialect's own names: `#100`, `V1`, `R3`. Absent ones are
+    /// as after power-on.
+    pub variables: BTreeMap<String, f64>,
+    /// True where the program runs as one that was called: its return ends the run.
+    pub called: bool,
+    /// True for inch, false for metric at the start; none for what the profile says.
+    pub inch: Option<bool>,
+    /// Machine position at the start.
+    pub start: Axes,
+    /// Work offsets, by common number: 1 to 6, 101 and up.
+    pub work_offsets: BTreeMap<u32, Axes>,
+    /// Shift of all work offsets.
+    pub external_shift: Axes,
+    /// The tool table: offset values by number.
+    pub tools: BTreeMap<u32, Tool>,
+    /// The tool in the spindle at the start.
+    pub tool: u32,
+    /// The first and second reference position, machine coordinates.
+    pub references: [Axes; 2],
+    /// What each probe move meets, in order; behind the last one all miss.
+    pub probes: Vec<Probe>,
+    /// What the operator answers, in order; behind the last one 0. A stop whose message names a variable
+    /// (`#100 DEPTH`) takes an answer too, into that variable, while there are any.
+    pub answers: Vec<f64>,
+    /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.
+    pub state: Vec<StateValue>,
+    /// Date, as yyyymmdd.
+    pub date: f64,
+    /// Time of day, as hhmmss.
+    pub time: f64,
+    /// By how much a timer moves on each time it is read, milliseconds, over and above the
+    /// time that dwells and feed moves take.
+    pub tick_ms: f64,
+    /// Block-skip switches that are on: bit n for `/n`, `/` alone is bit 1.
+    pub block_skip: u32,
+    /// True where an optional stop stops.
+    pub optional_stop: bool,
+    /// Distance from the last depth at which a peck begins, and by which a chip break goes back, millimetres.
+    pub peck_clearance: f64,
+    /// True where writes of variables that outlive the program stand in the trace.
+    pub variable_events: bool,
+    /// Significant decimal digits that arithmetic keeps in place of the control's own, to find
+    /// programs that depend on the last digit.
+    pub digits: Option<u32>,
+    /// Most blocks that are executed.
+    pub steps: u64,
+    /// Most events that are recorded.
+    pub events: usize,
+    /// Most time, milliseconds; none for no bound.
+    pub milliseconds: Option<u64>,
+}
+
+/// A row of the tool table, millimetres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tool {
+    /// Length.
+    pub length: f64,
+    /// Wear of the length.
+    pub length_wear: f64,
+    /// Radius.
+    pub radius: f64,
+    /// Wear of the radius.
+    pub radius_wear: f64,
+}
+
+/// What a probe move meets.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Probe {
+    /// Nothing: the move goes to its end.
+    Miss,
+    /// A surface at this part of the way, 0 to 1.
+    Part(f64),
+    /// A surface: the move ends at this machine position.
+    At(Axes),
+}
+
+/// A value of machine state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StateValue {
+    /// Which quantity.
+    pub state: Sys,
+    /// Its subscripts.
+    #[serde(default)]
+    pub subscripts: Vec<u32>,
+    /// Its value, in the units of the program where it is a length.
+    pub value: f64,
+}
+
+impl Default for Scenario {
+    fn default() -> Self {
+        Self {
+            variables: BTreeMap::new(),
+            called: false,
+            inch: None,
+            start: [0.0; AXES],
+            work_offsets: BTreeMap::new(),
+            external_shift: [0.0; AXES],
+            tools: BTreeMap::new(),
+            tool: 0,
+            references: [[0.0; AXES]; 2],
+            probes: Vec::new(),
+            answers: Vec::new(),
+            state: Vec::new(),
+            date: 20_260_101.0,
+            time: 120_000.0,
+            tick_ms: 1.0,
+            block_skip: 0,
+            optional_stop: true,
+            peck_clearance: 1.0,
+            variable_events: false,
+            digits: None,
+            steps: 1_000_000,
+            events: 1_000_000,
+            milliseconds: Some(10_000),
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! A run in the making: what an interpreter keeps besides its own variables.
+
+use super::library::{LoadedFile, ProgramRef, Sections};
+use super::machine::Machine;
+use super::outcome::{Branches, End, Run, Stop};
+use super::scenario::Scenario;
+use super::trace::{Happening, Place, Program, Trace};
+use crate::canon::Op;
+use crate::diag::Severity;
+use crate::dialect::Control;
+use crate::syntax::{Block, ItemKind, ProgramName};
+use crate::text::Span;
+use std::collections::{BTreeMap, HashMap};
+use std::time::{Duration, Instant};
+
+/// How many blocks pass between two looks at the clock.
+const CLOCK_EVERY: u64 = 1024;
+
+/// Why a run comes to its end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Halt {
+    /// By an end code, or behind the last block.
+    Ended(Op),
+    /// An alarm.
+    Alarm(Stop),
+    /// So many blocks were run as the scenario allows.
+    Steps,
+    /// So much time passed as the scenario allows.
+    Time,
+    /// What the program asks for is not there.
+    Error(String),
+}
+
+impl From<Stop> for Halt {
+    fn from(stop: Stop) -> Self {
+        Halt::Alarm(stop)
+    }
+}
+
+/// What a step of an interpreter gives, unless the run ends in it.
+pub type Flow<T> = Result<T, Halt>;
+
+/// The state that all interpreters have in common.
+#[derive(Debug)]
+pub struct Session<'r, 'f> {
+    /// The control.
+    pub control: &'r Control,
+    /// What the program meets.
+    pub scenario: &'r Scenario,
+    /// The files.
+    pub library: &'r [LoadedFile<'f>],
+    /// The programs in them.
+    pub sections: Sections,
+    /// The machine.
+    pub machine: Machine,
+    /// What happened so far.
+    pub trace: Trace,
+    /// The ways taken so far.
+    pub branches: Branches,
+    programs: Vec<Program>,
+    numbers: HashMap<usize, u32>,
+    answered: usize,
+    steps: u64,
+    deadline: Option<Instant>,
+}
+
+impl<'r, 'f> Session<'r, 'f> {
+    /// A run that has not begun.
+    pub fn new(library: &'r [LoadedFile<'f>], control: &'r Control, scenario: &'r Scenario) -> Self {
+        let deadline =
+            scenario.milliseconds.and_then(|ms| Instant::now().checked_add(Duration::from_millis(ms)));
+        Self {
+            control,
+            scenario,
+            library,
+            sections: Sections::new(library),
+            machine: Machine::new(control, scenario),
+            trace: Trace::new(scenario.events),
+            branches: Branches::default(),
+            programs: Vec::new(),
+            numbers: HashMap::new(),
+            answered: 0,
+            steps: 0,
+            deadline,
+        }
+    }
+
+    /// The section of a program; an error where the library has none there.
+    pub fn section_of(&self, program: ProgramRef) -> Flow<usize> {
+        self.sections.place(program).ok_or_else(|| Halt::Error("there is no such program".into()))
+    }
+
+    /// A block of a section, counted from the section's start; none behind its end.
+    pub fn block(&self, section: usize, index: usize) -> Option<&'r Block> {
+        let section = self.sections.all().get(section)?;
+        let at = section.blocks.start.checked_add(index).filter(|at| *at < section.blocks.end)?;
+        self.library.get(section.file)?.parsed.blocks.get(at)
+    }
+
+    /// The bytes of the file that holds a section.
+    pub fn source(&self, section: usize) -> &'r [u8] {
+        let file = self.sections.all().get(section).and_then(|section| self.library.get(section.file));
+        file.map_or(&[], |file| file.parsed.source)
+    }
+
+    /// The number that places give a section; it is listed from its first block on.
+    pub fn program_number(&mut self, section: usize) -> u32 {
+        if let Some(number) = self.numbers.get(&section) {
+            return *number;
+        }
+        let found = self.sections.all().get(section);
+        let name = match found.and_then(|section| section.name.as_ref()) {
+            Some(ProgramName::Number(number)) => format!("O{number}"),
+            Some(ProgramName::Name(name)) => name.clone(),
+            None => String::new(),
+        };
+        let file = found.map_or(0, |section| section.file);
+        let number = self.programs.len() as u32;
+        self.programs.push(Program { file, name });
+        self.numbers.insert(section, number);
+        number
+    }
+
+    /// The name of the first program that ran: `O1234`, or nothing.
+    pub fn main_name(&self) -> &str {
+        self.programs.first().map_or("", |program| program.name.as_str())
+    }
+
+    /// Counts a block that is about to run, and makes it the one that events belong to.
+    pub fn enter_block(&mut self, section: usize, span: Span) -> Flow<()> {
+        let program = self.program_number(section);
+        self.trace.at = Place { program, span };
+        self.count()
+    }
+
+    /// Counts one more piece of work.
+    pub fn count(&mut self) -> Flow<()> {
+        if self.steps >= self.scenario.steps || self.trace.is_full() {
+            return Err(Halt::Steps);
+        }
+        self.steps += 1;
+        let late = self.steps.is_multiple_of(CLOCK_EVERY)
+            && self.deadline.is_some_and(|deadline| Instant::now() > deadline);
+        if late { Err(Halt::Time) } else { Ok(()) }
+    }
+
+    /// Refuses a block that the control could not read either.
+    pub fn refuse_faulty(&self, block: &Block) -> Flow<()> {
+        let wrong = block.errors.iter().find(|error| error.code.severity() == Severity::Error);
+        if let Some(error) = wrong {
+            return Err(Halt::Error(error.message.clone()));
+        }
+        match block.items.iter().any(|item| item.kind == ItemKind::Unparsed) {
+            true => Err(Halt::Error("the block cannot be read".into())),
+            false => Ok(()),
+        }
+    }
+
+    /// True where the switch of a block skip is on.
+    pub fn skips(&self, number: Option<u8>) -> bool {
+        let bit = u32::from(number.unwrap_or(1));
+        self.scenario.block_skip.checked_shr(bit).is_some_and(|bits| bits & 1 == 1)
+    }
+
+    /// True while the operator still has an answer.
+    pub fn has_answer(&self) -> bool {
+        self.answered < self.scenario.answers.len()
+    }
+
+    /// The operator's next answer.
+    pub fn answer(&mut self) -> f64 {
+        let answer = self.scenario.answers.get(self.answered).copied().unwrap_or(0.0);
+        self.answered += 1;
+        self.trace.push(Happening::Asked { answer });
+        answer
+    }
+
+    /// A result of arithmetic, with the digits that the scenario leaves it.
+    pub fn kept(&self, value: f64) -> f64 {
+        match self.scenario.digits {
+            Some(digits) if value.is_finite() => {
+                let places = digits.clamp(1, 17) as usize - 1;
+                format!("{value:.places$e}").parse().unwrap_or(value)
+            }
+            _ => value,
+        }
+    }
+
+    /// Notes an answer to a question of behaviour that mattered, where nobody confirmed it.
+    pub fn rest_on(&mut self, behaviour: &str) {
+        match self.control.behaviour(behaviour) {
+            Some(row) if row.origin.confirmed => {}
+            _ => self.trace.doubt(&format!("behaviour:{behaviour}")),
+        }
+    }
+
+    /// The way that a branching block takes.
+    pub fn branch(&mut self, way: i64) {
+        self.branches.took(self.trace.at, way);
+    }
+
+    /// The finished run.
+    pub fn finish(mut self, halt: Halt, variables: BTreeMap<String, f64>) -> Run {
+        let at = self.trace.at;
+        let end = match halt {
+            Halt::Ended(by) => {
+                self.machine.end(by, &mut self.trace);
+                End::Ended
+            }
+            Halt::Alarm(stop) => {
+                self.trace.alarm(&stop);
+                End::Alarm { at, stop }
+            }
+            Halt::Steps => End::StepBudget,
+            Halt::Time => End::TimeBudget,
+            Halt::Error(text) => End::Error { at, text },
+        };
+        Run {
+            events: self.trace.events,
+            programs: self.programs,
+            variables,
+            end,
+            steps: self.steps,
+            branches: self.branches,
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What happened on the machine: canonical events, the same for every control.
+//!
+//! Positions are machine coordinates in millimetres (degrees for A, B and C), feeds millimetres
+//! per minute or per turn, times seconds, whatever the units of the program. `docs/trace.md`
+//! describes the JSON form.
+
+mod happening;
+
+pub use happening::*;
+
+use super::outcome::Stop;
+use crate::dialect::Row;
+use crate::text::Span;
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+use std::collections::HashSet;
+
+/// One event and the block that caused it.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Event {
+    /// The block.
+    pub at: Place,
+    /// What happened.
+    #[serde(flatten)]
+    pub what: Happening,
+}
+
+/// A place of a library: a program and bytes of its file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Place {
+    /// The program, counted in [`super::Run::programs`].
+    pub program: u32,
+    /// The bytes in the program's file.
+    pub span: Span,
+}
+
+impl Serialize for Place {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut place = serializer.serialize_struct("Place", 3)?;
+        place.serialize_field("program", &self.program)?;
+        place.serialize_field("start", &self.span.start)?;
+        place.serialize_field("end", &self.span.end)?;
+        place.end()
+    }
+}
+
+/// A program that ran.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Program {
+    /// Its file, counted in the library.
+    pub file: usize,
+    /// Its name: `O1234`; empty where it has none.
+    pub name: String,
+}
+
+/// The events of a run in the making.
+#[derive(Debug)]
+pub struct Trace {
+    /// The events so far.
+    pub events: Vec<Event>,
+    /// The block that events belong to.
+    pub at: Place,
+    limit: usize,
+    full: bool,
+    doubted: HashSet<(String, Place)>,
+}
+
+impl Trace {
+    /// An empty trace that keeps at most so many events.
+    pub fn new(limit: usize) -> Self {
+        Self { events: Vec::new(), at: Place::default(), limit, full: false, doubted: HashSet::new() }
+    }
+
+    /// Records an event of the present block.
+    pub fn push(&mut self, what: Happening) {
+        if self.events.len() < self.limit {
+            self.events.push(Event { at: self.at, what });
+        } else {
+            self.full = true;
+        }
+    }
+
+    /// True when an event found no room: the run must end.
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
+    /// Records that a fact mattered that nobody confirmed; once for each block.
+    pub fn doubt(&mut self, fact: &str) {
+        if !self.full && self.doubted.insert((fact.into(), self.at)) {
+            self.push(Happening::Unsure { fact: fact.into() });
+        }
+    }
+
+    /// Records a row of a table that mattered, where no source confirms it.
+    pub fn rest_on(&mut self, row: &impl Row) {
+        if !row.origin().confirmed {
+            self.doubt(&row.fact());
+        }
+    }
+
+    /// Records an alarm.
+    pub fn alarm(&mut self, stop: &Stop) {
+        // The alarm is the one event that a full trace still takes.
+        self.events.push(Event { at: self.at, what: Happening::Alarm(stop.clone()) });
+    }
+}

@@ -1,0 +1,159 @@
+//! From the words of a block to a [`Command`], by the tables of the control.
+
+use super::machine::Command;
+use super::outcome::Stop;
+use super::trace::Trace;
+use crate::canon::{Group, Op, Role};
+use crate::dialect::{CodeMeaning, Control};
+use smallvec::SmallVec;
+
+/// A word whose value is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spoken {
+    /// Its letter.
+    pub letter: char,
+    /// Its value.
+    pub value: f64,
+}
+
+/// The codes whose meaning of a letter lasts. Whoever drives the machine drops a cycle that
+/// the machine has ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lasting<'c> {
+    /// The interpolation.
+    pub motion: Option<&'c CodeMeaning>,
+    /// The drilling cycle.
+    pub cycle: Option<&'c CodeMeaning>,
+}
+
+/// What a block's words say.
+#[derive(Debug, Default)]
+pub struct Read<'c> {
+    /// What the machine is told.
+    pub command: Command,
+    /// The codes that stand in the block, in order.
+    pub codes: SmallVec<[&'c CodeMeaning; 4]>,
+    /// Flow: calls, returns, ends, and what writes variables; the interpreter's.
+    pub flow: SmallVec<[Op; 2]>,
+}
+
+impl<'c> Read<'c> {
+    /// True where a flow operation stands in it.
+    pub fn flows(&self, op: Op) -> bool {
+        self.flow.contains(&op)
+    }
+
+    /// The codes that give letters their roles here, the block's own first.
+    pub fn rows<'s>(&'s self, lasting: &'s Lasting<'c>) -> impl Iterator<Item = &'c CodeMeaning> + 's {
+        let in_force = [lasting.cycle, lasting.motion].into_iter().flatten();
+        self.codes.iter().copied().chain(in_force)
+    }
+}
+
+/// Reads the words of a block. A code that the control does not have stops it.
+pub fn read<'c>(
+    control: &'c Control,
+    words: &[Spoken],
+    lasting: &mut Lasting<'c>,
+    trace: &mut Trace,
+) -> Result<Read<'c>, Stop> {
+    let block: SmallVec<[(char, Option<f64>); 12]> =
+        words.iter().map(|word| (word.letter, Some(word.value))).collect();
+    let mut read = Read::default();
+    for word in words.iter().filter(|word| matches!(word.letter, 'G' | 'M')) {
+        code(control, *word, &block, &mut read, trace)?;
+    }
+    doubt_distance(words, &read, trace);
+    for row in &read.codes {
+        match row.op.group() {
+            Group::Motion => lasting.motion = Some(*row),
+            Group::Cycle => lasting.cycle = row.op.is_cycle().then_some(*row),
+            _ => {}
+        }
+    }
+    for word in words.iter().filter(|word| !matches!(word.letter, 'G' | 'M')) {
+        value(control, *word, lasting, &mut read, trace);
+    }
+    Ok(read)
+}
+
+fn code<'c>(
+    control: &'c Control,
+    word: Spoken,
+    block: &[(char, Option<f64>)],
+    read: &mut Read<'c>,
+    trace: &mut Trace,
+) -> Result<(), Stop> {
+    let name = || format!("{}{}", word.letter, word.value);
+    if let Some(row) = control.code(word.letter, word.value, block) {
+        trace.rest_on(row);
+        read.codes.push(row);
+        if row.op.is_flow() || matches!(row.op, Op::WriteVariable | Op::ReadOffset) {
+            read.flow.push(row.op);
+            return Ok(());
+        }
+        read.command.ops.push(row.op);
+        read.command.words.extend(row.fixed.iter().map(|(role, value)| (*role, *value)));
+        if matches!(row.op, Op::Builder | Op::MachineSpecific) {
+            read.command.own_code = Some(name());
+        }
+        return Ok(());
+    }
+    if word.letter == 'M' || control.site_code(word.letter, word.value).is_some() {
+        // The tables list the codes of the manuals; builders add their own.
+        trace.doubt(&format!("machine:code.{}", name()));
+        read.command.ops.push(Op::Builder);
+        read.command.own_code = Some(name());
+        return Ok(());
+    }
+    Err(Stop::unnamed(format!("the control has no {}", name())))
+}
+
+/// Whether an absolute or incremental code counts for the words before it is not stated; it is
+/// taken to count for its whole block.
+fn doubt_distance(words: &[Spoken], read: &Read<'_>, trace: &mut Trace) {
+    let mut codes = read.codes.iter();
+    let mut axes = false;
+    for word in words {
+        match word.letter {
+            'G' | 'M' => {
+                let changes = codes.next().is_some_and(|row| row.op.group() == Group::Distance);
+                if changes && axes {
+                    trace.doubt("machine:distance.code.behind.words");
+                }
+            }
+            'X' | 'Y' | 'Z' => axes = true,
+            _ => {}
+        }
+    }
+}
+
+fn value<'c>(
+    control: &'c Control,
+    word: Spoken,
+    lasting: &Lasting<'c>,
+    read: &mut Read<'c>,
+    trace: &mut Trace,
+) {
+    let mut buffer = [0; 4];
+    let letter: &str = word.letter.encode_utf8(&mut buffer);
+    let row = read.rows(lasting).find(|row| row.words.contains_key(letter));
+    let beside = row.and_then(|row| row.words.get(letter)).copied();
+    let usual = control.word(word.letter, false);
+    let Some(role) = beside.or(usual.map(|usual| usual.role)) else {
+        trace.doubt("machine:word.without.meaning");
+        return;
+    };
+    if beside.is_none()
+        && let Some(usual) = usual
+    {
+        trace.rest_on(usual);
+        read.command.ops.extend(usual.op);
+    }
+    let mut value = control.canonical(row, role, word.value);
+    if role == Role::Speed && control.is("spindle.range.suffix") {
+        // The fraction picks the gear range.
+        value = value.trunc();
+    }
+    read.command.words.push((role, value));
+}

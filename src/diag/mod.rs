@@ -1,0 +1,51 @@
+//! Diagnostics: one catalogue, one code each, and the values that carry them.
+
+mod codes;
+
+pub use codes::{ALL, Code};
+
+use crate::text::Span;
+
+/// How grave a diagnostic is, and what it does to the outcome of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Worth knowing; the outcome stands.
+    Note,
+    /// A person must look at the place: the program is *converted for review*.
+    Review,
+    /// The program is *refused*.
+    Error,
+}
+
+/// One finding, at a place of one source file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Its code; severity, title and page come from the catalogue.
+    pub code: Code,
+    /// Where, in the file that it was found in.
+    pub span: Span,
+    /// What is the matter here, in one sentence.
+    pub message: String,
+    /// What to do about it here, where that is more than the catalogue says.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// A finding without a help text of its own.
+    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
+        Self { code, span, message: message.into(), help: None }
+    }
+
+    /// Adds what to do about it.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The severity of its code.
+    pub fn severity(&self) -> Severity {
+        self.code.severity()
+    }
+}

@@ -1,0 +1,308 @@
+//! What a table must not say: the same thing twice, a range backwards, two
+//! answers to one question.
+
+use super::reader::{Placed, Reader, closest};
+use super::{
+    Argument, Behaviour, CodeMeaning, Function, Limit, Operator, Row, Setting, Statement, SystemVariable,
+    VariableClass, WordMeaning, behaviours,
+};
+use std::collections::BTreeMap;
+
+/// The rows of a table with their places.
+pub(super) struct Tables {
+    pub limits: Vec<Placed<Limit>>,
+    pub operators: Vec<Placed<Operator>>,
+    pub functions: Vec<Placed<Function>>,
+    pub statements: Vec<Placed<Statement>>,
+    pub behaviours: Vec<Placed<Behaviour>>,
+    pub variables: Vec<Placed<VariableClass>>,
+    pub system: Vec<Placed<SystemVariable>>,
+    pub words: Vec<Placed<WordMeaning>>,
+    pub codes: Vec<Placed<CodeMeaning>>,
+    pub arguments: Vec<Placed<Argument>>,
+    pub settings: Vec<Placed<Setting>>,
+}
+
+/// Runs every check.
+pub(super) fn all(reader: &mut Reader, tables: &Tables) {
+    duplicates(reader, &tables.limits, |row| row.name.clone());
+    duplicates(reader, &tables.operators, |row| format!("{} {}", row.spelling, row.meaning));
+    duplicates(reader, &tables.functions, |row| format!("{}/{}", row.spelling, row.arguments));
+    duplicates(reader, &tables.statements, |row| row.name.clone());
+    duplicates(reader, &tables.behaviours, |row| row.name.clone());
+    duplicates(reader, &tables.arguments, |row| row.letter.to_string());
+    duplicates(reader, &tables.arguments, |row| format!("local {}", row.local));
+    duplicates(reader, &tables.settings, |row| row.name.clone());
+    duplicates(reader, &tables.words, |row| format!("{} {:?} {:?}", row.letter, row.machine, row.when));
+    operators(reader, &tables.operators);
+    names(reader, tables);
+    known_behaviours(reader, &tables.behaviours);
+    settings(reader, tables);
+    variables(reader, &tables.variables);
+    free_or_system(reader, tables);
+    super::check_system::check(reader, &tables.system);
+    super::check_codes::check(reader, &tables.codes);
+    conditions(reader, tables);
+    sources(reader, tables);
+}
+
+/// Reports two rows of one key.
+fn duplicates<T>(reader: &mut Reader, rows: &[Placed<T>], key: impl Fn(&T) -> String) {
+    let mut seen = BTreeMap::new();
+    for placed in rows {
+        let key = key(&placed.row);
+        if seen.insert(key.clone(), ()).is_some() {
+            reader.fault(placed.place.clone(), format!("'{key}' stands twice"), "keep one of the rows");
+        }
+    }
+}
+
+/// What an operator may mean.
+pub const MEANINGS: &[&str] = &[
+    "add", "subtract", "multiply", "divide", "modulo", "and.bits", "or.bits", "xor.bits", "and", "or", "xor",
+    "not", "negate", "eq", "ne", "lt", "le", "gt", "ge",
+];
+
+/// Statements that a control can have.
+const STATEMENTS: &[&str] = &[
+    "goto",
+    "goto.label",
+    "goto.computed",
+    "if.goto",
+    "if.then",
+    "if.then.words",
+    "if.bare",
+    "while",
+    "do.endless",
+    "branch",
+    "branch.computed",
+    "test",
+    "step",
+    "timer",
+    "table.transfer",
+    "assign.sign",
+    "call.macro",
+    "call.modal",
+    "call.program",
+    "call.local",
+    "call.cycle",
+    "call.repeat",
+    "call.repeat.digits",
+    "jump.input",
+    "return",
+    "return.to.sequence",
+    "start",
+    "output.formatted",
+    "output.binary",
+    "output.close",
+    "output.open",
+    "setvn",
+    "names.system",
+    "alarm",
+    "stop.message",
+    "print",
+    "print.serial",
+    "input",
+    "input.serial",
+    "clear",
+    "set",
+    "wait",
+    "index",
+    "indirect",
+    "indirect.assign",
+    "read.address",
+];
+
+/// Limits that a control can have.
+const LIMITS: &[&str] = &[
+    "brackets",
+    "do.depth",
+    "do.numbers",
+    "call.macro",
+    "call.subprogram",
+    "call.all",
+    "repeat",
+    "constant.digits",
+    "name.length",
+    "round.places",
+    "print.digits",
+    "operators",
+    "message",
+    "message.alarm",
+    "lookahead",
+];
+
+fn names(reader: &mut Reader, tables: &Tables) {
+    for placed in &tables.statements {
+        one_of(reader, placed, &placed.row.name, STATEMENTS);
+    }
+    for placed in &tables.limits {
+        one_of(reader, placed, &placed.row.name, LIMITS);
+    }
+}
+
+fn operators(reader: &mut Reader, rows: &[Placed<Operator>]) {
+    for placed in rows {
+        one_of(reader, placed, &placed.row.meaning, MEANINGS);
+    }
+}
+
+fn known_behaviours(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
+    for placed in rows {
+        let row = &placed.row;
+        match behaviours::find(&row.name) {
+            None => {
+                let near = closest(&row.name, behaviours::ALL.iter().map(|known| known.name));
+                let help = near.map_or("add it to src/dialect/behaviours.rs first".into(), |near| {
+                    format!("did you mean '{near}'?")
+                });
+                reader.fault(placed.place.clone(), format!("no behaviour is named '{}'", row.name), help);
+            }
+            Some(known) if !known.admits(&row.value) => {
+                let help = format!("it is one of {}", known.values.join(", "));
+                reader.fault(
+                    placed.place.clone(),
+                    format!("'{}' is no value of {}", row.value, row.name),
+                    help,
+                );
+            }
+            Some(_) => {}
+        }
+    }
+}
+
+fn one_of<T: Row>(reader: &mut Reader, placed: &Placed<T>, value: &str, known: &[&str]) {
+    if !known.contains(&value) {
+        let help = match closest(value, known.iter().copied()) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("it is one of {}", known.join(", ")),
+        };
+        reader.fault(placed.place.clone(), format!("unknown word '{value}'"), help);
+    }
+}
+
+/// Variables of one name do not overlap, and no range is backwards.
+fn variables(reader: &mut Reader, rows: &[Placed<VariableClass>]) {
+    const CLASSES: &[&str] = &["local", "common", "retained", "parametric", "letter"];
+    for (at, placed) in rows.iter().enumerate() {
+        let row = &placed.row;
+        one_of(reader, placed, &row.class, CLASSES);
+        if row.first > row.last {
+            let message = format!("the range {}..{} is backwards", row.first, row.last);
+            reader.fault(placed.place.clone(), message, "write the smaller number as 'first'");
+        }
+        // A letter variable (`VX`) has its letter's number, which is not that of `V24`.
+        let overlapped = rows.iter().take(at).map(|earlier| &earlier.row).find(|earlier| {
+            earlier.name == row.name
+                && (earlier.class == "letter") == (row.class == "letter")
+                && earlier.first <= row.last
+                && row.first <= earlier.last
+        });
+        if let Some(earlier) = overlapped {
+            let message = format!(
+                "{name}{}..{} overlaps {name}{}..{}",
+                row.first,
+                row.last,
+                earlier.first,
+                earlier.last,
+                name = row.name
+            );
+            reader.fault(placed.place.clone(), message, "give each variable one class");
+        }
+    }
+}
+
+/// A variable that programs may use freely is no system variable.
+fn free_or_system(reader: &mut Reader, tables: &Tables) {
+    for placed in tables.variables.iter().filter(|placed| placed.row.class != "letter") {
+        let class = &placed.row;
+        let system = tables.system.iter().map(|system| &system.row).find(|system| {
+            system.name == class.name
+                && (class.first..=class.last)
+                    .take(100_000)
+                    .any(|number| system.subscripts_of(number).is_some())
+        });
+        if let Some(system) = system {
+            let message = format!("{}{}..{} holds {}", class.name, class.first, class.last, system.fact());
+            reader.fault(placed.place.clone(), message, "a variable is free or of the system");
+        }
+    }
+}
+
+/// What a setting changes must exist, with that value.
+fn settings(reader: &mut Reader, tables: &Tables) {
+    for placed in &tables.settings {
+        let row = &placed.row;
+        if let Some(default) = &row.default
+            && !row.values.is_empty()
+        {
+            let values: Vec<&str> = row.values.iter().map(String::as_str).collect();
+            one_of(reader, placed, default, &values);
+        }
+        for (target, value) in row.sets.values().flatten() {
+            let known = match target.split_once(':') {
+                Some(("behaviour", name)) => behaviours::find(name).is_some_and(|known| known.admits(value)),
+                Some(("limit", name)) => tables.limits.iter().any(|limit| limit.row.name == name),
+                Some(("numbers", "bare_length" | "bare_argument" | "bare_feed" | "arithmetic")) => true,
+                _ => false,
+            };
+            if !known {
+                let help =
+                    "it is 'behaviour:NAME', 'limit:NAME' or 'numbers:bare_length', with a value of it";
+                reader.fault(placed.place.clone(), format!("cannot set '{target}' to '{value}'"), help);
+            }
+        }
+    }
+}
+
+/// `machine` and `when` name what exists.
+fn conditions(reader: &mut Reader, tables: &Tables) {
+    let rows = (tables.codes.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
+        .chain(tables.words.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)))
+        .chain(tables.system.iter().map(|p| (&p.place, &p.row.machine, &p.row.when)));
+    for (place, machine, when) in rows {
+        if let Some(machine) = machine
+            && !matches!(machine.as_str(), "mill" | "lathe")
+        {
+            reader.fault(place.clone(), format!("unknown machine '{machine}'"), "it is 'mill' or 'lathe'");
+        }
+        if let Some(when) = when {
+            let known = when.split_once('=').is_some_and(|(name, value)| {
+                tables.settings.iter().any(|setting| {
+                    setting.row.name == name && setting.row.values.iter().any(|known| known == value)
+                })
+            });
+            if !known {
+                let help = "write 'setting.NAME=VALUE' with a setting of this file and one of its values";
+                reader.fault(place.clone(), format!("no setting says '{when}'"), help);
+            }
+        }
+    }
+}
+
+/// Every row says where it comes from, and an unconfirmed one what is not certain.
+fn sources(reader: &mut Reader, tables: &Tables) {
+    fn section<T: Row>(reader: &mut Reader, rows: &[Placed<T>]) {
+        for placed in rows {
+            let origin = placed.row.origin();
+            if origin.source.trim().is_empty() {
+                reader.fault(placed.place.clone(), "the source is empty", "name the manual and the page");
+            }
+            if !origin.confirmed && origin.note.is_none() {
+                let help = "add 'note' with what is not certain";
+                reader.fault(placed.place.clone(), format!("{} is unconfirmed", placed.row.fact()), help);
+            }
+        }
+    }
+    section(reader, &tables.limits);
+    section(reader, &tables.operators);
+    section(reader, &tables.functions);
+    section(reader, &tables.statements);
+    section(reader, &tables.behaviours);
+    section(reader, &tables.variables);
+    section(reader, &tables.system);
+    section(reader, &tables.words);
+    section(reader, &tables.codes);
+    section(reader, &tables.arguments);
+    section(reader, &tables.settings);
+}

@@ -1,0 +1,232 @@
+//! What one machine's control has and does: the questions that everyone asks.
+
+use super::control_codes::address;
+use super::profile::{Machine, Profile, Units, VariableRun};
+use super::{
+    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Setting,
+    Statement, Text, VariableClass,
+};
+use crate::canon::{Func, Op, Sys};
+use std::collections::{BTreeMap, HashMap};
+
+/// A dialect with a machine profile laid over it.
+///
+/// Rows for another kind of machine, for other settings, and for options that
+/// the profile says were not bought are not in it.
+#[derive(Clone, Debug)]
+pub struct Control {
+    pub(super) entry: &'static Entry,
+    pub(super) dialect: Dialect,
+    pub(super) profile: Profile,
+    /// Values of the settings, by name, the profile's over the table's.
+    pub(super) settings: BTreeMap<String, String>,
+    pub(super) reserved: Vec<VariableRun>,
+    /// Rows of each code, with the words that each wants beside it.
+    pub(super) codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>>,
+    pub(super) targets: HashMap<Op, Vec<usize>>,
+    pub(super) words: HashMap<(char, bool), usize>,
+    pub(super) system: HashMap<String, Vec<usize>>,
+    pub(super) states: HashMap<Sys, Vec<usize>>,
+}
+
+impl Control {
+    pub(super) fn index(
+        entry: &'static Entry,
+        dialect: Dialect,
+        profile: Profile,
+        settings: BTreeMap<String, String>,
+        reserved: Vec<VariableRun>,
+    ) -> Self {
+        let mut codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>> = HashMap::new();
+        let mut targets: HashMap<Op, Vec<usize>> = HashMap::new();
+        for (at, row) in dialect.codes.iter().enumerate() {
+            if let (Some(head), Some(beside)) = (row.head(), row.beside()) {
+                codes.entry(head).or_default().push((at, beside));
+            }
+            for op in std::iter::once(row.op).chain(row.also.iter().copied()) {
+                targets.entry(op).or_default().push(at);
+            }
+        }
+        let words = (dialect.words.iter().enumerate())
+            .filter_map(|(at, row)| Some((address(&row.letter)?, at)))
+            .collect();
+        let mut system: HashMap<String, Vec<usize>> = HashMap::new();
+        let mut states: HashMap<Sys, Vec<usize>> = HashMap::new();
+        for (at, row) in dialect.system.iter().enumerate() {
+            system.entry(row.name.clone()).or_default().push(at);
+            states.entry(row.state).or_default().push(at);
+        }
+        Self { entry, dialect, profile, settings, reserved, codes, targets, words, system, states }
+    }
+
+    /// Short name of its dialect.
+    pub fn name(&self) -> &str {
+        &self.dialect.name
+    }
+
+    /// The dialect's entry in the registry.
+    pub fn entry(&self) -> &'static Entry {
+        self.entry
+    }
+
+    /// All facts, with the profile laid over them.
+    pub fn dialect(&self) -> &Dialect {
+        &self.dialect
+    }
+
+    /// The profile; an empty one where none was given.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// The kind of machine; a mill where no profile says.
+    pub fn machine(&self) -> Machine {
+        self.profile.machine.unwrap_or(Machine::Mill)
+    }
+
+    /// The units in force where no code says so, if the profile knows.
+    pub fn units(&self) -> Option<Units> {
+        self.profile.units
+    }
+
+    /// How numbers are written and kept.
+    pub fn numbers(&self) -> &Numbers {
+        &self.dialect.numbers
+    }
+
+    /// Characters, comments, lengths.
+    pub fn text(&self) -> &Text {
+        &self.dialect.text
+    }
+
+    /// What a length without a decimal point counts.
+    pub fn bare_length(&self) -> BareLength {
+        self.dialect.numbers.bare_length
+    }
+
+    /// What an argument of a macro call without a decimal point counts, for its letter.
+    pub fn bare_argument(&self, letter: char) -> BareLength {
+        let row = self.dialect.arguments.iter().find(|row| row.letter == letter);
+        row.and_then(|row| row.bare).unwrap_or(self.dialect.numbers.bare_argument)
+    }
+
+    /// What a feed without a decimal point counts.
+    pub fn bare_feed(&self) -> BareLength {
+        self.dialect.numbers.bare_feed
+    }
+
+    /// A function, where the control has it with so many arguments.
+    pub fn function(&self, function: Func, arguments: usize) -> Option<&Function> {
+        self.dialect
+            .functions
+            .iter()
+            .find(|row| row.function == function && row.arguments as usize == arguments)
+    }
+
+    /// A function by one of its spellings.
+    pub fn function_named(&self, spelling: &str) -> Option<&Function> {
+        let same = |name: &str| name.eq_ignore_ascii_case(spelling);
+        self.dialect
+            .functions
+            .iter()
+            .find(|row| same(&row.spelling) || row.aliases.iter().any(|name| same(name)))
+    }
+
+    /// The operator with a meaning (`add`, `and.bits`, `ge`), in the spelling that is written.
+    pub fn operator(&self, meaning: &str) -> Option<&Operator> {
+        self.dialect.operators.iter().find(|row| row.meaning == meaning)
+    }
+
+    /// A limit's largest value; none where the control has no such limit or none is known.
+    pub fn limit(&self, name: &str) -> Option<u32> {
+        self.limit_row(name)?.max
+    }
+
+    /// A limit with its alarm and its source.
+    pub fn limit_row(&self, name: &str) -> Option<&Limit> {
+        self.dialect.limits.iter().find(|row| row.name == name)
+    }
+
+    /// A statement, where the control has it.
+    pub fn statement(&self, name: &str) -> Option<&Statement> {
+        self.dialect.statements.iter().find(|row| row.name == name)
+    }
+
+    /// The answer to a question of [`super::behaviours`]; none where the table is silent.
+    pub fn behaviour(&self, name: &str) -> Option<&Behaviour> {
+        self.dialect.behaviours.iter().find(|row| row.name == name)
+    }
+
+    /// True where the answer is `true`; a silent table and an unknown answer are no.
+    pub fn is(&self, name: &str) -> bool {
+        self.behaviour(name).is_some_and(|row| row.value == "true")
+    }
+
+    /// The class of a numbered variable.
+    pub fn variable_class(&self, name: &str, number: u32) -> Option<&VariableClass> {
+        self.classes()
+            .iter()
+            .find(|row| row.name == name && row.class != "letter" && (row.first..=row.last).contains(&number))
+    }
+
+    /// The class of a letter variable (`VX`).
+    pub fn letter_class(&self, name: &str, letter: char) -> Option<&VariableClass> {
+        let number = letter_number(letter)?;
+        self.classes()
+            .iter()
+            .find(|row| row.name == name && row.class == "letter" && (row.first..=row.last).contains(&number))
+    }
+
+    /// All classes of variables, in order.
+    pub fn classes(&self) -> &[VariableClass] {
+        &self.dialect.variables
+    }
+
+    /// True for a variable that the profile keeps for the shop.
+    pub fn is_reserved(&self, name: &str, number: u32) -> bool {
+        self.reserved.iter().any(|run| run.holds(name, number, false))
+    }
+
+    /// True for a letter variable that the profile keeps for the shop.
+    pub fn is_reserved_letter(&self, name: &str, letter: char) -> bool {
+        letter_number(letter)
+            .is_some_and(|number| self.reserved.iter().any(|run| run.holds(name, number, true)))
+    }
+
+    /// The local variable that an argument letter sets (specification I).
+    pub fn argument_local(&self, letter: char) -> Option<u32> {
+        self.dialect.arguments.iter().find(|row| row.letter == letter).map(|row| row.local)
+    }
+
+    /// The argument letter that sets a local variable (specification I).
+    pub fn argument_letter(&self, local: u32) -> Option<char> {
+        self.dialect.arguments.iter().find(|row| row.local == local).map(|row| row.letter)
+    }
+
+    /// The value of a setting: the profile's, else the table's.
+    pub fn setting(&self, name: &str) -> Option<&str> {
+        self.settings.get(name).map(String::as_str)
+    }
+
+    /// The row of a setting.
+    pub fn setting_row(&self, name: &str) -> Option<&Setting> {
+        self.dialect.settings.iter().find(|row| row.name == name)
+    }
+
+    /// True where an option is there: the profile lists it. Where the profile
+    /// lists no options, nobody knows, and the answer is none.
+    pub fn has_option(&self, option: &str) -> Option<bool> {
+        self.profile.options.as_ref().map(|bought| bought.iter().any(|name| name == option))
+    }
+}
+
+fn letter_number(letter: char) -> Option<u32> {
+    letter.is_ascii_uppercase().then(|| u32::from(letter) - u32::from('A') + 1)
+}
+
+/// `parameter.6050` as `parameter.` and 6050.
+pub(super) fn numbered(name: &str) -> Option<(&str, u32)> {
+    let at = name.rfind(|c: char| !c.is_ascii_digit()).map_or(0, |at| at + 1);
+    let (stem, number) = name.split_at_checked(at)?;
+    Some((stem, number.parse().ok()?))
+}

@@ -1,0 +1,197 @@
+//! What codes and words mean, and how they are written.
+
+use super::control::numbered;
+use super::profile::SiteCode;
+use super::{CodeHead, CodeMeaning, Control, WordMeaning};
+use crate::canon::{Op, Role};
+use std::collections::BTreeMap;
+
+/// A code that calls a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Alias {
+    /// The program that is called.
+    pub program: u32,
+    /// True where the other words of the block are its arguments.
+    pub arguments: bool,
+    /// True where it is called after each move until the call is ended.
+    pub modal: bool,
+}
+
+impl Control {
+    /// What a code means, where `block` holds the letters and constant values of
+    /// all words of its block. Of several rows the one with most words beside it
+    /// counts: `G10 L2` before `G10`.
+    pub fn code(&self, letter: char, number: f64, block: &[(char, Option<f64>)]) -> Option<&CodeMeaning> {
+        let rows = self.codes.get(&CodeHead::new(letter, number)?)?;
+        let fitting = rows.iter().filter_map(|(at, beside)| {
+            let row = self.dialect.codes.get(*at)?;
+            let fits = beside.iter().all(|wanted| self.stands(*wanted, (letter, number), block));
+            fits.then_some(((beside.len(), row.when.is_some()), row))
+        });
+        fitting.max_by_key(|(rank, _)| *rank).map(|(_, row)| row)
+    }
+
+    /// True where the word that a row wants stands in the block. A word with any
+    /// value does not count where another code of the block reads its letter:
+    /// the P of `G54 M98 P8099` is the program.
+    fn stands(&self, wanted: super::Beside, code: (char, f64), block: &[(char, Option<f64>)]) -> bool {
+        let values = block.iter().filter(|(letter, _)| *letter == wanted.letter).map(|(_, value)| *value);
+        match wanted.thousandths {
+            Some(thousandths) => values
+                .flatten()
+                .filter_map(|value| CodeHead::new(wanted.letter, value))
+                .any(|head| head.thousandths == thousandths),
+            None => values.count() > 0 && !self.reads_elsewhere(wanted.letter, code, block),
+        }
+    }
+
+    fn reads_elsewhere(&self, letter: char, code: (char, f64), block: &[(char, Option<f64>)]) -> bool {
+        let own = CodeHead::new(code.0, code.1);
+        let others = block.iter().filter(|(letter, _)| matches!(letter, 'G' | 'M'));
+        let heads = others.filter_map(|(letter, value)| CodeHead::new(*letter, (*value)?));
+        heads
+            .filter(|head| Some(*head) != own)
+            .filter_map(|head| self.codes.get(&head))
+            .flatten()
+            .filter_map(|(at, _)| self.dialect.codes.get(*at))
+            .any(|row| row.words.keys().any(|word| address(word) == Some((letter, false))))
+    }
+
+    /// The code that is written for an operation whose operands have these values.
+    /// A row that fixes an operand to another value is not taken; one that fixes
+    /// more of them is preferred (`G55` before `G54.1 P`).
+    pub fn code_for(&self, op: Op, operands: &BTreeMap<Role, f64>) -> Option<&CodeMeaning> {
+        // Reversed, because the last of equals is the greatest: the first row counts.
+        let rows = self.targets.get(&op)?.iter().rev().filter_map(|&at| self.dialect.codes.get(at));
+        let fitting = rows.filter(|row| {
+            row.preferred
+                && row.fixed.iter().all(|(role, value)| operands.get(role) == Some(value))
+                && operands.iter().all(|(role, value)| {
+                    row.fixed.contains_key(role) || self.written(Some(row), *role, *value).is_some()
+                })
+        });
+        fitting.max_by_key(|row| (row.op == op, row.fixed.len(), row.when.is_some()))
+    }
+
+    /// The role of a letter beside a code; none where the control gives it none.
+    pub fn role(&self, letter: char, comma: bool, code: Option<&CodeMeaning>) -> Option<Role> {
+        let beside = code.and_then(|row| {
+            row.words
+                .iter()
+                .find(|(written, _)| address(written) == Some((letter, comma)))
+                .map(|(_, role)| *role)
+        });
+        beside.or_else(|| self.word(letter, comma).map(|row| row.role))
+    }
+
+    /// The letter of a role beside a code, and whether it is a comma word.
+    pub fn letter(&self, role: Role, code: Option<&CodeMeaning>) -> Option<(char, bool)> {
+        // Of two letters that the code reads, the one that usually has the role is written.
+        let beside = code.and_then(|row| {
+            let read = row.words.iter().filter(|(_, found)| **found == role);
+            let letters = read.filter_map(|(written, _)| address(written));
+            letters.max_by_key(|(letter, comma)| {
+                (self.word(*letter, *comma).is_some_and(|word| word.role == role), std::cmp::Reverse(*letter))
+            })
+        });
+        beside.or_else(|| {
+            let row = self.dialect.words.iter().find(|row| row.role == role)?;
+            let letter = address(&row.letter)?;
+            let taken =
+                code.is_some_and(|code| code.words.keys().any(|written| address(written) == Some(letter)));
+            (!taken).then_some(letter)
+        })
+    }
+
+    /// The parametric variable whose value the code takes for a role: R0 for the
+    /// retract plane of a drilling cycle.
+    pub fn parametric(&self, role: Role, code: Option<&CodeMeaning>) -> Option<(char, u32)> {
+        code?.words.iter().filter(|(_, found)| **found == role).find_map(|(written, _)| parametric(written))
+    }
+
+    /// The role that a parametric variable has beside a code.
+    pub fn parametric_role(&self, letter: char, number: u32, code: Option<&CodeMeaning>) -> Option<Role> {
+        let mut words = code?.words.iter();
+        words.find(|(written, _)| parametric(written) == Some((letter, number))).map(|(_, role)| *role)
+    }
+
+    /// What a letter means by itself.
+    pub fn word(&self, letter: char, comma: bool) -> Option<&WordMeaning> {
+        self.words.get(&(letter, comma)).and_then(|&at| self.dialect.words.get(at))
+    }
+
+    /// The word that does an operation by itself, without a code: `E2`, `T01`.
+    pub fn word_for(&self, op: Op) -> Option<&WordMeaning> {
+        self.dialect.words.iter().find(|row| row.op == Some(op))
+    }
+
+    /// The common value of a written number: `P1` of `G54.1` is work offset 101.
+    pub fn canonical(&self, code: Option<&CodeMeaning>, role: Role, written: f64) -> f64 {
+        let shift =
+            self.shifts(code, role).find(|s| (f64::from(s.first)..=f64::from(s.last)).contains(&written));
+        shift.map_or(written, |shift| written + shift.add as f64)
+    }
+
+    /// The number to write for a common value; none where the control cannot write it.
+    pub fn written(&self, code: Option<&CodeMeaning>, role: Role, value: f64) -> Option<f64> {
+        if self.letter(role, code).is_none() && self.parametric(role, code).is_none() {
+            return None;
+        }
+        let mut ranged = false;
+        for shift in self.shifts(code, role) {
+            ranged = true;
+            let written = value - shift.add as f64;
+            if (f64::from(shift.first)..=f64::from(shift.last)).contains(&written) {
+                return Some(written);
+            }
+        }
+        (!ranged).then_some(value)
+    }
+
+    fn shifts<'c>(
+        &'c self,
+        code: Option<&'c CodeMeaning>,
+        role: Role,
+    ) -> impl Iterator<Item = &'c super::Shift> + 'c {
+        let beside = code.and_then(|row| row.shift.get(&role));
+        let usual =
+            || self.dialect.words.iter().find(|row| row.role == role).and_then(|row| row.shift.get(&role));
+        beside.or_else(usual).into_iter().flatten()
+    }
+
+    /// The program that the profile makes a code call.
+    pub fn alias(&self, letter: char, number: f64) -> Option<Alias> {
+        self.dialect.settings.iter().find_map(|row| {
+            let rule = row.alias.filter(|rule| rule.letter == letter)?;
+            let (stem, first) = numbered(&row.name)?;
+            (first..=row.through.unwrap_or(first)).zip(rule.program..).find_map(|(setting, program)| {
+                let value: f64 = self.settings.get(&format!("{stem}{setting}"))?.parse().ok()?;
+                let called = value != 0.0 && value.abs() == number;
+                called.then_some(Alias { program, arguments: rule.arguments, modal: value < 0.0 })
+            })
+        })
+    }
+
+    /// What the profile says of a builder's code.
+    pub fn site_code(&self, letter: char, number: f64) -> Option<&SiteCode> {
+        let wanted = CodeHead::new(letter, number)?;
+        self.profile.site.iter().find(|site| site.row().head() == Some(wanted))
+    }
+}
+
+/// The letter of a word as tables write it, and whether a comma stands before it.
+pub(super) fn address(written: &str) -> Option<(char, bool)> {
+    let (letter, comma) = match written.strip_prefix(',') {
+        Some(letter) => (letter, true),
+        None => (written, false),
+    };
+    let mut chars = letter.chars();
+    Some((chars.next().filter(|_| chars.as_str().is_empty())?, comma))
+}
+
+/// `R0` as the variable 0 of R.
+fn parametric(written: &str) -> Option<(char, u32)> {
+    let letter = written.chars().next()?;
+    let digits = written.get(letter.len_utf8()..).filter(|digits| !digits.is_empty())?;
+    Some((letter, digits.parse().ok()?))
+}

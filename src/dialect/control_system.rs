@@ -1,0 +1,46 @@
+//! Where the control keeps the state of the machine.
+
+use super::{Control, SystemVariable};
+use crate::canon::Sys;
+
+impl Control {
+    /// What a system variable is, with the subscripts that its number stands for.
+    pub fn read_system(&self, name: &str, number: Option<u32>) -> Option<(Sys, Vec<u32>, &SystemVariable)> {
+        let rows = self.system.get(name)?.iter().filter_map(|&at| self.dialect.system.get(at));
+        rows.into_iter().find_map(|row| {
+            let subscripts = match number {
+                Some(number) => row.subscripts_of(number)?,
+                None if row.first.is_none() => [row.fixed.as_slice(), &row.after].concat(),
+                None => return None,
+            };
+            Some((row.state, subscripts, row))
+        })
+    }
+
+    /// A system variable by its fixed name: `_EMPTY`, `_ABSIO[n]`.
+    pub fn system_named(&self, alias: &str) -> Option<&SystemVariable> {
+        self.dialect
+            .system
+            .iter()
+            .find(|row| row.alias.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(alias)))
+    }
+
+    /// The variable that holds a state: its name, and its number where it has one.
+    pub fn system_address(
+        &self,
+        state: Sys,
+        subscripts: &[u32],
+    ) -> Option<(&str, Option<u32>, &SystemVariable)> {
+        self.system_runs(state).find_map(|row| Some((row.name.as_str(), row.number_of(subscripts)?, row)))
+    }
+
+    /// The first run of variables that holds a state, for subscripts that are computed.
+    pub fn system_run(&self, state: Sys) -> Option<&SystemVariable> {
+        self.system_runs(state).next()
+    }
+
+    /// All runs of variables that hold a state.
+    pub fn system_runs(&self, state: Sys) -> impl Iterator<Item = &SystemVariable> {
+        self.states.get(&state).into_iter().flatten().filter_map(|&at| self.dialect.system.get(at))
+    }
+}

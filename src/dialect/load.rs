@@ -1,0 +1,117 @@
+//! Reads a dialect's table and refuses one that contradicts itself.
+
+use super::check::{self, Tables};
+use super::reader::{Placed, Reader};
+use super::{CodeMeaning, Dialect, Row};
+use crate::diag::{Code, Diagnostic};
+use toml::de::DeTable;
+
+/// The sections and the plain keys of a table.
+const KEYS: &[&str] = &[
+    "name",
+    "title",
+    "family",
+    "extensions",
+    "numbers",
+    "text",
+    "limits",
+    "operators",
+    "functions",
+    "statements",
+    "behaviours",
+    "variables",
+    "system",
+    "words",
+    "codes",
+    "arguments",
+    "settings",
+];
+
+/// Reads a table. All that is wrong with it comes back at once, each fault at
+/// its place in `text`.
+pub fn load(text: &str) -> Result<Dialect, Vec<Diagnostic>> {
+    let mut reader = Reader::new(Code::DialectTable);
+    let mut document = reader.document(text);
+    let dialect = read(&mut reader, &mut document);
+    match dialect {
+        Some(dialect) if reader.faults.is_empty() => Ok(dialect),
+        _ => Err(reader.faults),
+    }
+}
+
+fn read(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<Dialect> {
+    reader.known_keys(document, KEYS);
+    let name = reader.require(document, "name");
+    let title = reader.require(document, "title");
+    let family = reader.require(document, "family");
+    let extensions = reader.take(document, "extensions").unwrap_or_default();
+    let numbers = only(reader, document);
+    let text = only(reader, document);
+    let tables = Tables {
+        limits: reader.rows(document),
+        operators: reader.rows(document),
+        functions: reader.rows(document),
+        statements: reader.rows(document),
+        behaviours: reader.rows(document),
+        variables: reader.rows(document),
+        system: reader.rows(document),
+        words: reader.rows(document),
+        codes: reader.rows(document),
+        arguments: reader.rows(document),
+        settings: reader.rows(document),
+    };
+    check::all(reader, &tables);
+    Some(Dialect {
+        name: name?,
+        title: title?,
+        family: family?,
+        extensions,
+        numbers: numbers?,
+        text: text?,
+        limits: plain(tables.limits),
+        operators: plain(tables.operators),
+        functions: plain(tables.functions),
+        statements: plain(tables.statements),
+        behaviours: plain(tables.behaviours),
+        variables: plain(tables.variables),
+        system: plain(tables.system),
+        words: plain(tables.words),
+        codes: plain(tables.codes).into_iter().flat_map(spell_out).collect(),
+        arguments: plain(tables.arguments),
+        settings: plain(tables.settings),
+    })
+}
+
+/// A section that is one row.
+fn only<T: Row>(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<T> {
+    let Some(value) = document.remove(T::SECTION) else {
+        reader.fault(0..0, format!("'{}' is missing", T::SECTION), format!("add '[{}]'", T::SECTION));
+        return None;
+    };
+    reader.row(value).map(|row| row.row)
+}
+
+fn plain<T>(rows: Vec<Placed<T>>) -> Vec<T> {
+    rows.into_iter().map(|placed| placed.row).collect()
+}
+
+/// A row for a run of codes, as one row a code.
+fn spell_out(row: CodeMeaning) -> Vec<CodeMeaning> {
+    let Some(through) = row.through else { return vec![row] };
+    let Some(head) = row.head() else { return vec![row] };
+    let first = head.whole();
+    (first..=through)
+        .map(|number| {
+            let mut one = row.clone();
+            one.through = None;
+            one.code =
+                row.code.replacen(&format!("{}{first}", head.letter), &format!("{}{number}", head.letter), 1);
+            if let Some(counted) = row.counted
+                && let Some(value) = one.fixed.get_mut(&counted)
+            {
+                *value += f64::from(number - first);
+            }
+            one
+        })
+        .collect()
+}

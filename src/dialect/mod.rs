@@ -1,0 +1,44 @@
+//! Facts about controls, as data.
+//!
+//! A [`Dialect`] is one `dialects/*.toml` file; a [`Control`] is a dialect
+//! with a shop's machine profile laid over it, and it is what everything to
+//! the right of here asks. No module outside the four of a dialect knows one by
+//! name: they ask a [`Control`] whether it has a function, how a state is
+//! addressed, which code an operation has.
+
+pub mod behaviours;
+mod check;
+mod check_codes;
+mod check_system;
+mod control;
+mod control_codes;
+mod control_system;
+mod extents;
+mod load;
+mod matrix;
+mod model;
+mod overlay;
+mod overlay_settings;
+mod page;
+mod profile;
+mod reader;
+pub mod registry;
+mod row;
+mod rows;
+mod spelling;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use control::Control;
+pub use control_codes::Alias;
+pub use load::load;
+pub use matrix::matrix;
+pub use model::*;
+pub use page::page;
+pub use profile::{Axis, DecimalPoint, Machine, Plain, Profile, SiteCode, Units, VariableRun};
+pub use reader::faults_as_text;
+pub use registry::Entry;
+pub use row::Row;
+pub use rows::*;
+pub use spelling::{Beside, CodeHead};

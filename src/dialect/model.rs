@@ -1,0 +1,118 @@
+//! The shape of `dialects/*.toml`. Every row says where it comes from, and
+//! whether a maker's text confirms it.
+
+use super::rows::*;
+use serde::{Deserialize, Serialize};
+
+/// Where a row comes from. In the file its three keys stand among the row's own.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Origin {
+    /// Seed and line, or manual and page.
+    pub source: String,
+    /// True where a maker's text, or a seed that reproduces one, says so.
+    #[serde(default = "yes", skip_serializing_if = "Clone::clone")]
+    pub confirmed: bool,
+    /// What is not certain, or what to beware of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+pub(super) fn yes() -> bool {
+    true
+}
+
+/// All that is known of one control. [`super::load()`] reads it, section by section.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Dialect {
+    /// Short name, as `--from` takes it.
+    pub name: String,
+    /// Name for people.
+    pub title: String,
+    /// The family whose grammar and behaviour it shares.
+    pub family: String,
+    /// File name extensions its programs usually have, without the point.
+    pub extensions: Vec<String>,
+    /// How numbers are written and kept.
+    pub numbers: Numbers,
+    /// Characters, comments, lengths.
+    pub text: Text,
+    /// Nesting and other limits.
+    pub limits: Vec<Limit>,
+    /// Operators, with their rank.
+    pub operators: Vec<Operator>,
+    /// Functions.
+    pub functions: Vec<Function>,
+    /// Statements it has.
+    pub statements: Vec<Statement>,
+    /// Yes-or-no questions of behaviour, by name.
+    pub behaviours: Vec<Behaviour>,
+    /// Classes of variables that programs may use freely.
+    pub variables: Vec<VariableClass>,
+    /// System variables.
+    pub system: Vec<SystemVariable>,
+    /// What letters mean where no code says otherwise.
+    pub words: Vec<WordMeaning>,
+    /// G and M codes.
+    pub codes: Vec<CodeMeaning>,
+    /// Argument letters of macro calls and the local variable each sets.
+    pub arguments: Vec<Argument>,
+    /// Settings that a machine profile may change, with what they are by default.
+    pub settings: Vec<Setting>,
+}
+
+/// How numbers are written and kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Numbers {
+    /// What a length without a decimal point counts: `increments`, `units` (calculator type), or `unknown`.
+    pub bare_length: BareLength,
+    /// What a call argument without a decimal point counts.
+    pub bare_argument: BareLength,
+    /// What a feed without a decimal point counts.
+    pub bare_feed: BareLength,
+    /// Least increment of a length in metric, millimetres.
+    pub increment_mm: f64,
+    /// Least increment of a length in inch.
+    pub increment_inch: f64,
+    /// Least increment of an angle, degrees.
+    pub increment_degrees: f64,
+    /// Most digits a constant may have; absent where unknown.
+    pub digits: Option<u32>,
+    /// How values are kept: `double`, `single`, `decimal8`, `unknown`.
+    pub arithmetic: String,
+    /// Where these come from.
+    #[serde(skip_deserializing)]
+    pub origin: Origin,
+}
+
+/// What a number without a decimal point counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BareLength {
+    /// Least increments: `X10` is 0.010 mm.
+    Increments,
+    /// Whole units: `X10` is 10 mm.
+    Units,
+    /// No source says.
+    Unknown,
+}
+
+/// Characters, comments, lengths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Text {
+    /// Most characters of a block, absent where unknown.
+    pub line: Option<u32>,
+    /// Most characters of a macro statement's line, where that is another number.
+    pub macro_line: Option<u32>,
+    /// Largest sequence number.
+    pub sequence_max: u32,
+    /// Largest program number.
+    pub program_max: u32,
+    /// Most characters of a message to the operator.
+    pub message: Option<u32>,
+    /// Where these come from.
+    #[serde(skip_deserializing)]
+    pub origin: Origin,
+}

@@ -1,0 +1,262 @@
+//! Lays a machine profile over a dialect's table.
+
+use super::extents;
+use super::profile::{Axis, Profile, VariableRun};
+use super::reader::{Reader, closest};
+use super::{Control, Dialect, Entry, Row, SystemVariable, VariableClass, registry};
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use std::collections::{BTreeMap, BTreeSet};
+
+impl Control {
+    /// A control of a dialect, with its profile. What the profile says wrong
+    /// comes back with its place in the profile's text; so do the faults of a
+    /// table that does not load, with theirs in the table's.
+    pub fn new(entry: &'static Entry, profile: Profile) -> Result<Self, Vec<Diagnostic>> {
+        let mut dialect = entry.dialect().map_err(<[Diagnostic]>::to_vec)?.clone();
+        let mut overlay = Overlay::new(profile);
+        overlay.check_dialect(entry);
+        let settings = overlay.settings(&dialect);
+        overlay.apply(&mut dialect, &settings);
+        overlay.keep_present(&mut dialect, &settings);
+        overlay.doubt(&mut dialect);
+        extents::clamp(&mut dialect, &overlay.profile);
+        overlay.axes(&mut dialect);
+        let reserved = overlay.runs("reserved", &overlay.profile.reserved.clone());
+        overlay.keep_variables(&mut dialect);
+        overlay.site(&mut dialect);
+        overlay.confirm(&mut dialect);
+        let Overlay { reader, profile, .. } = overlay;
+        if reader.faults.is_empty() {
+            Ok(Control::index(entry, dialect, profile, settings, reserved))
+        } else {
+            Err(reader.faults)
+        }
+    }
+
+    /// A control of a dialect without a profile.
+    pub fn plain(name: &str) -> Option<Self> {
+        let entry = registry::find(name)?;
+        Control::new(entry, Profile { dialect: name.into(), ..Profile::default() }).ok()
+    }
+
+    /// A control from a profile's text: the profile names its dialect.
+    pub fn from_profile(text: &str) -> Result<Self, Vec<Diagnostic>> {
+        let profile = Profile::read(text)?;
+        match registry::find(&profile.dialect) {
+            Some(entry) => Control::new(entry, profile),
+            None => {
+                let mut overlay = Overlay::new(profile);
+                overlay.unknown_dialect();
+                Err(overlay.reader.faults)
+            }
+        }
+    }
+}
+
+/// A profile on its way over a table.
+pub(super) struct Overlay {
+    reader: Reader,
+    pub(super) profile: Profile,
+    /// The settings that the profile states.
+    pub(super) stated: BTreeSet<String>,
+}
+
+impl Overlay {
+    fn new(profile: Profile) -> Self {
+        Self { reader: Reader::new(Code::MachineProfile), profile, stated: BTreeSet::new() }
+    }
+
+    pub(super) fn fault(&mut self, place: &str, message: String, help: String) {
+        let section = place.split(':').next().unwrap_or(place);
+        let place = self.profile.places.get(place).or_else(|| self.profile.places.get(section));
+        self.reader.fault(place.cloned().unwrap_or(0..0), message, help);
+    }
+
+    fn unknown_dialect(&mut self) {
+        let names: Vec<&str> = registry::all().iter().map(|entry| entry.name).collect();
+        let message = match self.profile.dialect.as_str() {
+            "" => "the profile does not say its dialect".into(),
+            name => format!("no dialect is named '{name}'"),
+        };
+        self.fault(
+            "dialect",
+            message,
+            format!("write 'dialect = \"NAME\"' with one of {}", names.join(", ")),
+        );
+    }
+
+    fn check_dialect(&mut self, entry: &Entry) {
+        if self.profile.dialect != entry.name {
+            let message = format!("the profile is for '{}', not for '{}'", self.profile.dialect, entry.name);
+            self.fault("dialect", message, "name the profile's own dialect".into());
+        }
+    }
+
+    /// Drops the rows of another machine, of other settings, of options that were not bought.
+    fn keep_present(&mut self, dialect: &mut Dialect, settings: &BTreeMap<String, String>) {
+        let machine = self.profile.machine.map_or("mill", super::profile::Machine::name);
+        let bought = self.profile.options.clone();
+        let has = |option: &Option<String>| match (option, &bought) {
+            (Some(option), Some(bought)) => bought.contains(option),
+            _ => true,
+        };
+        let here = |of: &Option<String>, when: &Option<String>, option: &Option<String>| {
+            let set = |when: &String| {
+                when.split_once('=')
+                    .is_some_and(|(name, value)| settings.get(name).is_some_and(|v| v == value))
+            };
+            of.as_deref().is_none_or(|of| of == machine) && when.as_ref().is_none_or(set) && has(option)
+        };
+        dialect.codes.retain(|row| here(&row.machine, &row.when, &row.option));
+        dialect.system.retain(|row| here(&row.machine, &row.when, &row.option));
+        dialect.words.retain(|row| here(&row.machine, &row.when, &None));
+        dialect.variables.retain(|row| has(&row.option));
+        dialect.functions.retain(|row| has(&row.option));
+        dialect.operators.retain(|row| has(&row.option));
+        dialect.statements.retain(|row| has(&row.option));
+        // A row that holds under a setting stands for the general one of the same letter.
+        let special: BTreeSet<String> = dialect
+            .words
+            .iter()
+            .filter(|row| row.when.is_some() || row.machine.is_some())
+            .map(|row| row.letter.clone())
+            .collect();
+        dialect
+            .words
+            .retain(|row| row.when.is_some() || row.machine.is_some() || !special.contains(&row.letter));
+    }
+
+    /// Numbers the axes as this machine does: a run over axes in another order
+    /// becomes one run an axis. Without a profile a lathe has X and Z.
+    fn axes(&mut self, dialect: &mut Dialect) {
+        let lathe = self.profile.machine == Some(super::Machine::Lathe);
+        let axes = match &self.profile.axes {
+            Some(axes) => axes.clone(),
+            None if lathe => vec![Axis::X, Axis::Z],
+            None => return,
+        };
+        if axes.iter().enumerate().any(|(at, axis)| axes.iter().take(at).any(|earlier| earlier == axis)) {
+            self.fault("axes", "an axis stands twice".into(), "name each axis once".into());
+        }
+        dialect.system = std::mem::take(&mut dialect.system)
+            .into_iter()
+            .flat_map(|row| match (row.first, row.subscripts.split_last()) {
+                (Some(first), Some((last, rest))) if last.axis => (0..last.count)
+                    .zip(&axes)
+                    .map(|(at, axis)| SystemVariable {
+                        first: first.checked_add(at * last.step),
+                        subscripts: rest.to_vec(),
+                        after: vec![axis.number()],
+                        ..row.clone()
+                    })
+                    .collect(),
+                _ => vec![row],
+            })
+            .collect();
+    }
+
+    fn runs(&mut self, section: &str, texts: &[String]) -> Vec<VariableRun> {
+        let mut runs = Vec::new();
+        for text in texts {
+            match VariableRun::read(text) {
+                Some(run) => runs.push(run),
+                None => self.fault(
+                    &format!("{section}:{text}"),
+                    format!("'{text}' is no variable and no run of variables"),
+                    "write '#500', '#500-#549' or 'VX'".into(),
+                ),
+            }
+        }
+        runs
+    }
+
+    /// Cuts the classes down to the variables that there are.
+    fn keep_variables(&mut self, dialect: &mut Dialect) {
+        let Some(present) = self.profile.variables.clone() else { return };
+        let runs = self.runs("variables", &present);
+        dialect.variables = (dialect.variables.iter())
+            .flat_map(|class| {
+                let letter = class.class == "letter";
+                runs.iter().filter(move |run| run.name == class.name && run.letter == letter).filter_map(
+                    |run| {
+                        let (first, last) = (class.first.max(run.first), class.last.min(run.last));
+                        (first <= last).then(|| VariableClass { first, last, ..class.clone() })
+                    },
+                )
+            })
+            .collect();
+    }
+
+    /// Adds the codes of the machine's builder; they stand for the table's own of that number.
+    fn site(&mut self, dialect: &mut Dialect) {
+        for site in self.profile.site.clone() {
+            let row = site.row();
+            let (Some(head), Some(_)) = (row.head(), row.beside()) else {
+                let message = format!("'{}' is no code", site.code);
+                self.fault(
+                    &format!("site:{}", site.code),
+                    message,
+                    "write a letter and a number: 'M20'".into(),
+                );
+                continue;
+            };
+            if row.op.is_flow() || row.op == Op::MachineSpecific {
+                let message = format!("'{}' cannot mean '{}'", site.code, row.op);
+                let help =
+                    "leave 'op' out; a code that calls a program is set by the control's alias parameters";
+                self.fault(&format!("site:{}", site.code), message, help.into());
+            }
+            dialect.codes.retain(|old| old.head() != Some(head) || old.beside() != row.beside());
+            // The control's own spelling of an operation stays the one that is written.
+            let taken =
+                dialect.codes.iter().any(|old| old.op == row.op && old.fixed == row.fixed && old.preferred);
+            dialect.codes.push(super::CodeMeaning { preferred: !taken && row.op != Op::Builder, ..row });
+        }
+    }
+
+    /// Marks the facts that the shop has checked.
+    fn confirm(&mut self, dialect: &mut Dialect) {
+        for fact in self.profile.confirm.clone() {
+            let mut found = 0;
+            each_row(dialect, &mut |name, origin| {
+                if name == fact {
+                    origin.confirmed = true;
+                    found += 1;
+                }
+            });
+            if found == 0 {
+                let mut names = Vec::new();
+                each_row(dialect, &mut |name, _| names.push(name.to_string()));
+                let help = match closest(&fact, names.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean '{near}'?"),
+                    None => "diagnostics name the fact: 'behaviour:NAME', 'code:G50', 'system:#5041'".into(),
+                };
+                self.fault(&format!("confirm:{fact}"), format!("no fact is named '{fact}'"), help);
+            }
+        }
+    }
+}
+
+/// Visits every row with the name of its fact.
+fn each_row(dialect: &mut Dialect, visit: &mut dyn FnMut(&str, &mut super::Origin)) {
+    fn section<T: Row>(rows: &mut [T], visit: &mut dyn FnMut(&str, &mut super::Origin)) {
+        for row in rows {
+            let name = row.fact();
+            visit(&name, row.origin_mut());
+        }
+    }
+    section(std::slice::from_mut(&mut dialect.numbers), visit);
+    section(std::slice::from_mut(&mut dialect.text), visit);
+    section(&mut dialect.limits, visit);
+    section(&mut dialect.operators, visit);
+    section(&mut dialect.functions, visit);
+    section(&mut dialect.statements, visit);
+    section(&mut dialect.behaviours, visit);
+    section(&mut dialect.variables, visit);
+    section(&mut dialect.system, visit);
+    section(&mut dialect.words, visit);
+    section(&mut dialect.codes, visit);
+    section(&mut dialect.arguments, visit);
+    section(&mut dialect.settings, visit);
+}

@@ -1,0 +1,169 @@
+//! What the settings of a machine profile change in a table.
+
+use super::control::numbered;
+use super::overlay::Overlay;
+use super::reader::closest;
+use super::{BareLength, Dialect, Origin, Setting};
+use std::collections::BTreeMap;
+
+impl Overlay {
+    /// The values of all settings: the table's, then the profile's.
+    pub(super) fn settings(&mut self, dialect: &Dialect) -> BTreeMap<String, String> {
+        let mut values: BTreeMap<String, String> = (dialect.settings.iter())
+            .filter_map(|row| Some((row.name.clone(), row.default.clone()?)))
+            .collect();
+        if let Some(machine) = self.profile.machine {
+            values.insert("machine".into(), machine.name().into());
+            self.stated.insert("machine".into());
+        }
+        let given: Vec<(String, String, String)> = [("parameters", "parameter."), ("settings", "setting.")]
+            .into_iter()
+            .zip([&self.profile.parameters, &self.profile.settings])
+            .flat_map(|((section, stem), table)| {
+                table.iter().map(move |(key, value)| {
+                    (format!("{section}:{key}"), format!("{stem}{key}"), value.to_string())
+                })
+            })
+            .collect();
+        for (place, name, value) in given {
+            match dialect.settings.iter().find(|row| row.covers(&name)) {
+                Some(row) if !row.values.is_empty() && !row.values.contains(&value) => {
+                    let help = format!("{}: one of {}", row.meaning, row.values.join(", "));
+                    self.fault(&place, format!("'{value}' is no value of {name}"), help);
+                }
+                Some(_) => {
+                    self.stated.insert(name.clone());
+                    values.insert(name, value);
+                }
+                None => {
+                    let help = match closest(&name, dialect.settings.iter().map(|row| row.name.as_str())) {
+                        Some(near) => format!("did you mean '{near}'?"),
+                        None => format!("'macroglot dialects {}' lists what can be set", dialect.name),
+                    };
+                    self.fault(&place, format!("{} has no setting '{name}'", dialect.title), help);
+                }
+            }
+        }
+        values
+    }
+
+    /// Does what the values of the settings say, then what the profile says itself.
+    pub(super) fn apply(&mut self, dialect: &mut Dialect, values: &BTreeMap<String, String>) {
+        for setting in dialect.settings.clone() {
+            let stated = self.stated.contains(&setting.name);
+            let effects = values.get(&setting.name).and_then(|value| setting.sets.get(value));
+            for (target, value) in effects.into_iter().flatten() {
+                if let Some(origin) = change(dialect, target, value)
+                    && stated
+                    && setting.origin.confirmed
+                {
+                    origin.confirmed = true;
+                }
+            }
+            if setting.assumed && !stated {
+                for target in setting.sets.values().flat_map(BTreeMap::keys) {
+                    // Whatever value it might have changes this, so it is not sure.
+                    if let Some(origin) = touched(dialect, target) {
+                        assume(origin, &setting.name);
+                    }
+                }
+            }
+        }
+        if let Some(point) = self.profile.decimal_point {
+            dialect.numbers.bare_length = point.into();
+            dialect.numbers.bare_argument = point.into();
+            dialect.numbers.origin.confirmed = true;
+        }
+    }
+
+    /// Rows that hold only under a setting are as sure as the setting is stated.
+    pub(super) fn doubt(&self, dialect: &mut Dialect) {
+        let open: Vec<String> = (dialect.settings.iter())
+            .filter(|setting| setting.assumed && !self.stated.contains(&setting.name))
+            .map(|setting| setting.name.clone())
+            .collect();
+        let rests_on = |when: &Option<String>| {
+            let (name, _) = when.as_ref()?.split_once('=')?;
+            open.iter().find(|open| *open == name).cloned()
+        };
+        let codes = dialect.codes.iter_mut().map(|row| (&row.when, &mut row.origin));
+        let words = dialect.words.iter_mut().map(|row| (&row.when, &mut row.origin));
+        let system = dialect.system.iter_mut().map(|row| (&row.when, &mut row.origin));
+        for (when, origin) in codes.chain(words).chain(system) {
+            if let Some(setting) = rests_on(when) {
+                assume(origin, &setting);
+            }
+        }
+    }
+}
+
+/// Notes that a row rests on a setting that nobody stated.
+fn assume(origin: &mut Origin, setting: &str) {
+    origin.confirmed = false;
+    let reason = format!("the machine profile does not state {setting}");
+    origin.note = Some(match origin.note.take() {
+        Some(note) if note.contains(&reason) => note,
+        Some(note) => format!("{note}; {reason}"),
+        None => reason,
+    });
+}
+
+/// Sets what a setting changes, and gives its origin.
+fn change<'d>(dialect: &'d mut Dialect, target: &str, value: &str) -> Option<&'d mut Origin> {
+    match target.split_once(':')? {
+        ("behaviour", name) => {
+            let row = dialect.behaviours.iter_mut().find(|row| row.name == name)?;
+            row.value = value.into();
+            Some(&mut row.origin)
+        }
+        ("limit", name) => {
+            let row = dialect.limits.iter_mut().find(|row| row.name == name)?;
+            row.max = value.parse().ok();
+            Some(&mut row.origin)
+        }
+        ("numbers", column) => {
+            let numbers = &mut dialect.numbers;
+            let bare = match value {
+                "units" => BareLength::Units,
+                "increments" => BareLength::Increments,
+                _ => BareLength::Unknown,
+            };
+            match column {
+                "bare_length" => numbers.bare_length = bare,
+                "bare_argument" => numbers.bare_argument = bare,
+                "bare_feed" => numbers.bare_feed = bare,
+                _ => numbers.arithmetic = value.into(),
+            }
+            // One origin stands for all columns, so one setting does not confirm it.
+            None
+        }
+        _ => None,
+    }
+}
+
+/// The origin of what a setting could change.
+fn touched<'d>(dialect: &'d mut Dialect, target: &str) -> Option<&'d mut Origin> {
+    match target.split_once(':')? {
+        ("behaviour", name) => {
+            dialect.behaviours.iter_mut().find(|row| row.name == name).map(|row| &mut row.origin)
+        }
+        ("limit", name) => dialect.limits.iter_mut().find(|row| row.name == name).map(|row| &mut row.origin),
+        ("numbers", _) => Some(&mut dialect.numbers.origin),
+        _ => None,
+    }
+}
+
+impl Setting {
+    /// True where the row is for this setting: its own name, or one of its run.
+    pub fn covers(&self, name: &str) -> bool {
+        if self.name == name {
+            return true;
+        }
+        match (numbered(&self.name), numbered(name), self.through) {
+            (Some((stem, first)), Some((other, number)), Some(last)) => {
+                stem == other && (first..=last).contains(&number)
+            }
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! Machine profiles: what one machine's owner bought and set.
+
+use super::reader::Reader;
+use super::{BareLength, CodeMeaning};
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::de::{DeTable, DeValue};
+
+/// A machine profile (`machines/*.toml`, or the shop's own). Whatever it leaves
+/// out is as the dialect's table has it.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Profile {
+    /// The dialect it is for.
+    pub dialect: String,
+    /// Name for people.
+    pub title: Option<String>,
+    /// The kind of machine.
+    pub machine: Option<Machine>,
+    /// The units its programs are in where no code says so.
+    pub units: Option<Units>,
+    /// What a number without a decimal point counts.
+    pub decimal_point: Option<DecimalPoint>,
+    /// The options that were bought; absent where it is not known which.
+    pub options: Option<Vec<String>>,
+    /// How many tool offsets the machine has.
+    pub offsets: Option<u32>,
+    /// How many additional work offsets the machine has.
+    pub work_offsets: Option<u32>,
+    /// Its axes, in the order of the control's axis numbers: `["X", "Z", "C", "Y"]`.
+    pub axes: Option<Vec<Axis>>,
+    /// Parameters of the control, by number: `6058 = 383`, `"6004.0" = 1`.
+    pub parameters: BTreeMap<String, Plain>,
+    /// Settings of the control, by number or name.
+    pub settings: BTreeMap<String, Plain>,
+    /// Variables that programs must not be given: `#149`, `#500-#549`, `VX`.
+    pub reserved: Vec<String>,
+    /// The variables that there are; absent where the table's classes all are.
+    pub variables: Option<Vec<String>>,
+    /// Facts that the shop has checked, by the name that diagnostics give them.
+    pub confirm: Vec<String>,
+    /// Codes that the machine's builder or the shop defined.
+    pub site: Vec<SiteCode>,
+    /// Where the file's `confirm`, `parameters`, ... stand, for reports.
+    #[serde(skip)]
+    pub(super) places: BTreeMap<String, std::ops::Range<usize>>,
+}
+
+/// The kind of machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Machine {
+    /// Milling machine or machining centre.
+    Mill,
+    /// Lathe.
+    Lathe,
+}
+
+impl Machine {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Machine::Mill => "mill",
+            Machine::Lathe => "lathe",
+        }
+    }
+}
+
+/// An axis, in the order of the common axis numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs)]
+pub enum Axis {
+    X = 1,
+    Y,
+    Z,
+    A,
+    B,
+    C,
+    U,
+    V,
+    W,
+    E,
+}
+
+impl Axis {
+    /// All of them: the order of a mill's axis numbers.
+    pub const ALL: [Axis; 9] =
+        [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C, Axis::U, Axis::V, Axis::W];
+
+    /// Its common number: 1 for X.
+    pub const fn number(self) -> u32 {
+        self as u32
+    }
+}
+
+/// The units of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Units {
+    /// Inches.
+    Inch,
+    /// Millimetres.
+    Metric,
+}
+
+/// How a number without a decimal point is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DecimalPoint {
+    /// As on a pocket calculator: whole units.
+    Calculator,
+    /// In least increments.
+    Increments,
+}
+
+impl From<DecimalPoint> for BareLength {
+    fn from(point: DecimalPoint) -> Self {
+        match point {
+            DecimalPoint::Calculator => BareLength::Units,
+            DecimalPoint::Increments => BareLength::Increments,
+        }
+    }
+}
+
+/// A value of a parameter or setting.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Plain {
+    /// True or false, which is 1 or 0.
+    Truth(bool),
+    /// A whole number.
+    Whole(i64),
+    /// A number.
+    Number(f64),
+    /// A word.
+    Word(String),
+}
+
+impl std::fmt::Display for Plain {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Plain::Truth(truth) => write!(f, "{}", u8::from(*truth)),
+            Plain::Whole(number) => write!(f, "{number}"),
+            Plain::Number(number) => write!(f, "{number}"),
+            Plain::Word(word) => f.write_str(word),
+        }
+    }
+}
+
+/// A code that the machine's builder or the shop defined.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SiteCode {
+    /// The code: `M20`.
+    pub code: String,
+    /// What it does in common terms; absent for what only this machine does.
+    #[serde(default)]
+    pub op: Option<Op>,
+    /// What it does, in words.
+    pub text: String,
+    /// Operands that the code itself fixes.
+    #[serde(default)]
+    pub fixed: BTreeMap<Role, f64>,
+    /// Letters and their roles beside it.
+    #[serde(default)]
+    pub words: BTreeMap<String, Role>,
+}
+
+impl SiteCode {
+    /// The code as a row of a dialect's table.
+    pub(super) fn row(&self) -> CodeMeaning {
+        CodeMeaning {
+            code: self.code.clone(),
+            also: Vec::new(),
+            op: self.op.unwrap_or(Op::Builder),
+            fixed: self.fixed.clone(),
+            words: self.words.clone(),
+            required: Vec::new(),
+            shift: BTreeMap::new(),
+            through: None,
+            counted: None,
+            modal: None,
+            machine: None,
+            when: None,
+            preferred: true,
+            option: None,
+            origin: super::Origin {
+                source: "machine profile".into(),
+                confirmed: true,
+                note: Some(self.text.clone()),
+            },
+        }
+    }
+}
+
+/// A run of variables in a profile: `#500-#549`, `V90`, `VX`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VariableRun {
+    /// The name before the number.
+    pub name: String,
+    /// First number; a letter variable has its letter's number, 1 for A.
+    pub first: u32,
+    /// Last number.
+    pub last: u32,
+    /// True for a letter variable.
+    pub letter: bool,
+}
+
+impl VariableRun {
+    /// Reads a run; none where it is not one.
+    pub fn read(text: &str) -> Option<Self> {
+        let (from, to) = text.split_once('-').unwrap_or((text, text));
+        let (name, first, letter) = one(from.trim())?;
+        let (other, last, other_letter) =
+            one(to.trim()).or_else(|| Some((name, to.trim().parse().ok()?, letter)))?;
+        let fits = name == other && letter == other_letter && first <= last;
+        fits.then(|| Self { name: name.into(), first, last, letter })
+    }
+
+    /// True where the run holds the variable.
+    pub fn holds(&self, name: &str, number: u32, letter: bool) -> bool {
+        self.name == name && self.letter == letter && (self.first..=self.last).contains(&number)
+    }
+}
+
+/// `#500`, or `VX` as the letter variable X of V.
+fn one(text: &str) -> Option<(&str, u32, bool)> {
+    let digits = text.find(|c: char| c.is_ascii_digit()).unwrap_or(text.len());
+    let (name, number) = text.split_at_checked(digits)?;
+    if !number.is_empty() {
+        let number = number.parse().ok()?;
+        return (!name.is_empty()).then_some((name, number, false));
+    }
+    let letter = name.chars().last().filter(char::is_ascii_uppercase)?;
+    let name = name.get(..name.len().checked_sub(1)?)?;
+    (!name.is_empty()).then(|| (name, u32::from(letter) - u32::from('A') + 1, true))
+}
+
+impl Profile {
+    /// Reads a profile. What it says of its dialect is checked by `Control::new`.
+    pub fn read(text: &str) -> Result<Self, Vec<Diagnostic>> {
+        let mut reader = Reader::new(Code::MachineProfile);
+        let mut document = reader.document(text);
+        let places = places(&document);
+        for key in ["parameters", "settings"] {
+            if let Some(DeValue::Table(table)) = document.get_mut(key).map(|value| value.get_mut()) {
+                flatten(table);
+            }
+        }
+        let whole = toml::Spanned::new(0..0, DeValue::Table(document));
+        let profile = reader.value::<Profile>(whole);
+        match profile {
+            Some(profile) if reader.faults.is_empty() => Ok(Self { places, ..profile }),
+            _ => Err(reader.faults),
+        }
+    }
+}
+
+/// `6004.0 = 1` reaches us as a table in a table: it is the parameter `6004.0`.
+fn flatten(table: &mut DeTable<'_>) {
+    for (key, value) in std::mem::take(table) {
+        let place = value.span();
+        match value.into_inner() {
+            DeValue::Table(inner) => {
+                for (bit, value) in inner {
+                    let name = format!("{}.{}", key.get_ref(), bit.get_ref());
+                    table.insert(toml::Spanned::new(bit.span(), name.into()), value);
+                }
+            }
+            value => {
+                table.insert(key, toml::Spanned::new(place, value));
+            }
+        }
+    }
+}
+
+/// Where each entry of a profile stands, by `section:entry`.
+fn places(document: &DeTable<'_>) -> BTreeMap<String, std::ops::Range<usize>> {
+    let mut places = BTreeMap::new();
+    for (key, value) in document {
+        let section = key.get_ref();
+        places.insert(section.to_string(), value.span());
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                for (name, value) in table {
+                    places.insert(format!("{section}:{}", name.get_ref()), name.span());
+                    if let Some(bits) = value.get_ref().as_table() {
+                        for bit in bits.keys() {
+                            places.insert(
+                                format!("{section}:{}.{}", name.get_ref(), bit.get_ref()),
+                                bit.span(),
+                            );
+                        }
+                    }
+                }
+            }
+            DeValue::Array(entries) => {
+                for entry in entries {
+                    let name =
+                        entry.get_ref().as_str().or_else(|| entry.get_ref().get("code")?.get_ref().as_str());
+                    if let Some(name) = name {
+                        places.insert(format!("{section}:{name}"), entry.span());
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    places
+}

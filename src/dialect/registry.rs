@@ -1,0 +1,92 @@
+//! The list of dialects: the one place where a dialect is added, and so the one
+//! that names modules further right than its own.
+
+use super::{Dialect, load};
+use crate::control::{self, Execute};
+use crate::diag::Diagnostic;
+use crate::emit::{self, Emit};
+use crate::lower::{self, Lower};
+use crate::syntax::{self, Parser};
+use std::sync::OnceLock;
+
+/// A dialect: its table, and the modules that know it by name.
+pub struct Entry {
+    /// Short name, as `--from` takes it.
+    pub name: &'static str,
+    /// Where its table lies in the repository.
+    pub file: &'static str,
+    /// Its table.
+    pub table: &'static str,
+    /// Reads its blocks.
+    pub parse: Parser,
+    /// Lowers its programs.
+    pub lower: Lower,
+    /// Writes programs for it; absent while it is a source only.
+    pub emit: Option<Emit>,
+    /// Runs programs as its control would; absent where there is no emulated control.
+    pub execute: Option<Execute>,
+    loaded: OnceLock<Result<Dialect, Vec<Diagnostic>>>,
+}
+
+macro_rules! entry {
+    ($name:literal, $parse:expr, $lower:expr, $emit:expr, $execute:expr) => {
+        Entry {
+            name: $name,
+            file: concat!("dialects/", $name, ".toml"),
+            table: include_str!(concat!("../../dialects/", $name, ".toml")),
+            parse: $parse,
+            lower: $lower,
+            emit: $emit,
+            execute: $execute,
+            loaded: OnceLock::new(),
+        }
+    };
+}
+
+static ENTRIES: [Entry; 4] = [
+    entry!("fadal", syntax::fadal::parse_line, lower::fadal::lower, None, Some(control::fadal::execute)),
+    entry!(
+        "fanuc",
+        syntax::fanuc::parse_line,
+        lower::fanuc::lower,
+        Some(emit::fanuc::emit),
+        Some(control::fanuc::execute)
+    ),
+    entry!(
+        "haas",
+        syntax::haas::parse_line,
+        lower::haas::lower,
+        Some(emit::haas::emit),
+        Some(control::haas::execute)
+    ),
+    entry!("cc100", syntax::cc100::parse_line, lower::cc100::lower, None, Some(control::cc100::execute)),
+];
+
+/// Every dialect.
+pub fn all() -> &'static [Entry] {
+    &ENTRIES
+}
+
+/// The dialect with this short name.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    ENTRIES.iter().find(|entry| entry.name == name)
+}
+
+impl Entry {
+    /// Its facts. A shipped table loads (a test says so); the faults are for one that is being edited.
+    pub fn dialect(&self) -> Result<&Dialect, &[Diagnostic]> {
+        self.loaded.get_or_init(|| load(self.table)).as_ref().map_err(Vec::as_slice)
+    }
+}
+
+impl std::fmt::Debug for Entry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Entry({})", self.name)
+    }
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}

@@ -1,0 +1,72 @@
+//! What all rows have in common: a section, a name within it, an origin.
+
+use super::{
+    Argument, Behaviour, CodeMeaning, Function, Limit, Numbers, Operator, Origin, Setting, Statement,
+    SystemVariable, Text, VariableClass, WordMeaning,
+};
+use serde::de::DeserializeOwned;
+
+/// A row of a dialect's table: one fact.
+pub trait Row: DeserializeOwned {
+    /// The section of the file that holds it.
+    const SECTION: &'static str;
+    /// The word before the colon of [`Row::fact`].
+    const KIND: &'static str;
+
+    /// Its name among the rows of its section.
+    fn key(&self) -> String;
+    /// Where it comes from.
+    fn origin(&self) -> &Origin;
+    /// Where it comes from, to be changed.
+    fn origin_mut(&mut self) -> &mut Origin;
+
+    /// The name that diagnostics give it and that a machine profile confirms it
+    /// by: `behaviour:goto.forward.first`, `code:G10 L2`, `system:#5221`.
+    fn fact(&self) -> String {
+        match self.key() {
+            key if key.is_empty() => Self::KIND.into(),
+            key => format!("{}:{key}", Self::KIND),
+        }
+    }
+}
+
+macro_rules! row {
+    ($($type:ident $section:literal $kind:literal |$row:ident| $key:expr;)*) => {$(
+        impl Row for $type {
+            const SECTION: &'static str = $section;
+            const KIND: &'static str = $kind;
+            fn key(&self) -> String {
+                let $row = self;
+                $key
+            }
+            fn origin(&self) -> &Origin {
+                &self.origin
+            }
+            fn origin_mut(&mut self) -> &mut Origin {
+                &mut self.origin
+            }
+        }
+    )*};
+}
+
+row! {
+    Numbers "numbers" "numbers" |_row| String::new();
+    Text "text" "text" |_row| String::new();
+    Limit "limits" "limit" |row| row.name.clone();
+    Operator "operators" "operator" |row| row.spelling.clone();
+    Function "functions" "function" |row| match row.arguments {
+        1 => row.function.name().into(),
+        n => format!("{}/{n}", row.function),
+    };
+    Statement "statements" "statement" |row| row.name.clone();
+    Behaviour "behaviours" "behaviour" |row| row.name.clone();
+    VariableClass "variables" "variable" |row| format!("{}{}", row.name, row.first);
+    SystemVariable "system" "system" |row| match row.first {
+        Some(first) => format!("{}{first}", row.name),
+        None => row.name.clone(),
+    };
+    WordMeaning "words" "word" |row| row.letter.clone();
+    CodeMeaning "codes" "code" |row| row.code.clone();
+    Argument "arguments" "argument" |row| row.letter.to_string();
+    Setting "settings" "setting" |row| row.name.clone();
+}

@@ -1,0 +1,318 @@
+//! How the end of each block is written, given that blocks stand in source order.
+
+use super::loops;
+use crate::ir::{Block, BlockId, Call, Callee, Cond, Program, Stmt, StmtKind, TermKind};
+use crate::syntax::Label;
+
+/// How the end of a block is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Not at all: the block behind it is the next one.
+    #[default]
+    Fall,
+    /// `GOTO`.
+    Goto(BlockId),
+    /// `IF[..]GOTO`, and then perhaps `GOTO`.
+    If {
+        /// True for the opposite of the condition.
+        negated: bool,
+        /// Where the first goes.
+        to: BlockId,
+        /// Where the second goes.
+        otherwise: Option<BlockId>,
+    },
+    /// `IF[..]THEN` before the one statement of the block behind it.
+    Then,
+    /// `/` before the one line of the block behind it.
+    Skip(u8),
+    /// `/GOTO`, and then perhaps `GOTO`.
+    SkipGoto {
+        /// The switch.
+        level: u8,
+        /// Where the first goes.
+        to: BlockId,
+        /// Where the second goes.
+        otherwise: Option<BlockId>,
+    },
+    /// `WHILE[..]DOn`.
+    While {
+        /// True for the opposite of the condition.
+        negated: bool,
+        /// n.
+        number: u32,
+    },
+    /// `ENDn`.
+    EndDo(u32),
+    /// As what it is (a call, a return, an end), and then perhaps `GOTO`.
+    Own(Option<BlockId>),
+}
+
+/// How a program is laid out.
+#[derive(Debug, Default)]
+pub(super) struct Plan {
+    /// By block.
+    pub forms: Vec<Form>,
+    /// Which blocks need a sequence number; one more than there are blocks, for the end of the text.
+    pub labelled: Vec<bool>,
+}
+
+/// What the target can write, as far as layout depends on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Abilities {
+    /// `IF[..]THEN` before a macro statement.
+    pub then: bool,
+    /// `IF[..]THEN` before words.
+    pub then_words: bool,
+    /// Loops inside one another; 0 where there is no WHILE.
+    pub loops: u32,
+}
+
+/// The ways into each block.
+pub(super) struct Arrivals {
+    from: Vec<Vec<usize>>,
+    entered: Vec<bool>,
+}
+
+impl Arrivals {
+    /// Collects them; `kept` tells sequence numbers that other programs return to.
+    pub fn of_program(program: &Program, kept: impl Fn(u32) -> bool) -> Self {
+        let count = program.blocks.len();
+        let mut all = Self { from: vec![Vec::new(); count], entered: vec![false; count] };
+        all.enter(BlockId(0));
+        for (at, block) in program.blocks.iter().enumerate() {
+            for to in block.term.kind.successors() {
+                if let Some(from) = all.from.get_mut(to.index()) {
+                    from.push(at);
+                }
+            }
+            callees(block).for_each(|entry| all.enter(entry));
+            if block.labels.iter().any(|label| matches!(label, Label::Number(n) if kept(*n))) {
+                all.enter(BlockId(at as u32));
+            }
+        }
+        all
+    }
+
+    fn enter(&mut self, block: BlockId) {
+        if let Some(entered) = self.entered.get_mut(block.index()) {
+            *entered = true;
+        }
+    }
+
+    /// The blocks that go on at this one.
+    pub fn of(&self, block: usize) -> &[usize] {
+        self.from.get(block).map_or(&[], Vec::as_slice)
+    }
+
+    /// True where control comes in from outside the program or by a call.
+    pub fn is_entered(&self, block: usize) -> bool {
+        self.entered.get(block).copied().unwrap_or(true)
+    }
+
+    fn is_only_from(&self, block: usize, from: usize) -> bool {
+        !self.is_entered(block) && self.of(block) == [from]
+    }
+}
+
+/// The blocks that a block calls.
+pub(super) fn callees(block: &Block) -> impl Iterator<Item = BlockId> {
+    let entry = |call: &Call| match call.callee {
+        Callee::Block(entry) => Some(entry),
+        _ => None,
+    };
+    let modal = block.stmts.iter().filter_map(move |stmt| match &stmt.kind {
+        StmtKind::ModalCall(call) => entry(call),
+        _ => None,
+    });
+    modal.chain(match &block.term.kind {
+        TermKind::Call { call, .. } => entry(call),
+        _ => None,
+    })
+}
+
+/// True where a condition asks the block-skip switch.
+pub(super) fn has_switch(condition: &Cond) -> bool {
+    let mut work = vec![condition];
+    while let Some(condition) = work.pop() {
+        match condition {
+            Cond::Switch(_) => return true,
+            Cond::Not(inner) => work.push(inner),
+            Cond::And(parts) | Cond::Or(parts) => work.extend(parts),
+            Cond::Compare(..) => {}
+        }
+    }
+    false
+}
+
+impl Plan {
+    /// Lays a program out. `joined` tells whether a block's last statement and its end
+    /// stand on one line.
+    pub fn new(
+        program: &Program,
+        arrivals: &Arrivals,
+        abilities: Abilities,
+        joined: impl Fn(&Block) -> bool,
+    ) -> Self {
+        let count = program.blocks.len();
+        let mut layout = Layout { program, arrivals, abilities, joined, forms: vec![None; count] };
+        for found in loops::find(program, arrivals, abilities.loops) {
+            layout.forms[found.header] = Some(Form::While { negated: found.negated, number: found.number });
+            layout.forms[found.last] = Some(Form::EndDo(found.number));
+        }
+        // From the end, because whether a block is one line depends on the one behind it.
+        for at in (0..count).rev() {
+            if layout.forms[at].is_none() {
+                layout.forms[at] = Some(layout.form(at));
+            }
+        }
+        let forms: Vec<Form> = layout.forms.into_iter().map(Option::unwrap_or_default).collect();
+        let labelled = labelled(program, &forms);
+        Self { forms, labelled }
+    }
+}
+
+struct Layout<'a, F> {
+    program: &'a Program,
+    arrivals: &'a Arrivals,
+    abilities: Abilities,
+    joined: F,
+    forms: Vec<Option<Form>>,
+}
+
+impl<F: Fn(&Block) -> bool> Layout<'_, F> {
+    fn form(&self, at: usize) -> Form {
+        let Some(block) = self.program.blocks.get(at) else { return Form::Fall };
+        let next = BlockId(at as u32 + 1);
+        let far = |to: BlockId| (to != next).then_some(to);
+        match &block.term.kind {
+            TermKind::Jump(to) => far(*to).map_or(Form::Fall, Form::Goto),
+            TermKind::Branch { cond, yes, no } => self.branch(at, cond, *yes, *no),
+            TermKind::Call { next: to, .. } => Form::Own(far(*to)),
+            TermKind::Stray if next.index() == self.program.blocks.len() => Form::Fall,
+            // The text ends here, which only its end can do.
+            TermKind::Stray => Form::Goto(BlockId(self.program.blocks.len() as u32)),
+            TermKind::Computed { .. }
+            | TermKind::Return { .. }
+            | TermKind::Chain(_)
+            | TermKind::End { .. } => Form::Own(None),
+        }
+    }
+
+    fn branch(&self, at: usize, cond: &Cond, yes: BlockId, no: BlockId) -> Form {
+        let next = BlockId(at as u32 + 1);
+        match cond {
+            Cond::Switch(level) => self.switch(at, *level, yes, no),
+            Cond::Not(inner) if matches!(**inner, Cond::Switch(_)) => {
+                let Cond::Switch(level) = **inner else { return Form::Fall };
+                self.switch(at, level, no, yes)
+            }
+            _ if self.is_then(at, yes, no) => Form::Then,
+            _ if yes == next => Form::If { negated: true, to: no, otherwise: None },
+            _ => Form::If { negated: false, to: yes, otherwise: (no != next).then_some(no) },
+        }
+    }
+
+    /// One statement that runs where the condition holds, and then, either way, what is behind it.
+    fn is_then(&self, at: usize, yes: BlockId, no: BlockId) -> bool {
+        let body = at + 1;
+        if yes.index() != body || !self.arrivals.is_only_from(body, at) {
+            return false;
+        }
+        let (Some(header), Some(block)) = (self.program.blocks.get(at), self.program.blocks.get(body)) else {
+            return false;
+        };
+        let one_block = |span: crate::text::Span| !span.is_empty() && span == header.term.site.span;
+        if !block.labels.is_empty() || self.forms[body].is_some_and(|form| matches!(form, Form::EndDo(_))) {
+            return false;
+        }
+        match (block.stmts.as_slice(), &block.term.kind) {
+            ([stmt], TermKind::Jump(join)) => {
+                let macro_statement = matches!(
+                    stmt.kind,
+                    StmtKind::Assign { .. } | StmtKind::Alarm { .. } | StmtKind::StopMessage { .. }
+                );
+                let words = matches!(stmt.kind, StmtKind::Nc(_));
+                *join == no
+                    && join.index() == body + 1
+                    && is_silent(block)
+                    && stmt.site.skip.is_none()
+                    && (stmt.site.sequence.is_none() || one_block(stmt.site.span))
+                    && ((macro_statement && self.abilities.then)
+                        || (words && self.abilities.then_words && one_block(stmt.site.span)))
+            }
+            ([], TermKind::Return { .. }) => {
+                no.index() == body + 1 && self.abilities.then_words && one_block(block.term.site.span)
+            }
+            _ => false,
+        }
+    }
+
+    fn switch(&self, at: usize, level: u8, on: BlockId, off: BlockId) -> Form {
+        let next = BlockId(at as u32 + 1);
+        if off == next && self.is_one_line(at + 1, at, on) {
+            return Form::Skip(level);
+        }
+        Form::SkipGoto { level, to: on, otherwise: (off != next).then_some(off) }
+    }
+
+    /// True where the block at `body` is one line that only `at` leads to, and where it does not go
+    /// elsewhere goes on at `join`, which stands behind it.
+    fn is_one_line(&self, body: usize, at: usize, join: BlockId) -> bool {
+        let Some(block) = self.program.blocks.get(body) else { return false };
+        if !self.arrivals.is_only_from(body, at) || !block.labels.is_empty() {
+            return false;
+        }
+        let behind = body + 1;
+        let form = self.forms[body].unwrap_or_default();
+        let ends = match form {
+            Form::Fall if is_silent(block) => Some(0),
+            Form::Goto(_) | Form::If { otherwise: None, .. } | Form::Own(None) => Some(1),
+            Form::Then if join.index() == behind + 1 => return block.stmts.is_empty(),
+            _ => None,
+        };
+        let Some(ends) = ends else { return false };
+        let lines = match block.stmts.as_slice() {
+            [] => ends,
+            [_] if ends == 1 && (self.joined)(block) => 1,
+            [stmt] if is_skippable(stmt) => 1 + ends,
+            _ => return false,
+        };
+        lines == 1 && join.index() == behind
+    }
+}
+
+/// True where the statement takes one line that may have a `/` of its branch.
+fn is_skippable(stmt: &Stmt) -> bool {
+    stmt.site.skip.is_none() && !matches!(stmt.kind, StmtKind::Remark)
+}
+
+/// True where nothing was written at the block's end, which is not written either.
+fn is_silent(block: &Block) -> bool {
+    block.term.site.remarks.is_empty() && block.term.site.sequence.is_none()
+}
+
+/// Which blocks something goes to by their sequence number.
+fn labelled(program: &Program, forms: &[Form]) -> Vec<bool> {
+    let mut labelled = vec![false; program.blocks.len() + 1];
+    let mut need = |block: BlockId| {
+        if let Some(needed) = labelled.get_mut(block.index()) {
+            *needed = true;
+        }
+    };
+    for (block, form) in program.blocks.iter().zip(forms) {
+        callees(block).for_each(&mut need);
+        if let TermKind::Computed { targets, .. } = &block.term.kind {
+            targets.iter().for_each(|(_, to)| need(*to));
+        }
+        match form {
+            Form::Goto(to) => need(*to),
+            Form::If { to, otherwise, .. } | Form::SkipGoto { to, otherwise, .. } => {
+                need(*to);
+                otherwise.iter().for_each(|to| need(*to));
+            }
+            Form::Own(then) => then.iter().for_each(|to| need(*to)),
+            Form::Fall | Form::Then | Form::Skip(_) | Form::While { .. } | Form::EndDo(_) => {}
+        }
+    }
+    labelled
+}

@@ -1,0 +1,200 @@
+//! Sequence numbers: who keeps the one it has, and who gets a new one.
+//!
+//! A block that is jumped to keeps the number of the source where it is the only one to
+//! claim it. Others get a number between those of their neighbours, a multiple of ten where one
+//! is free. All other numbers stay where people wrote them, unless they would catch a
+//! jump that is meant for another block.
+
+use crate::ir::{Block, Program, TermKind};
+use crate::syntax::Label;
+use std::collections::{HashMap, HashSet};
+
+/// Tries at one place before another is looked for.
+const TRIES: usize = 1000;
+
+/// What becomes of a sequence number of the source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// It is written.
+    Free,
+    /// It is a label of its block, which writes it at its head.
+    Label,
+    /// It cannot be written, or another block is found by it.
+    Barred,
+}
+
+/// The sequence numbers of one program.
+#[derive(Debug, Default)]
+pub(super) struct Labels {
+    /// By block, and one for the end of the text.
+    numbers: Vec<Option<u32>>,
+    claimed: HashMap<u32, usize>,
+    most: u32,
+}
+
+impl Labels {
+    /// Gives a number to each block of `labelled`. `kept` tells numbers that other programs
+    /// return to, `most` is the largest number. Problems are told in words.
+    pub fn new(
+        program: &Program,
+        labelled: &[bool],
+        kept: impl Fn(u32) -> bool,
+        most: u32,
+    ) -> (Self, Vec<String>) {
+        let mut labels = Self { numbers: vec![None; labelled.len()], claimed: HashMap::new(), most };
+        let mut faults = Vec::new();
+        labels.claim_fixed(program, kept, &mut faults);
+        let mut owners = labelled.to_vec();
+        for &at in labels.claimed.values() {
+            if let Some(owns) = owners.get_mut(at) {
+                *owns = true;
+            }
+        }
+        for (at, block) in program.blocks.iter().enumerate() {
+            if owners.get(at) == Some(&true) {
+                labels.keep(at, block);
+            }
+        }
+        let missing: Vec<usize> =
+            (0..labelled.len()).filter(|&at| labelled[at] && labels.numbers[at].is_none()).collect();
+        if !missing.is_empty() {
+            Inventor::new(program, &labels).invent(&mut labels, &missing, &mut faults);
+        }
+        (labels, faults)
+    }
+
+    /// The number that a block is found by.
+    pub fn number(&self, block: usize) -> Option<u32> {
+        self.numbers.get(block).copied().flatten()
+    }
+
+    /// True where something finds a block by this number.
+    pub fn is_claimed(&self, number: u32) -> bool {
+        self.claimed.contains_key(&number)
+    }
+
+    /// What becomes of a number that stands in a block of the source.
+    pub fn standing(&self, number: u32, block: usize) -> Standing {
+        if !self.is_valid(number) {
+            return Standing::Barred;
+        }
+        match self.claimed.get(&number) {
+            None => Standing::Free,
+            Some(owner) if *owner == block => Standing::Label,
+            Some(_) => Standing::Barred,
+        }
+    }
+
+    fn is_valid(&self, number: u32) -> bool {
+        (1..=self.most).contains(&number)
+    }
+
+    /// Numbers that computed jumps and returns find their blocks by.
+    fn claim_fixed(&mut self, program: &Program, kept: impl Fn(u32) -> bool, faults: &mut Vec<String>) {
+        for block in &program.blocks {
+            if let TermKind::Computed { targets, .. } = &block.term.kind {
+                for (number, to) in targets {
+                    let owner = *self.claimed.entry(*number).or_insert(to.index());
+                    if owner != to.index() || !self.is_valid(*number) {
+                        faults.push(format!("a computed jump needs the sequence number {number}"));
+                    }
+                }
+            }
+        }
+        for (at, block) in program.blocks.iter().enumerate() {
+            for number in numbers(block).filter(|&number| kept(number)) {
+                self.claimed.entry(number).or_insert(at);
+                if !self.is_valid(number) {
+                    faults.push(format!("a program returns to the sequence number {number}"));
+                }
+            }
+        }
+    }
+
+    /// Lets a block keep the number at its head, or one of its labels.
+    fn keep(&mut self, at: usize, block: &Block) {
+        let head = match block.stmts.first() {
+            Some(stmt) => stmt.site.sequence,
+            None => block.term.site.sequence,
+        };
+        let mine = |number: &u32| self.is_valid(*number) && self.claimed.get(number).is_none_or(|&o| o == at);
+        if let Some(number) = head.into_iter().chain(numbers(block)).find(mine) {
+            self.claimed.insert(number, at);
+            self.numbers[at] = Some(number);
+        }
+    }
+}
+
+/// The labels of a block that are numbers.
+pub(super) fn numbers(block: &Block) -> impl Iterator<Item = u32> {
+    block.labels.iter().filter_map(|label| match label {
+        Label::Number(number) => Some(*number),
+        Label::Name(_) => None,
+    })
+}
+
+/// The sequence numbers in a block, in order.
+fn sequences(block: &Block) -> impl DoubleEndedIterator<Item = u32> {
+    block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]).filter_map(|site| site.sequence)
+}
+
+/// Finds numbers that nobody has.
+struct Inventor {
+    taken: HashSet<u32>,
+    /// By block: the last number in it, and the first number in it or behind it.
+    last: Vec<Option<u32>>,
+    next: Vec<Option<u32>>,
+    /// Where to go on when there is no room between neighbours.
+    spare: u32,
+}
+
+impl Inventor {
+    fn new(program: &Program, labels: &Labels) -> Self {
+        let mut taken: HashSet<u32> = labels.claimed.keys().copied().collect();
+        let (mut last, mut next) = (Vec::new(), Vec::new());
+        for (at, block) in program.blocks.iter().enumerate() {
+            taken.extend(sequences(block).chain(numbers(block)));
+            let stands = |number: &u32| labels.standing(*number, at) == Standing::Free;
+            last.push(sequences(block).rev().find(stands).or(labels.number(at)));
+            next.push(labels.number(at).or_else(|| sequences(block).find(stands)));
+        }
+        last.push(None);
+        next.push(None);
+        for at in (0..program.blocks.len()).rev() {
+            next[at] = next[at].or(next[at + 1]);
+        }
+        Self { taken, last, next, spare: 9000 }
+    }
+
+    fn invent(mut self, labels: &mut Labels, missing: &[usize], faults: &mut Vec<String>) {
+        let mut before = None;
+        let mut seen = 0;
+        for &at in missing {
+            before = self.last.get(seen..at).unwrap_or_default().iter().flatten().last().copied().or(before);
+            seen = at;
+            let next = self.next.get(at).copied().flatten();
+            let Some(number) = self.pick(before.unwrap_or(0), next, labels.most) else {
+                faults.push("every sequence number is used".into());
+                return;
+            };
+            self.taken.insert(number);
+            labels.claimed.insert(number, at);
+            labels.numbers[at] = Some(number);
+            before = Some(number);
+        }
+    }
+
+    fn pick(&mut self, before: u32, next: Option<u32>, most: u32) -> Option<u32> {
+        let end = next.unwrap_or(u32::MAX).min(most.saturating_add(1));
+        let tens = (before / 10 + 1).saturating_mul(10);
+        let free = |number: &u32| !self.taken.contains(number);
+        let between = (tens..end).step_by(10).take(TRIES).find(free);
+        let between = between.or_else(|| (before.saturating_add(1)..end).take(TRIES).find(free));
+        between.or_else(|| {
+            let number =
+                (self.spare..=most).step_by(10).find(free).or_else(|| (1..=most).rev().find(free))?;
+            self.spare = number;
+            Some(number)
+        })
+    }
+}

@@ -1,0 +1,286 @@
+//! Lines: what stands before and behind the words of a block.
+
+use super::Emitter;
+use super::labels::Standing;
+use super::numbers::write_padded;
+use super::remarks::{wrap, write_remark};
+use crate::diag::Code;
+use crate::ir::{Cond, Remark, Site};
+use crate::text::Span;
+
+/// What a line holds, as far as its comments and its length go.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(super) enum Kind {
+    /// Words.
+    #[default]
+    Words,
+    /// A macro statement.
+    Macro,
+    /// A macro statement whose own text in brackets is a message, or that must stand
+    /// alone: comments go before it, but for one that only repeats the message.
+    Alone,
+}
+
+/// The line that is being written, and what waits for the next one.
+#[derive(Default)]
+pub(super) struct Line<'p> {
+    start: usize,
+    head_end: usize,
+    body: usize,
+    kind: Kind,
+    remarks: Vec<&'p Remark>,
+    /// The block that is being written.
+    pub block: usize,
+    /// The label that the next line must have.
+    pub label: Option<u32>,
+    /// What people called that label.
+    pub name: Option<&'p str>,
+    /// The skip level of the next line.
+    pub skip: Option<u8>,
+    /// The condition of the next line, which stands behind its THEN.
+    pub condition: Option<&'p Cond>,
+    /// The label that was written last on a line of its own.
+    flushed: Option<u32>,
+    sequence: Option<u32>,
+    waiting: Vec<&'p Remark>,
+    last: Option<&'p Site>,
+}
+
+impl<'p> Emitter<'p> {
+    /// Keeps the sequence number and the comments of a site for the next line, but for
+    /// those that the line before had already, coming from the same block.
+    pub(super) fn carry(&mut self, site: &'p Site) {
+        if self.line.last.is_some_and(|last| std::ptr::eq(last, site)) {
+            return;
+        }
+        let last = self.line.last.filter(|last| !site.span.is_empty() && last.span == site.span);
+        if last.is_none_or(|last| last.sequence.is_none()) && self.line.sequence.is_none() {
+            self.line.sequence = site.sequence;
+        }
+        if last.is_none_or(|last| last.remarks != site.remarks) {
+            self.line.waiting.extend(&site.remarks);
+        }
+        self.line.last = Some(site);
+    }
+
+    /// True where a label, comments or a sequence number wait for a line.
+    pub(super) fn is_waiting(&self) -> bool {
+        self.line.label.is_some() || self.has_carried()
+    }
+
+    /// True where comments or a sequence number wait for a line.
+    pub(super) fn has_carried(&self) -> bool {
+        self.line.sequence.is_some() || !self.line.waiting.is_empty()
+    }
+
+    /// True where the line before came from the same bytes.
+    pub(super) fn is_last_span(&self, span: Span) -> bool {
+        !span.is_empty() && self.line.last.is_some_and(|last| last.span == span)
+    }
+
+    /// Starts a line; `message` is the text that its statement shows, if it shows any.
+    pub(super) fn begin(&mut self, site: &'p Site, kind: Kind, message: Option<&str>) {
+        self.span = site.span;
+        self.carry(site);
+        let skip = self.line.skip.take().or(site.skip);
+        if skip.is_some() && self.line.label.is_some() {
+            // A skipped line need not be found by a jump.
+            self.flush_label();
+        }
+        self.line.kind = kind;
+        self.line.remarks = std::mem::take(&mut self.line.waiting);
+        if kind == Kind::Alone {
+            for remark in std::mem::take(&mut self.line.remarks) {
+                if message.is_none_or(|text| text.trim() != remark.text.trim()) {
+                    self.remark_lines(&remark.text);
+                }
+            }
+        }
+        self.line.start = self.emitted.text.len();
+        if let Some(level) = skip {
+            self.skip(level);
+        }
+        let unprinted = self.head();
+        self.line.head_end = self.emitted.text.len();
+        if let Some(number) = unprinted {
+            self.space();
+            self.push_str("(N");
+            self.integer(number);
+            self.push(')');
+        }
+        for at in 0..self.line.remarks.len() {
+            if let Some(&remark) = self.line.remarks.get(at).filter(|remark| remark.leading) {
+                self.space();
+                write_remark(&mut self.emitted.text, &remark.text);
+            }
+        }
+        self.line.body = self.emitted.text.len();
+        if let Some(condition) = self.line.condition.take() {
+            self.space();
+            self.push_str("IF ");
+            self.bracketed_condition(condition, false);
+            self.push_str(" THEN");
+        }
+    }
+
+    /// Writes the sequence number. A number that the line cannot have is handed back, to be
+    /// kept as a comment.
+    fn head(&mut self) -> Option<u32> {
+        let flushed = self.line.flushed.take();
+        let sequence = self.line.sequence.take().filter(|number| Some(*number) != flushed);
+        let standing = sequence.map(|n| (n, self.labels.standing(n, self.line.block)));
+        if let Some(label) = self.line.label.take() {
+            self.space();
+            self.push('N');
+            self.integer(label);
+            if let Some(name) = self.line.name.take() {
+                self.space();
+                write_remark(&mut self.emitted.text, name);
+            }
+            return standing.filter(|(n, s)| *n != label && *s != Standing::Label).map(|(n, _)| n);
+        }
+        match standing? {
+            (number, Standing::Free) => {
+                self.space();
+                self.push('N');
+                self.integer(number);
+                None
+            }
+            (_, Standing::Label) => None,
+            (number, Standing::Barred) => Some(number),
+        }
+    }
+
+    fn skip(&mut self, level: u8) {
+        self.push('/');
+        if level != 1 {
+            if !self.control.is("skip.levels") {
+                self.unmapped(format_args!("block skip {level}"));
+            }
+            self.integer(u32::from(level));
+        }
+    }
+
+    /// Separates a word from what stands before it on the line.
+    pub(super) fn space(&mut self) {
+        let text = &self.emitted.text;
+        if text.len() > self.line.start && !text.ends_with('/') {
+            self.push(' ');
+        }
+    }
+
+    /// Adds a word of its own.
+    pub(super) fn word(&mut self, text: &str) {
+        self.space();
+        self.push_str(text);
+    }
+
+    /// Writes `O0001 (COMMENT)`: the name is the first on its line, so comments that find no room there
+    /// follow on lines of their own. A sequence number beside it is left out: nothing goes there by it.
+    pub(super) fn program_line(&mut self, site: &'p Site, number: u32) {
+        self.carry(site);
+        self.line.sequence = None;
+        self.span = site.span;
+        self.line.start = self.emitted.text.len();
+        self.push('O');
+        write_padded(&mut self.emitted.text, u64::from(number), 4);
+        let mut remarks = std::mem::take(&mut self.line.waiting).into_iter().peekable();
+        let limit = self.control.text().line.map_or(usize::MAX, |limit| limit as usize);
+        while let Some(remark) = remarks.peek() {
+            let before = self.emitted.text.len();
+            self.space();
+            write_remark(&mut self.emitted.text, &remark.text);
+            if self.emitted.text.len() - self.line.start > limit {
+                self.emitted.text.truncate(before);
+                break;
+            }
+            remarks.next();
+        }
+        self.end_line();
+        remarks.for_each(|remark| self.remark_lines(&remark.text));
+    }
+
+    /// Ends the line.
+    pub(super) fn finish(&mut self) {
+        let end = self.emitted.text.len();
+        for at in 0..self.line.remarks.len() {
+            if let Some(&remark) = self.line.remarks.get(at).filter(|remark| !remark.leading) {
+                self.space();
+                write_remark(&mut self.emitted.text, &remark.text);
+            }
+        }
+        let text = self.control.text();
+        let limit = if self.line.kind == Kind::Words { text.line } else { text.macro_line.or(text.line) };
+        if let Some(limit) = limit
+            && self.emitted.text.len() - self.line.start > limit as usize
+        {
+            self.shorten(end, limit as usize);
+        }
+        self.end_line();
+    }
+
+    fn end_line(&mut self) {
+        if !self.span.is_empty() {
+            self.emitted.blocks.push((self.span, self.line.start..self.emitted.text.len()));
+        }
+        self.push('\n');
+    }
+
+    /// Puts the comments of a line that is too long on lines before it.
+    fn shorten(&mut self, end: usize, limit: usize) {
+        let line = self.emitted.text.split_off(self.line.start);
+        let at = |place: usize| place - self.line.start;
+        let head = line.get(..at(self.line.head_end)).unwrap_or_default();
+        let body = line.get(at(self.line.body)..at(end)).unwrap_or_default().trim_start();
+        for remark in std::mem::take(&mut self.line.remarks) {
+            self.remark_lines(&remark.text);
+        }
+        self.line.start = self.emitted.text.len();
+        self.push_str(head);
+        if !body.is_empty() {
+            self.word(body);
+        }
+        let length = self.emitted.text.len() - self.line.start;
+        if length > limit {
+            self.refuse(
+                Code::LineTooLong,
+                format!("the block has {length} characters, a line takes {limit}"),
+            );
+        }
+    }
+
+    /// Writes a comment on lines of its own.
+    pub(super) fn remark_lines(&mut self, text: &str) {
+        let room = self.control.text().line.map_or(usize::MAX, |most| most.saturating_sub(2) as usize);
+        for piece in wrap(text, room) {
+            let start = self.emitted.text.len();
+            write_remark(&mut self.emitted.text, piece);
+            if !self.span.is_empty() {
+                self.emitted.blocks.push((self.span, start..self.emitted.text.len()));
+            }
+            self.push('\n');
+        }
+    }
+
+    /// Writes the waiting label on a line of its own, if there is one.
+    pub(super) fn flush_label(&mut self) {
+        if let Some(label) = self.line.label.take() {
+            let name = self.line.name.take();
+            self.label_line(label, name);
+        }
+    }
+
+    /// Writes a line with nothing but a sequence number.
+    pub(super) fn label_line(&mut self, label: u32, name: Option<&str>) {
+        self.span = Span::default();
+        self.line.flushed = Some(label);
+        self.line.start = self.emitted.text.len();
+        self.push('N');
+        self.integer(label);
+        if let Some(name) = name {
+            self.space();
+            write_remark(&mut self.emitted.text, name);
+        }
+        self.push('\n');
+    }
+}

@@ -1,0 +1,220 @@
+//! A program from its name to its end.
+
+use super::Emitter;
+use super::flow::{Abilities, Arrivals, Form, Plan};
+use super::labels::{self, Labels, Standing};
+use super::line::Kind;
+use crate::diag::Code;
+use crate::ir::{Block, BlockId, Cond, Site, TermKind};
+use crate::syntax::Label;
+
+impl<'p> Emitter<'p> {
+    /// Writes the program.
+    pub(super) fn program(&mut self) {
+        let program = self.program;
+        self.span = program.site.span;
+        if !self.is_closed() {
+            return self.unmapped("a jump to a block that does not exist");
+        }
+        let names = self.names;
+        let arrivals = Arrivals::of_program(program, |number| names.is_returned_to(number));
+        let plan = Plan::new(program, &arrivals, self.abilities(), |block| self.is_joined(block));
+        let most = self.control.text().sequence_max;
+        let (labels, faults) = Labels::new(program, &plan.labelled, |n| names.is_returned_to(n), most);
+        self.labels = labels;
+        for fault in faults {
+            self.refuse(Code::NoSequenceNumber, fault);
+        }
+        self.header();
+        for (at, (block, form)) in program.blocks.iter().zip(&plan.forms).enumerate() {
+            self.block(at, block, *form);
+        }
+        self.flush_label();
+        if let Some(end) = self.labels.number(program.blocks.len()) {
+            self.label_line(end, None);
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        let count = self.program.blocks.len();
+        self.program.blocks.iter().all(|block| {
+            let mut all = block.term.kind.successors().into_iter().chain(super::flow::callees(block));
+            all.all(|to| to.index() < count)
+        })
+    }
+
+    fn abilities(&self) -> Abilities {
+        let control = self.control;
+        let depth = ["do.depth", "do.numbers"].into_iter().filter_map(|name| control.limit(name)).min();
+        Abilities {
+            then: control.statement("if.then").is_some(),
+            then_words: control.statement("if.then.words").is_some() || control.is("then.words"),
+            loops: control.statement("while").and(depth).unwrap_or(0),
+        }
+    }
+
+    /// Writes the block that names the program.
+    fn header(&mut self) {
+        let site = &self.program.site;
+        let Some(name) = &self.program.name else {
+            site.remarks.iter().for_each(|remark| self.remark_lines(&remark.text));
+            return;
+        };
+        let most = self.control.text().program_max;
+        let Some(number) = self.names.program(name).filter(|number| (1..=most).contains(number)) else {
+            return self.unmapped(format_args!("the name of the program, {name:?}"));
+        };
+        self.program_line(site, number);
+    }
+
+    fn block(&mut self, at: usize, block: &'p Block, form: Form) {
+        self.label(at, block, form);
+        self.line.block = at;
+        let joined = self.is_joined(block);
+        let (alone, last) = match block.stmts.split_last() {
+            Some((last, rest)) if joined => (rest, Some(last)),
+            _ => (block.stmts.as_slice(), None),
+        };
+        for stmt in alone {
+            self.statement(stmt);
+        }
+        if let Some(stmt) = last {
+            self.begin(&stmt.site, Kind::Words, None);
+            self.carry(&block.term.site);
+            self.words_of(stmt);
+        }
+        self.end(block, form, joined);
+    }
+
+    /// Sets the label of the block's first line and writes those that have no room on it.
+    /// The label of an empty block before stays for this line too, but not before a loop: a jump from
+    /// inside the loop to its WHILE would enter it once more.
+    fn label(&mut self, at: usize, block: &'p Block, form: Form) {
+        let chosen = self.labels.number(at);
+        let mut own = chosen;
+        let mut others = Vec::new();
+        for number in labels::numbers(block).filter(|number| Some(*number) != chosen) {
+            let stands = || block.stmts.iter().map(|s| &s.site).chain([&block.term.site]);
+            let written = match self.labels.standing(number, at) {
+                Standing::Label => true,
+                Standing::Free => stands().all(|site| site.sequence != Some(number)),
+                Standing::Barred => false,
+            };
+            match own {
+                _ if !written => {}
+                Some(_) => others.push(number),
+                None => own = Some(number),
+            }
+        }
+        let jumped_to = self.line.label.is_some_and(|label| self.labels.is_claimed(label));
+        let loops = matches!(form, Form::While { .. }) && jumped_to;
+        if own.is_some_and(|own| Some(own) != self.line.label) || loops {
+            self.flush_label();
+        }
+        for number in others {
+            self.flush_label();
+            self.label_line(number, None);
+        }
+        if own.is_some() {
+            self.line.label = own;
+            self.line.name = block.labels.iter().find_map(|label| match label {
+                Label::Name(name) if chosen.is_some() => Some(name.as_str()),
+                _ => None,
+            });
+        }
+    }
+
+    fn end(&mut self, block: &'p Block, form: Form, joined: bool) {
+        let site = &block.term.site;
+        let condition = match &block.term.kind {
+            TermKind::Branch { cond, .. } => Some(cond),
+            _ => None,
+        };
+        match form {
+            Form::Fall => self.bare(site),
+            Form::Goto(to) => self.goto(site, to),
+            Form::If { negated, to, otherwise } => {
+                self.begin(site, Kind::Macro, None);
+                self.test("IF", "if.goto", condition, negated);
+                self.jump(to);
+                self.finish();
+                otherwise.into_iter().for_each(|to| self.goto(site, to));
+            }
+            Form::Then => {
+                self.carry(site);
+                self.line.condition = condition;
+            }
+            Form::Skip(level) => {
+                self.carry(site);
+                self.line.skip = Some(level);
+            }
+            Form::SkipGoto { level, to, otherwise } => {
+                self.line.skip = Some(level);
+                self.goto(site, to);
+                otherwise.into_iter().for_each(|to| self.goto(site, to));
+            }
+            Form::While { negated, number } => {
+                self.begin(site, Kind::Macro, None);
+                self.test("WHILE", "while", condition, negated);
+                self.numbered("DO", number);
+                self.finish();
+            }
+            Form::EndDo(number) => {
+                self.begin(site, Kind::Macro, None);
+                self.numbered("END", number);
+                self.finish();
+            }
+            Form::Own(then) => {
+                self.leave(block, joined);
+                then.into_iter().for_each(|to| self.goto(site, to));
+            }
+        }
+    }
+
+    /// Writes what stood beside an end that is not written itself.
+    fn bare(&mut self, site: &'p Site) {
+        self.carry(site);
+        if self.has_carried() {
+            self.begin(site, Kind::Words, None);
+            self.finish();
+        }
+    }
+
+    fn test(&mut self, word: &str, statement: &str, condition: Option<&Cond>, negated: bool) {
+        if self.has_statement(statement)
+            && let Some(condition) = condition
+        {
+            self.word(word);
+            self.push(' ');
+            self.bracketed_condition(condition, negated);
+        }
+    }
+
+    fn numbered(&mut self, word: &str, number: u32) {
+        self.word(word);
+        self.integer(number);
+    }
+
+    /// Writes a jump on a line of its own.
+    fn goto(&mut self, site: &'p Site, to: BlockId) {
+        self.begin(site, Kind::Macro, None);
+        self.jump(to);
+        self.finish();
+    }
+
+    fn jump(&mut self, to: BlockId) {
+        if self.has_statement("goto") {
+            self.word("GOTO ");
+            self.sequence_of(to);
+        }
+    }
+
+    /// Writes the number that a block is found by.
+    pub(super) fn sequence_of(&mut self, block: BlockId) {
+        match self.labels.number(block.index()) {
+            Some(number) => self.integer(number),
+            // Told when the numbers were given out.
+            None => debug_assert!(!self.faults.is_empty(), "a target without a number"),
+        }
+    }
+}

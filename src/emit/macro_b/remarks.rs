@@ -1,0 +1,117 @@
+//! Comments and messages: what characters the target can hold.
+
+/// Adds `( )` and a comment's text between them.
+///
+/// A comment ends at its first closing bracket and may hold nothing that ends a block or
+/// a tape: those characters become others that look alike, so that every comment stays
+/// one. Letters outside ASCII lose their accents; what has no like becomes `?`.
+pub(super) fn write_remark(out: &mut String, text: &str) {
+    out.push('(');
+    for c in unfenced(text).chars() {
+        match c {
+            '(' => out.push('['),
+            ')' => out.push(']'),
+            '%' => out.push_str("PCT"),
+            ';' => out.push(','),
+            ' '..='~' => out.push(c),
+            c if c.is_control() => out.push(' '),
+            c => out.push_str(plain(c)),
+        }
+    }
+    out.push(')');
+}
+
+/// The text without a bracket at its end that people closed a comment with on a control whose
+/// comments go to the end of the line.
+fn unfenced(text: &str) -> &str {
+    let text = text.trim_end();
+    let count = |bracket| text.matches(bracket).count();
+    match text.strip_suffix(')') {
+        Some(rest) if count(')') > count('(') => rest.trim_end(),
+        _ => text,
+    }
+}
+
+/// True where a message comes out as it is written.
+pub(super) fn is_writable(text: &str) -> bool {
+    text.chars().all(|c| matches!(c, ' '..='~') && !matches!(c, '(' | ')' | '%' | ';'))
+}
+
+/// Splits a comment into pieces of at most `most` characters, at spaces where there are any.
+pub(super) fn wrap(text: &str, most: usize) -> Vec<&str> {
+    let mut lines = Vec::new();
+    let mut rest = text.trim_end();
+    while rest.chars().count() > most.max(1) {
+        let cut = rest.char_indices().nth(most.max(1)).map_or(rest.len(), |(at, _)| at);
+        let ends_word = rest.get(cut..).is_some_and(|tail| tail.starts_with(' '));
+        let space = rest.get(..cut).and_then(|head| head.rfind(' ')).filter(|&at| at > 0 && !ends_word);
+        let (head, tail) = rest.split_at(space.unwrap_or(cut));
+        lines.push(head);
+        rest = tail.trim_start();
+    }
+    lines.push(rest);
+    lines
+}
+
+fn plain(c: char) -> &'static str {
+    match c {
+        'Ä' | 'Æ' => "AE",
+        'ä' | 'æ' => "ae",
+        'Ö' | 'Œ' => "OE",
+        'ö' | 'œ' => "oe",
+        'Ü' => "UE",
+        'ü' => "ue",
+        'ß' => "ss",
+        'À' | 'Á' | 'Â' | 'Ã' | 'Å' => "A",
+        'à' | 'á' | 'â' | 'ã' | 'å' => "a",
+        'Ç' => "C",
+        'ç' => "c",
+        'È' | 'É' | 'Ê' | 'Ë' => "E",
+        'è' | 'é' | 'ê' | 'ë' => "e",
+        'Ì' | 'Í' | 'Î' | 'Ï' => "I",
+        'ì' | 'í' | 'î' | 'ï' => "i",
+        'Ñ' => "N",
+        'ñ' => "n",
+        'Ò' | 'Ó' | 'Ô' | 'Õ' | 'Ø' => "O",
+        'ò' | 'ó' | 'ô' | 'õ' | 'ø' => "o",
+        'Ù' | 'Ú' | 'Û' => "U",
+        'ù' | 'ú' | 'û' => "u",
+        '°' => " DEG",
+        '±' => "+/-",
+        'µ' | 'μ' => "u",
+        '×' => "x",
+        '–' | '—' => "-",
+        '‘' | '’' => "'",
+        '“' | '”' => "\"",
+        '\u{A0}' => " ",
+        _ => "?",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn remark(text: &str) -> String {
+        let mut out = String::new();
+        write_remark(&mut out, text);
+        out
+    }
+
+    #[test]
+    fn nothing_in_a_comment_can_end_it() {
+        assert_eq!(remark("A (B) 50%; C"), "(A [B] 50PCT, C)");
+        assert_eq!(remark("TO THE LINE END)"), "(TO THE LINE END)");
+        assert_eq!(remark("A (B)"), "(A [B])");
+        assert_eq!(remark("TAB\tLF\nNUL\0."), "(TAB LF NUL .)");
+        assert_eq!(remark("Fräser Ø10 日"), "(Fraeser O10 ?)");
+        assert_eq!(remark(""), "()");
+    }
+
+    #[test]
+    fn long_comments_break_at_spaces() {
+        assert_eq!(wrap("ONE TWO THREE", 7), ["ONE TWO", "THREE"]);
+        assert_eq!(wrap("ABCDEFGH", 3), ["ABC", "DEF", "GH"]);
+        assert_eq!(wrap("", 3), [""]);
+    }
+}

@@ -1,0 +1,208 @@
+//! Blocks of words.
+
+use super::Emitter;
+use super::expressions::Place;
+use super::spellings::{Code, Operand};
+use crate::canon::Role;
+use crate::dialect::{BareLength, CodeHead};
+use crate::ir::{BinOp, Expr, Nc, NcItem};
+use smallvec::SmallVec;
+
+/// The letters that a block has used, comma words apart.
+#[derive(Default)]
+struct Used(u64);
+
+impl Used {
+    /// Notes a letter; true where the block has it already.
+    fn twice(&mut self, (letter, comma): (char, bool)) -> bool {
+        let bit = 1u64 << (u32::from(letter) % 32 + if comma { 32 } else { 0 });
+        let seen = self.0 & bit != 0;
+        self.0 |= bit;
+        seen
+    }
+}
+
+impl<'p> Emitter<'p> {
+    /// Writes the words of a block, in the order they were written in.
+    pub(super) fn words(&mut self, nc: &Nc) {
+        let codes = self.codes(nc);
+        let known: SmallVec<[&Code; 8]> = codes.iter().flatten().copied().collect();
+        self.count_m_codes(nc, &known);
+        let mut used = Used::default();
+        let mut codes = codes.iter();
+        for item in &nc.items {
+            match item {
+                NcItem::Op(_) => {
+                    if let Some(Some(code)) = codes.next() {
+                        self.word(&code.text);
+                    }
+                }
+                NcItem::Word(role, value) => self.role_word(*role, value, &known, &mut used),
+                NcItem::Code(letter, value) => self.computed_code(*letter, value),
+            }
+        }
+    }
+
+    /// Writes a code by its number, which the control must have where it is constant.
+    fn computed_code(&mut self, letter: char, value: &Expr) {
+        self.space();
+        self.push(letter);
+        match value.constant() {
+            Some(number) => {
+                let head = CodeHead::new(letter, number);
+                let known =
+                    self.control.dialect().codes.iter().any(|row| head.is_some() && row.head() == head);
+                if !known && self.control.site_code(letter, number).is_none() {
+                    self.unmapped(format_args!("the code {letter}{number}"));
+                }
+                self.number(number, false);
+            }
+            None => self.word_value(Role::Tool, value),
+        }
+    }
+
+    /// The code of each operation; none for one that a word beside it does by itself.
+    fn codes(&mut self, nc: &Nc) -> SmallVec<[Option<&'p Code<'p>>; 8]> {
+        let (spellings, control) = (self.spellings, self.control);
+        let mut codes = SmallVec::new();
+        for op in nc.ops() {
+            let code = spellings.code(op, |role| match nc.word(role) {
+                None => Operand::None,
+                Some(value) => match value.constant() {
+                    Some(number) => Operand::Constant(number),
+                    None => Operand::Computed(split_sum(value).1),
+                },
+            });
+            let by_word = || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some());
+            if op.is_flow() || (code.is_none() && !by_word()) {
+                self.unmapped(format_args!("the operation '{op}' with these words"));
+            }
+            codes.push(code);
+        }
+        codes
+    }
+
+    fn count_m_codes(&mut self, nc: &Nc, codes: &[&Code]) {
+        let most = self.spellings.m_codes;
+        let computed = nc.items.iter().filter(|item| matches!(item, NcItem::Code('M', _))).count();
+        if codes.iter().filter(|code| code.is_m()).count() + computed > most {
+            self.unmapped(format_args!("more than {most} M codes in one block"));
+        }
+    }
+
+    /// Writes a word, unless the code beside it says the same.
+    fn role_word(&mut self, role: Role, value: &Expr, codes: &[&Code], used: &mut Used) {
+        if codes.iter().any(|code| !code.row.fixed.is_empty() && code.row.fixed.contains_key(&role)) {
+            return;
+        }
+        let spellings = self.spellings;
+        let Some((letter, code)) = spellings.letter(role, codes) else {
+            return self.unmapped(format_args!("the word '{role}' here: no letter has that role"));
+        };
+        let misread = codes.iter().any(|c| c.words.iter().any(|(l, r)| *l == letter && *r != role));
+        if misread || used.twice(letter) {
+            return self.unmapped(format_args!("the word '{role}' here: {} means something else", letter.0));
+        }
+        self.space();
+        if letter.1 {
+            self.push(',');
+        }
+        self.push(letter.0);
+        if spellings.is_literal_only(role)
+            && value.constant().is_none()
+            && !matches!(value, Expr::Increments(_))
+        {
+            return self.unmapped(format_args!("a computed value behind {}", letter.0));
+        }
+        if spellings.is_shifted(role, code) {
+            return self.shifted(role, value, code);
+        }
+        self.word_value(role, value);
+    }
+
+    /// Writes the number that the control has for a common one: 101 is `P1` of G54.1. Of a computed
+    /// value the difference must be its last summand.
+    fn shifted(&mut self, role: Role, value: &Expr, code: Option<&Code>) {
+        let row = code.map(|code| code.row);
+        let (base, add) = split_sum(value);
+        match value.constant() {
+            Some(number) => match self.control.written(row, role, number) {
+                Some(written) => self.literal(role, written),
+                None => self.unmapped(format_args!("{number} as the word '{role}'")),
+            },
+            None if code.is_some_and(|code| code.adds(role, add)) => self.word_value(role, base),
+            None => self.unmapped(format_args!("a computed value of the word '{role}'")),
+        }
+    }
+
+    /// Writes the value of a word: `10.`, `#1`, `-#1`, `[#1+#2]`, `-[#1+#2]`.
+    pub(super) fn word_value(&mut self, role: Role, value: &Expr) {
+        self.place = if role.is_integer() { Place::Whole } else { Place::Word };
+        match value {
+            Expr::Number(number) => self.literal(role, *number),
+            Expr::Increments(count) => self.increments(role, *count),
+            Expr::Negate(inner) => match &**inner {
+                Expr::Number(number) => self.literal(role, -number),
+                Expr::Increments(count) => self.increments(role, -count),
+                inner => {
+                    self.push('-');
+                    self.behind_letter(inner);
+                }
+            },
+            value => self.behind_letter(value),
+        }
+        self.place = Place::Statement;
+    }
+
+    /// Writes a value that is no constant: a variable as it is, anything else in brackets.
+    pub(super) fn behind_letter(&mut self, value: &Expr) {
+        match value {
+            Expr::Var(_) | Expr::Indirect(..) | Expr::System(..) | Expr::Vacant => self.value(value),
+            _ => self.bracketed(value),
+        }
+    }
+
+    fn literal(&mut self, role: Role, value: f64) {
+        let whole = value.fract() == 0.0;
+        match role {
+            _ if has_point(role) => self.number(value, true),
+            Role::SpeedLimit | Role::Builder => self.number(value, false),
+            _ if whole => self.number(value, false),
+            // A constant with a point would be an alarm, one in brackets is rounded.
+            _ if role.is_integer() && self.control.is("integer.word.rounds") => {
+                self.bracketed(&Expr::Number(value));
+            }
+            Role::DwellMs | Role::CycleDwell
+                if self.control.behaviour("dwell.point").is_some_and(|b| b.value == "ms") =>
+            {
+                self.number(value, true);
+            }
+            _ => self.unmapped(format_args!("a fraction in the word '{role}'")),
+        }
+    }
+
+    fn increments(&mut self, role: Role, count: f64) {
+        let bare = if role == Role::Feed { self.control.bare_feed() } else { self.control.bare_length() };
+        if bare == BareLength::Increments && count.fract() == 0.0 && has_point(role) {
+            self.number(count, false);
+        } else {
+            self.unmapped(format_args!("a count of increments in the word '{role}'"));
+        }
+    }
+}
+
+/// A value without the constant that is added to it last, and that constant.
+fn split_sum(value: &Expr) -> (&Expr, f64) {
+    match value {
+        Expr::Binary(BinOp::Add, base, add) => match **add {
+            Expr::Number(add) => (base, add),
+            _ => (value, 0.0),
+        },
+        _ => (value, 0.0),
+    }
+}
+
+/// True where a constant in this role has a decimal point.
+fn has_point(role: Role) -> bool {
+    !role.is_integer() && !matches!(role, Role::DwellMs | Role::CycleDwell | Role::SpeedLimit | Role::Builder)
+}

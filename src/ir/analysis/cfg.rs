@@ -1,0 +1,179 @@
+//! The control-flow graph of a program.
+
+use crate::ir::{Block, BlockId, Callee, Module, Program, StmtKind, TermKind};
+use crate::syntax::Label;
+
+/// Successors, predecessors and a reverse postorder.
+#[derive(Clone, Debug, Default)]
+pub struct Cfg {
+    succs: Vec<Vec<BlockId>>,
+    preds: Vec<Vec<BlockId>>,
+    roots: Vec<BlockId>,
+    order: Vec<BlockId>,
+    place: Vec<Option<u32>>,
+}
+
+impl Cfg {
+    /// The graph in which a call goes on behind itself and a return goes nowhere. Its roots are
+    /// the entry and the blocks that calls enter.
+    pub fn of(program: &Program) -> Self {
+        let succs = program.blocks.iter().map(|block| block.term.kind.successors()).collect();
+        Self::new(succs, program)
+    }
+
+    /// The graph of every way that control can go: calls enter their block, and returns go
+    /// behind any call of a block, to the labelled blocks where they name one, and (where nobody
+    /// called the program) to the entry. With `come_back` (see [`may_come_back`]) a call of another
+    /// program may go on at any labelled block.
+    ///
+    /// Two blocks stand here that the program does not have, so that many returns to many places
+    /// are not as many edges as their product: past the last one, one that all returns go through,
+    /// and one that every way to an unknown label does.
+    pub fn whole(program: &Program, come_back: bool) -> Self {
+        let count = program.blocks.len() as u32;
+        let (returned, label) = (BlockId(count), BlockId(count + 1));
+        let mut behind = vec![BlockId(0)];
+        let mut succs: Vec<Vec<BlockId>> = Vec::with_capacity(program.blocks.len() + 2);
+        for block in &program.blocks {
+            succs.push(match &block.term.kind {
+                TermKind::Call { call, next } => match &call.callee {
+                    Callee::Block(entry) => {
+                        behind.push(*next);
+                        // One that runs no times, and the locals of a level, pass the body by.
+                        if call.count.is_some() || call.level { vec![*entry, *next] } else { vec![*entry] }
+                    }
+                    _ if come_back => vec![*next, label],
+                    _ => vec![*next],
+                },
+                TermKind::Return { to: None } => vec![returned],
+                TermKind::Return { to: Some(_) } => vec![returned, label],
+                kind => kind.successors(),
+            });
+        }
+        succs.push(behind);
+        succs.push(labelled(program).collect());
+        Self::new(succs, program)
+    }
+
+    fn new(mut succs: Vec<Vec<BlockId>>, program: &Program) -> Self {
+        let count = succs.len();
+        let mut preds = vec![Vec::new(); count];
+        for (from, targets) in succs.iter_mut().enumerate() {
+            targets.sort_unstable();
+            targets.dedup();
+            targets.retain(|to| to.index() < count);
+            targets.iter().for_each(|to| preds[to.index()].push(BlockId(from as u32)));
+        }
+        let mut roots: Vec<BlockId> = [BlockId(0)].into_iter().chain(entries(program)).collect();
+        roots.retain(|root| root.index() < program.blocks.len());
+        let mut cfg = Self { succs, preds, roots, order: Vec::new(), place: vec![None; count] };
+        cfg.number();
+        cfg
+    }
+
+    /// Numbers the blocks that can be reached in reverse postorder.
+    fn number(&mut self) {
+        let mut seen = vec![false; self.succs.len()];
+        let mut stack: Vec<(BlockId, usize)> = Vec::new();
+        // The last root first: reversing puts the entry in front.
+        for root in self.roots.iter().rev() {
+            if std::mem::replace(&mut seen[root.index()], true) {
+                continue;
+            }
+            stack.push((*root, 0));
+            while let Some((at, next)) = stack.last_mut() {
+                let Some(to) = self.succs[at.index()].get(*next).copied() else {
+                    self.order.push(*at);
+                    stack.pop();
+                    continue;
+                };
+                *next += 1;
+                if !std::mem::replace(&mut seen[to.index()], true) {
+                    stack.push((to, 0));
+                }
+            }
+        }
+        self.order.reverse();
+        self.order.iter().enumerate().for_each(|(at, id)| self.place[id.index()] = Some(at as u32));
+    }
+
+    /// Where control can go from a block, each once, in the order of ids.
+    pub fn succs(&self, id: BlockId) -> &[BlockId] {
+        self.succs.get(id.index()).map_or(&[], Vec::as_slice)
+    }
+
+    /// Where control can come from.
+    pub fn preds(&self, id: BlockId) -> &[BlockId] {
+        self.preds.get(id.index()).map_or(&[], Vec::as_slice)
+    }
+
+    /// Where control enters: the entry first, then the blocks that calls enter.
+    pub fn roots(&self) -> &[BlockId] {
+        &self.roots
+    }
+
+    /// The blocks that can be reached, in reverse postorder.
+    pub fn order(&self) -> &[BlockId] {
+        &self.order
+    }
+
+    /// A block's place in [`Cfg::order`]; none where it cannot be reached.
+    pub fn place(&self, id: BlockId) -> Option<usize> {
+        self.place.get(id.index()).copied().flatten().map(|place| place as usize)
+    }
+
+    /// How many blocks the graph has.
+    pub fn len(&self) -> usize {
+        self.succs.len()
+    }
+
+    /// True for a graph without blocks.
+    pub fn is_empty(&self) -> bool {
+        self.succs.is_empty()
+    }
+}
+
+/// The blocks that calls of this program enter, modal ones included.
+pub(super) fn entries(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
+    let modal = |block: &Block| {
+        let calls = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
+            StmtKind::ModalCall(call) => Some(&call.callee),
+            _ => None,
+        });
+        calls.filter_map(entry).collect::<Vec<_>>()
+    };
+    program.blocks.iter().flat_map(move |block| {
+        let called = match &block.term.kind {
+            TermKind::Call { call, .. } => entry(&call.callee),
+            _ => None,
+        };
+        modal(block).into_iter().chain(called)
+    })
+}
+
+fn entry(callee: &Callee) -> Option<BlockId> {
+    if let Callee::Block(id) = callee { Some(*id) } else { None }
+}
+
+/// The blocks that a number finds.
+pub(super) fn labelled(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
+    program.ids().zip(&program.blocks).filter_map(|(id, block)| {
+        block.labels.iter().any(|label| matches!(label, Label::Number(_))).then_some(id)
+    })
+}
+
+/// True where a call of another program may come back at a label of the caller: some program of
+/// the library returns to a sequence number, or a callee is not in the library.
+pub fn may_come_back(module: &Module) -> bool {
+    let names: std::collections::BTreeSet<_> =
+        module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    module.programs.iter().flat_map(|program| &program.blocks).any(|block| match &block.term.kind {
+        TermKind::Return { to } => to.is_some(),
+        TermKind::Call { call, .. } => match &call.callee {
+            Callee::Program(name) => !names.contains(name),
+            Callee::Block(_) => false,
+            Callee::Computed(_) | Callee::Cycle(_) => true,
+        },
+        _ => false,
+    })
+}

@@ -1,0 +1,196 @@
+//! Which variables are live: may be read before they are written.
+
+use super::effects::{Effects, Summaries, Vars};
+use super::{Cfg, Row, Universe};
+use crate::ir::{Block, BlockId, Callee, Class, Expr, Place, Program, Site, StmtKind, TermKind, Var};
+use std::collections::{BTreeSet, VecDeque};
+
+/// What counts as read when a program is left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Nothing: what is live at the entry is what the program itself, and what it calls, reads.
+    Nothing,
+    /// All that other programs or the operator may see afterwards.
+    Observable,
+}
+
+/// Liveness in one program. Variables that neither it nor its callees name are not spoken of.
+#[derive(Clone, Debug)]
+pub struct Liveness<'p> {
+    program: &'p Program,
+    summaries: &'p Summaries,
+    universe: Universe,
+    exit: Exit,
+    /// Live at the start of each block, those two of [`Cfg::whole`] included.
+    before: Vec<Row>,
+    cfg: Cfg,
+    classes: BTreeSet<Class>,
+    /// True where a modal call runs a body of the program, whose return may go behind any NC block.
+    modal_body: bool,
+}
+
+impl<'p> Liveness<'p> {
+    /// Computes it.
+    pub fn of(program: &'p Program, summaries: &'p Summaries, exit: Exit) -> Self {
+        let cfg = Cfg::whole(program, summaries.come_back());
+        let mut live = Self {
+            program,
+            summaries,
+            universe: Universe::default(),
+            exit,
+            before: Vec::new(),
+            cfg,
+            classes: BTreeSet::new(),
+            modal_body: has_modal_body(program),
+        };
+        live.gather();
+        live.before = vec![live.universe.none(); live.cfg.len()];
+        live.solve();
+        live
+    }
+
+    /// Collects the variables to speak of.
+    fn gather(&mut self) {
+        let mut all = Vars::default();
+        for block in &self.program.blocks {
+            for stmt in &block.stmts {
+                stmt.kind.exprs(&mut |e| all.read(e));
+                stmt.kind.target().iter().for_each(|place| all.write(place));
+                if let StmtKind::Nc(nc) = &stmt.kind {
+                    all.join(&self.summaries.of_nc(nc).reads);
+                }
+            }
+            block.term.kind.exprs(&mut |e| all.read(e));
+            all.join(&self.used_by_term(&block.term.kind));
+        }
+        self.classes = all.classes;
+        self.universe = Universe::new(&all.vars);
+    }
+
+    fn solve(&mut self) {
+        let count = self.cfg.len();
+        // Blocks that the entry does not reach are answered for too: they may be kept.
+        let mut work: VecDeque<BlockId> = (0..count as u32).rev().map(BlockId).collect();
+        let mut waiting = vec![true; count];
+        while let Some(id) = work.pop_front() {
+            waiting[id.index()] = false;
+            let mut row = self.after(id);
+            if let Some(block) = self.program.block(id) {
+                self.term(&block.term.kind, &mut row);
+                block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut row));
+            }
+            if self.before[id.index()].join(&row) {
+                for pred in self.cfg.preds(id) {
+                    if !std::mem::replace(&mut waiting[pred.index()], true) {
+                        work.push_back(*pred);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Live behind a block's terminator.
+    fn after(&self, id: BlockId) -> Row {
+        let mut row = match self.program.block(id).map(|block| &block.term.kind) {
+            Some(TermKind::Return { .. }) if self.modal_body => self.universe.classes(|_| true),
+            Some(TermKind::Return { .. }) if self.exit == Exit::Observable => {
+                self.universe.classes(|class| class != Class::Temp)
+            }
+            Some(TermKind::End { .. } | TermKind::Stray | TermKind::Chain(_))
+                if self.exit == Exit::Observable =>
+            {
+                self.universe.classes(Class::shared)
+            }
+            _ => self.universe.none(),
+        };
+        self.cfg.succs(id).iter().for_each(|to| {
+            row.join(&self.before[to.index()]);
+        });
+        row
+    }
+
+    fn used_by_term(&self, kind: &TermKind) -> Vars {
+        match kind {
+            // The graph leads into a body in the same program.
+            TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => {
+                self.summaries.exposed_by(call)
+            }
+            TermKind::Chain(name) => self.summaries.exposed_of(name),
+            _ => Vars::default(),
+        }
+    }
+
+    fn term(&self, kind: &TermKind, row: &mut Row) {
+        self.add(&self.used_by_term(kind), row);
+        kind.exprs(&mut |e| self.read(e, row));
+    }
+
+    fn stmt(&self, kind: &StmtKind, site: &Site, row: &mut Row) {
+        // What the operator may switch off writes nothing for sure.
+        if site.skip.is_none() {
+            match kind {
+                StmtKind::ClearAll(class) => row.subtract(&self.universe.classes(|c| c == *class)),
+                kind => {
+                    if let Some(Place::Var(var)) = kind.target()
+                        && let Some(at) = self.universe.place(*var)
+                    {
+                        row.remove(at);
+                    }
+                }
+            }
+        }
+        if let StmtKind::Nc(nc) = kind {
+            let Effects { reads, .. } = self.summaries.of_nc(nc);
+            self.add(&reads, row);
+        }
+        kind.exprs(&mut |e| self.read(e, row));
+    }
+
+    fn read(&self, e: &Expr, row: &mut Row) {
+        e.walk(&mut |part| match part {
+            Expr::Var(var) => self.universe.place(*var).iter().for_each(|at| row.insert(*at)),
+            Expr::Indirect(bank, _) => self.add(&Vars::bank(*bank), row),
+            _ => {}
+        });
+    }
+
+    fn add(&self, vars: &Vars, row: &mut Row) {
+        vars.vars.iter().filter_map(|var| self.universe.place(*var)).for_each(|at| row.insert(at));
+        if !vars.classes.is_empty() {
+            row.join(&self.universe.classes(|class| vars.classes.contains(&class)));
+        }
+    }
+
+    /// The variables live at the start of a block.
+    pub fn before(&self, id: BlockId) -> impl Iterator<Item = Var> + '_ {
+        self.before.get(id.index()).into_iter().flat_map(|row| self.universe.members(row))
+    }
+
+    /// True where a variable is live at the start of a block.
+    pub fn is_live_before(&self, id: BlockId, var: Var) -> bool {
+        let row = self.before.get(id.index());
+        self.universe.place(var).is_some_and(|at| row.is_some_and(|row| row.has(at)))
+    }
+
+    /// The classes of which a computed number or a callee may read any variable, anywhere in it.
+    pub fn classes_at_entry(&self) -> BTreeSet<Class> {
+        self.classes.clone()
+    }
+
+    /// Calls `f` on each statement of a block, last first, with what is live behind it.
+    pub fn backward(&self, id: BlockId, f: &mut dyn FnMut(usize, super::Holds<'_, Var>)) {
+        let Some(Block { stmts, term, .. }) = self.program.block(id) else { return };
+        let mut row = self.after(id);
+        self.term(&term.kind, &mut row);
+        for (at, stmt) in stmts.iter().enumerate().rev() {
+            f(at, &|var: &Var| self.universe.place(*var).is_some_and(|place| row.has(place)));
+            self.stmt(&stmt.kind, &stmt.site, &mut row);
+        }
+    }
+}
+
+fn has_modal_body(program: &Program) -> bool {
+    program.blocks.iter().flat_map(|block| &block.stmts).any(
+        |stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if matches!(call.callee, Callee::Block(_))),
+    )
+}

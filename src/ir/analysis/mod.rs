@@ -1,0 +1,28 @@
+//! Questions about programs: where control goes, what is live, what may be vacant, which
+//! constants a variable may hold.
+//!
+//! Every answer errs to the safe side. Nothing recurses on the size of a program.
+
+mod cfg;
+mod dominators;
+mod effects;
+mod liveness;
+mod loops;
+mod set;
+mod vacancy;
+mod values;
+
+pub use cfg::{Cfg, may_come_back};
+pub use dominators::Dominators;
+pub use effects::{Effects, Summaries, Vars};
+pub use liveness::{Exit, Liveness};
+pub use loops::{Loop, Loops};
+pub use set::{Row, Universe};
+pub use vacancy::Vacancy;
+pub use values::{Constant, values_at};
+
+/// Whether something holds of a thing at the place that is being visited.
+pub type Holds<'a, T> = &'a dyn Fn(&T) -> bool;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,86 @@
+//! Sets of variables as bits.
+
+use crate::ir::{Class, Var};
+use std::collections::BTreeSet;
+
+/// The variables that an analysis speaks of, in order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Universe {
+    vars: Vec<Var>,
+}
+
+/// A subset of a [`Universe`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Row {
+    bits: Vec<u64>,
+}
+
+impl Universe {
+    /// The universe of these variables.
+    pub fn new(vars: &BTreeSet<Var>) -> Self {
+        Self { vars: vars.iter().copied().collect() }
+    }
+
+    /// A variable's place.
+    pub fn place(&self, var: Var) -> Option<usize> {
+        self.vars.binary_search(&var).ok()
+    }
+
+    /// The empty subset.
+    pub fn none(&self) -> Row {
+        Row { bits: vec![0; self.vars.len().div_ceil(64)] }
+    }
+
+    /// The variables of these classes.
+    pub fn classes(&self, test: impl Fn(Class) -> bool) -> Row {
+        let mut row = self.none();
+        self.vars.iter().enumerate().filter(|(_, v)| test(v.class)).for_each(|(at, _)| row.insert(at));
+        row
+    }
+
+    /// The variables of a subset.
+    pub fn members<'r>(&'r self, row: &'r Row) -> impl Iterator<Item = Var> + 'r {
+        self.vars.iter().enumerate().filter(|(at, _)| row.has(*at)).map(|(_, var)| *var)
+    }
+
+    /// The variables, in order.
+    pub fn vars(&self) -> &[Var] {
+        &self.vars
+    }
+}
+
+impl Row {
+    /// Adds the variable at a place.
+    pub fn insert(&mut self, at: usize) {
+        if let Some(word) = self.bits.get_mut(at / 64) {
+            *word |= 1 << (at % 64);
+        }
+    }
+
+    /// Takes out the variable at a place.
+    pub fn remove(&mut self, at: usize) {
+        if let Some(word) = self.bits.get_mut(at / 64) {
+            *word &= !(1 << (at % 64));
+        }
+    }
+
+    /// True where the variable at a place is in.
+    pub fn has(&self, at: usize) -> bool {
+        self.bits.get(at / 64).is_some_and(|word| word >> (at % 64) & 1 == 1)
+    }
+
+    /// Adds all of another; true where that changed it.
+    pub fn join(&mut self, other: &Row) -> bool {
+        let mut changed = false;
+        for (word, more) in self.bits.iter_mut().zip(&other.bits) {
+            changed |= *more & !*word != 0;
+            *word |= more;
+        }
+        changed
+    }
+
+    /// Takes out all of another.
+    pub fn subtract(&mut self, other: &Row) {
+        self.bits.iter_mut().zip(&other.bits).for_each(|(word, less)| *word &= !less);
+    }
+}

@@ -1,0 +1,230 @@
+use super::*;
+use crate::ir::text::parse;
+use crate::ir::{BlockId, Class, Module, Var};
+use std::collections::BTreeSet;
+
+fn module(body: &str) -> Module {
+    parse(&format!("program O1 {{\n{body}\n}}\n")).unwrap()
+}
+
+fn ids(all: &[u32]) -> Vec<BlockId> {
+    all.iter().copied().map(BlockId).collect()
+}
+
+fn var(text: &str) -> Var {
+    let (class, number) = text.split_once('.').unwrap();
+    let class = match class {
+        "local" => Class::Local,
+        "common" => Class::Common,
+        "tmp" => Class::Temp,
+        _ => Class::Global,
+    };
+    Var { class, number: number.parse().unwrap() }
+}
+
+/// Two loops, one in the other, and what follows.
+const NEST: &str = "block0:\n jump block1
+block1:\n branch local.1 lt 3 ? block2 : block6
+block2:\n jump block3
+block3:\n branch local.2 lt 3 ? block4 : block5
+block4:\n jump block3
+block5:\n jump block1
+block6:\n end
+block7:\n jump block6";
+
+#[test]
+fn graph_dominators_and_loops() {
+    let module = module(NEST);
+    let cfg = Cfg::of(&module.programs[0]);
+    assert_eq!(cfg.preds(BlockId(3)), ids(&[2, 4]));
+    assert_eq!(cfg.preds(BlockId(6)), ids(&[1, 7]));
+    assert_eq!(cfg.place(BlockId(7)), None);
+    let before = |a: u32, b: u32| cfg.place(BlockId(a)) < cfg.place(BlockId(b));
+    assert!(before(0, 1) && before(1, 2) && before(3, 4) && before(3, 5));
+    let dominators = Dominators::of(&cfg);
+    let parents: Vec<_> = (0..8).map(|id| dominators.parent(BlockId(id)).map(|b| b.0)).collect();
+    assert_eq!(parents, [None, Some(0), Some(1), Some(2), Some(3), Some(3), Some(1), None]);
+    assert!(dominators.dominates(BlockId(1), BlockId(5)) && !dominators.dominates(BlockId(4), BlockId(5)));
+    assert!(dominators.dominates(BlockId(4), BlockId(4)) && !dominators.dominates(BlockId(0), BlockId(7)));
+    let loops = Loops::of(&cfg, &dominators);
+    assert_eq!(loops.all.len(), 2);
+    let [inner, outer] = [0, 1].map(|which| loops.body(which));
+    assert_eq!((inner, outer), (ids(&[3, 4]), ids(&[1, 2, 3, 4, 5])));
+    assert_eq!((loops.all[0].parent, loops.all[1].latches.clone()), (Some(1), ids(&[5])));
+    assert_eq!((loops.depth(BlockId(4)), loops.depth(BlockId(5)), loops.depth(BlockId(6))), (2, 1, 0));
+}
+
+#[test]
+fn a_jump_into_a_loop_is_irreducible() {
+    let module = module(
+        "block0:\n branch local.1 lt 3 ? block1 : block2
+block1:\n jump block2\nblock2:\n branch local.2 lt 3 ? block1 : block3\nblock3:\n end",
+    );
+    let cfg = Cfg::of(&module.programs[0]);
+    let loops = Loops::of(&cfg, &Dominators::of(&cfg));
+    assert_eq!((loops.all.len(), loops.irreducible.len()), (0, 1));
+}
+
+#[test]
+fn calls_of_blocks_enter_and_return() {
+    let module = module(
+        "block0:\n call block2 -> block1\nblock1:\n end\nblock2 (N9):\n return\nblock3 (N5):\n return to 9",
+    );
+    let whole = Cfg::whole(&module.programs[0], false);
+    assert_eq!(whole.succs(BlockId(0)), ids(&[2]));
+    let hub = whole.succs(BlockId(2))[0];
+    assert_eq!(whole.succs(hub), ids(&[0, 1]));
+    assert_eq!(whole.succs(BlockId(3)).len(), 2);
+    let steps = Cfg::of(&module.programs[0]);
+    assert_eq!((steps.succs(BlockId(0)), steps.roots()), (&ids(&[1])[..], &ids(&[0, 2])[..]));
+}
+
+fn live(module: &Module, exit: Exit, block: u32) -> Vec<String> {
+    let summaries = Summaries::of(module);
+    let live = Liveness::of(&module.programs[0], &summaries, exit);
+    live.before(BlockId(block)).map(|v| v.to_string()).collect()
+}
+
+#[test]
+fn liveness_within_a_program() {
+    let module = module(
+        "block0:\n tmp.1 = local.1\n common.100 = 5\n branch tmp.1 lt 3 ? block1 : block2
+block1:\n nc axis.x=local.2\n tmp.2 = 1 skip 1\n jump block2\nblock2:\n common.101 = tmp.2 + common.100\n end",
+    );
+    // tmp.2 may be skipped, so that it is read as it was at the entry.
+    assert_eq!(live(&module, Exit::Nothing, 0), ["local.1", "local.2", "tmp.2"]);
+    assert_eq!(live(&module, Exit::Nothing, 2), ["common.100", "tmp.2"]);
+    assert_eq!(live(&module, Exit::Observable, 1), ["local.2", "common.100", "tmp.2"]);
+}
+
+#[test]
+fn liveness_across_calls() {
+    let callee =
+        "program O2 {\nblock0:\n common.105 = local.7 + common.106\n common.107 = common.105\n return\n}\n";
+    let caller = |call: &str| {
+        format!("program O1 {{\nblock0:\n local.7 = 1\n call {call} -> block1\nblock1:\n end\n}}\n{callee}")
+    };
+    let of = |call: &str| live(&parse(&caller(call)).unwrap(), Exit::Nothing, 0);
+    assert_eq!(of("O2"), ["common.106"]);
+    let module = parse(&caller("O2")).unwrap();
+    let summaries = Summaries::of(&module);
+    let programs = &module.programs;
+    let live = Liveness::of(&programs[0], &summaries, Exit::Nothing);
+    let mut behind = Vec::new();
+    live.backward(BlockId(0), &mut |at, is_live| behind.push((at, is_live(&var("local.7")))));
+    assert_eq!(behind, [(0, true)]);
+    let name = programs[1].name.clone().unwrap();
+    let exposed = summaries.exposed_of(&name);
+    assert_eq!(exposed.vars, [var("local.7"), var("common.106")].into());
+    let writes = summaries.of_program(&name).writes;
+    assert!(writes.contains(var("common.107")) && !writes.contains(var("common.106")));
+    // A callee outside the library reads all that is shared.
+    let unknown =
+        parse("program O1 {\nblock0:\n common.100 = 1\n call O9 level -> block1\nblock1:\n end\n}").unwrap();
+    let summaries = Summaries::of(&unknown);
+    let live = Liveness::of(&unknown.programs[0], &summaries, Exit::Nothing);
+    live.backward(BlockId(0), &mut |_, is_live| assert!(is_live(&var("common.100"))));
+}
+
+#[test]
+fn vacancy_follows_copies_and_tests() {
+    let module = module(
+        "block0:\n local.2 = local.1\n local.3 = local.1 + 0\n branch local.1 eq vacant ? block1 : block2
+block1:\n local.1 = 5\n jump block3\nblock2:\n jump block3\nblock3:\n common.100 = local.1\n end",
+    );
+    let summaries = Summaries::of(&module);
+    let none = BTreeSet::new();
+    let vacancy = Vacancy::of(&module.programs[0], &summaries, &none);
+    let may = |block, at, name: &str| vacancy.may_be_vacant(BlockId(block), at, var(name));
+    assert!(may(0, 3, "local.2") && !may(0, 3, "local.3"));
+    assert!(may(1, 0, "local.1") && !may(1, 1, "local.1"));
+    assert!(!may(2, 0, "local.1") && !may(3, 0, "local.1"));
+    assert!(may(3, 0, "common.100") && !may(3, 1, "common.100"));
+    let assigned = Vacancy::of(&module.programs[0], &summaries, &[var("local.1")].into());
+    assert!(!assigned.may_be_vacant(BlockId(0), 3, var("local.2")));
+}
+
+#[test]
+fn vacancy_knows_what_calls_may_undo() {
+    let text = |call: &str| {
+        format!(
+            "program O1 {{\nblock0:\n common.100 = 1\n local.1 = 1\n call {call} -> block1\nblock1:\n end\n}}
+program O2 {{\nblock0:\n common.100 = vacant\n return\n}}\nprogram O3 {{\nblock0:\n local.1 = vacant\n return\n}}\n"
+        )
+    };
+    for (call, common, local) in
+        [("O2", true, false), ("O3", false, true), ("O3 level", false, false), ("O8", true, true)]
+    {
+        let module = parse(&text(call)).unwrap();
+        let summaries = Summaries::of(&module);
+        let vacancy = Vacancy::of(&module.programs[0], &summaries, &BTreeSet::new());
+        let may = |name: &str| vacancy.may_be_vacant(BlockId(1), 0, var(name));
+        assert_eq!((may("common.100"), may("local.1")), (common, local), "{call}");
+    }
+}
+
+#[test]
+fn values_found_backwards() {
+    let module = module(
+        "block0:\n local.1 = sys modal[1]\n branch local.5 eq 1 ? block1 : block2
+block1:\n local.2 = 3\n jump block3\nblock2:\n local.2 = local.1\n jump block3
+block3:\n local.3 = local.2\n branch local.5 eq 2 ? block3 : block4\nblock4:\n local.4 = local.5\n end",
+    );
+    let summaries = Summaries::of(&module);
+    let at =
+        |name: &str, block, at| values_at(&module.programs[0], &summaries, var(name), BlockId(block), at);
+    let modal = Constant::State(crate::canon::Sys::Modal, vec![1.0]);
+    let mut both = at("local.3", 4, 0).unwrap();
+    both.sort_by_key(|c| *c == modal);
+    assert_eq!(both, [Constant::Number(3.0), modal]);
+    assert_eq!(at("local.2", 1, 1), Some(vec![Constant::Number(3.0)]));
+    assert_eq!(at("local.4", 4, 1), None);
+    assert_eq!(at("local.5", 0, 0), None);
+}
+
+#[test]
+fn large_programs_take_no_long() {
+    // Limits are for a debug build on a busy machine.
+    // A chain of 100,000 blocks, each with a way back to the first and a way round the next.
+    const COUNT: u32 = 100_000;
+    let mut text = String::new();
+    for id in 0..COUNT {
+        let far = (id + 2).min(COUNT);
+        let other = if id % 3 == 0 { 1 } else { far };
+        text.push_str(&format!(
+            "block{id}:\n local.{} = local.2\n branch local.1 lt {id} ? block{} : block{other}\n",
+            1 + id % 33,
+            id + 1
+        ));
+    }
+    let module = module(&format!("{text}block{COUNT}:\n end"));
+    let started = std::time::Instant::now();
+    let program = &module.programs[0];
+    let cfg = Cfg::of(program);
+    let dominators = Dominators::of(&cfg);
+    assert_eq!(Loops::of(&cfg, &dominators).all.len(), 1);
+    let summaries = Summaries::of(&module);
+    let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
+    assert!(vacancy.may_be_vacant(BlockId(COUNT), 0, var("local.3")));
+    let live = Liveness::of(program, &summaries, Exit::Observable);
+    assert!(live.is_live_before(BlockId(COUNT - 1), var("local.2")));
+    assert_eq!(values_at(program, &summaries, var("local.2"), BlockId(COUNT), 0), None);
+    assert!(started.elapsed().as_secs() < 90, "{:?}", started.elapsed());
+}
+
+#[test]
+fn deep_nests_of_loops_take_no_long() {
+    // 20,000 loops, each in the one before it.
+    const DEPTH: u32 = 20_000;
+    let mut text: String = (0..DEPTH).map(|id| format!("block{id}:\n jump block{}\n", id + 1)).collect();
+    for id in 0..DEPTH {
+        let (at, header) = (DEPTH + id, DEPTH - 1 - id);
+        text.push_str(&format!("block{at}:\n branch local.1 lt 1 ? block{header} : block{}\n", at + 1));
+    }
+    let module = module(&format!("{text}block{}:\n end", 2 * DEPTH));
+    let started = std::time::Instant::now();
+    let cfg = Cfg::of(&module.programs[0]);
+    let loops = Loops::of(&cfg, &Dominators::of(&cfg));
+    assert_eq!((loops.all.len(), loops.depth(BlockId(DEPTH))), (DEPTH as usize, DEPTH as usize));
+    assert!(started.elapsed().as_secs() < 90, "{:?}", started.elapsed());
+}

@@ -1,0 +1,149 @@
+//! Builds a program's blocks from a run of statements with labels and jumps.
+
+use super::{Block, BlockId, Callee, Program, Site, Stmt, StmtKind, TermKind, Terminator};
+use crate::syntax::{Label, ProgramName};
+
+/// Builds a program block by block, in source order.
+///
+/// Ids are handed out before their blocks are filled, so that a jump can go
+/// forward: [`Builder::fresh`], then [`Builder::start`] when the place is reached.
+/// [`Builder::finish`] lays the blocks out in the order they were started in;
+/// a block that was never started becomes an empty one that ends in
+/// [`TermKind::Stray`], at the end.
+#[derive(Debug)]
+pub struct Builder {
+    blocks: Vec<Option<Block>>,
+    order: Vec<BlockId>,
+    current: BlockId,
+    open: bool,
+}
+
+impl Default for Builder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Builder {
+    /// A builder at the start of the entry block.
+    pub fn new() -> Self {
+        let mut builder = Self { blocks: Vec::new(), order: Vec::new(), current: BlockId(0), open: false };
+        let entry = builder.fresh();
+        builder.start(entry);
+        builder
+    }
+
+    /// A builder whose first `count` ids are handed out, for rebuilding a program of so many
+    /// blocks; it is at the start of the first.
+    pub fn over(count: usize) -> Self {
+        let mut builder = Self::new();
+        for _ in 1..count {
+            builder.fresh();
+        }
+        builder
+    }
+
+    /// An id for a block that is started later.
+    pub fn fresh(&mut self) -> BlockId {
+        self.blocks.push(None);
+        BlockId(self.blocks.len() as u32 - 1)
+    }
+
+    /// Goes on in the block `id`, once; the present one falls through to it unless it is ended.
+    pub fn start(&mut self, id: BlockId) {
+        if self.open {
+            self.end(TermKind::Jump(id), Site::default());
+        }
+        self.current = id;
+        self.open = true;
+        let Some(slot @ None) = self.blocks.get_mut(id.index()) else { return };
+        *slot = Some(Block {
+            labels: Vec::new(),
+            stmts: Vec::new(),
+            term: Terminator { kind: TermKind::Stray, site: Site::default() },
+        });
+        self.order.push(id);
+    }
+
+    /// Adds a label to the present block, which must be at its start to be found by it.
+    pub fn label(&mut self, label: Label) {
+        self.reopen();
+        self.with_current(|block| block.labels.push(label));
+    }
+
+    /// Adds a statement; behind an ended block it starts an unreachable one.
+    pub fn push(&mut self, kind: StmtKind, site: Site) {
+        self.reopen();
+        self.with_current(|block| block.stmts.push(Stmt { kind, site }));
+    }
+
+    /// Ends the present block.
+    pub fn end(&mut self, kind: TermKind, site: Site) {
+        self.reopen();
+        self.with_current(|block| block.term = Terminator { kind, site });
+        self.open = false;
+    }
+
+    /// Ends the present block and goes on in a fresh one, which `kind` may name.
+    pub fn end_then(&mut self, site: Site, kind: impl FnOnce(BlockId) -> TermKind) -> BlockId {
+        let next = self.fresh();
+        self.end(kind(next), site);
+        self.start(next);
+        next
+    }
+
+    /// The block that statements are added to.
+    pub fn current(&self) -> BlockId {
+        self.current
+    }
+
+    /// True when the present block has no terminator yet.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// True when the present block is open and has no statements yet.
+    pub fn is_at_start(&self) -> bool {
+        let block = self.blocks.get(self.current.index()).and_then(Option::as_ref);
+        self.open && block.is_some_and(|block| block.stmts.is_empty())
+    }
+
+    fn reopen(&mut self) {
+        if !self.open {
+            let next = self.fresh();
+            self.start(next);
+        }
+    }
+
+    fn with_current(&mut self, change: impl FnOnce(&mut Block)) {
+        if let Some(Some(block)) = self.blocks.get_mut(self.current.index()) {
+            change(block);
+        }
+    }
+
+    /// The finished program. An open block ends in [`TermKind::Stray`].
+    pub fn finish(mut self, name: Option<ProgramName>, file: usize, site: Site) -> Program {
+        for index in 0..self.blocks.len() {
+            if self.blocks[index].is_none() {
+                self.open = false;
+                self.start(BlockId(index as u32));
+            }
+        }
+        let mut place = vec![BlockId(0); self.blocks.len()];
+        self.order.iter().enumerate().for_each(|(at, id)| place[id.index()] = BlockId(at as u32));
+        let mut blocks = Vec::with_capacity(self.order.len());
+        for id in &self.order {
+            let Some(mut block) = self.blocks[id.index()].take() else { continue };
+            block.term.kind.for_each_target(&mut |target| *target = place[target.index()]);
+            for stmt in &mut block.stmts {
+                if let StmtKind::ModalCall(call) = &mut stmt.kind
+                    && let Callee::Block(entry) = &mut call.callee
+                {
+                    *entry = place[entry.index()];
+                }
+            }
+            blocks.push(block);
+        }
+        Program { name, file, site, blocks }
+    }
+}

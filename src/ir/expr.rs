@@ -1,0 +1,155 @@
+//! Expressions and conditions.
+
+use super::{Bank, Place, Var};
+use crate::canon::{Func, Sys};
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expr {
+    /// A number.
+    Number(f64),
+    /// A count of least increments of the address that the value goes to: `X10` on a
+    /// control that counts so. Stands only as the whole value of a word or an
+    /// argument, or under one [`Expr::Negate`] there.
+    Increments(f64),
+    /// No value.
+    Vacant,
+    /// What a variable holds.
+    Var(Var),
+    /// What the variable with a computed number holds.
+    Indirect(Bank, Box<Expr>),
+    /// State of the machine, with its subscripts.
+    System(Sys, Vec<Expr>),
+    /// `-a`.
+    Negate(Box<Expr>),
+    /// `a op b`.
+    Binary(BinOp, Box<Expr>, Box<Expr>),
+    /// A function.
+    Call(Func, Vec<Expr>),
+    /// 1 where the condition holds, else 0.
+    Truth(Box<Cond>),
+}
+
+/// Arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum BinOp {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient; a divisor of 0 stops the machine.
+    Div,
+    /// Remainder of the operands rounded to whole numbers, with the dividend's sign.
+    Mod,
+    /// Bitwise and of 32-bit whole numbers.
+    And,
+    /// Bitwise or of 32-bit whole numbers.
+    Or,
+    /// Bitwise exclusive or of 32-bit whole numbers.
+    Xor,
+}
+
+/// A comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Relation {
+    /// Equal; vacant equals only vacant.
+    Equal,
+    /// Not equal.
+    NotEqual,
+    /// Less, vacant counting as 0.
+    Less,
+    /// Less or equal, vacant counting as 0.
+    LessEqual,
+    /// Greater, vacant counting as 0.
+    Greater,
+    /// Greater or equal, vacant counting as 0.
+    GreaterEqual,
+}
+
+/// A condition.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cond {
+    /// A comparison.
+    Compare(Relation, Expr, Expr),
+    /// All hold. Every operand is evaluated.
+    And(Vec<Cond>),
+    /// One holds at least. Every operand is evaluated.
+    Or(Vec<Cond>),
+    /// Does not hold.
+    Not(Box<Cond>),
+    /// The operator's block-skip switch of this number (1 to 9) is on.
+    Switch(u8),
+}
+
+impl Relation {
+    /// The relation that holds exactly when this one does not.
+    pub const fn negated(self) -> Self {
+        match self {
+            Relation::Equal => Relation::NotEqual,
+            Relation::NotEqual => Relation::Equal,
+            Relation::Less => Relation::GreaterEqual,
+            Relation::LessEqual => Relation::Greater,
+            Relation::Greater => Relation::LessEqual,
+            Relation::GreaterEqual => Relation::Less,
+        }
+    }
+
+    /// The relation with its operands exchanged.
+    pub const fn swapped(self) -> Self {
+        match self {
+            Relation::Less => Relation::Greater,
+            Relation::LessEqual => Relation::GreaterEqual,
+            Relation::Greater => Relation::Less,
+            Relation::GreaterEqual => Relation::LessEqual,
+            same => same,
+        }
+    }
+}
+
+impl Cond {
+    /// The condition that holds exactly when this one does not. Numbers are never
+    /// NaN here, and vacancy behaves alike on both sides, so this is exact.
+    #[must_use]
+    pub fn negated(self) -> Self {
+        match self {
+            Cond::Compare(relation, a, b) => Cond::Compare(relation.negated(), a, b),
+            Cond::And(all) => Cond::Or(all.into_iter().map(Cond::negated).collect()),
+            Cond::Or(any) => Cond::And(any.into_iter().map(Cond::negated).collect()),
+            Cond::Not(inner) => *inner,
+            Cond::Switch(n) => Cond::Not(Box::new(Cond::Switch(n))),
+        }
+    }
+}
+
+impl Expr {
+    /// The constant's value, where the expression is one (a negated constant too).
+    pub fn constant(&self) -> Option<f64> {
+        match self {
+            Expr::Number(value) => Some(*value),
+            Expr::Negate(inner) => inner.constant().map(|v| -v),
+            _ => None,
+        }
+    }
+
+    /// The place that the expression reads and nothing else, where it is a plain read.
+    pub fn place(&self) -> Option<Place> {
+        match self {
+            Expr::Var(var) => Some(Place::Var(*var)),
+            Expr::Indirect(bank, index) => Some(Place::Indirect(*bank, index.clone())),
+            Expr::System(state, subscripts) => Some(Place::System(*state, subscripts.clone())),
+            _ => None,
+        }
+    }
+
+    /// True where evaluating it may yield vacant: copies of variables do, arithmetic does not.
+    pub fn may_be_vacant(&self) -> bool {
+        match self {
+            Expr::Vacant | Expr::Indirect(Bank::Numbered, _) => true,
+            Expr::Var(var) => var.class.nullable(),
+            Expr::System(state, _) => matches!(state, Sys::Empty | Sys::Address | Sys::AddressNow),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,373 @@
+//! Statements, terminators and what they are made of.
+
+use super::{BlockId, Cond, Expr};
+use crate::canon::{Op, Role, Sys};
+use crate::syntax::ProgramName;
+use crate::text::Span;
+
+/// A class of variables: who can see them and how long they last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// Local to a call level; may be vacant.
+    Local,
+    /// Seen by all programs, vacant after power-on; may be vacant.
+    Common,
+    /// Seen by all programs, kept over power-off; may be vacant.
+    Retained,
+    /// Seen by all programs, kept from run to run; whether over power-off no source says. Never vacant.
+    Global,
+    /// Like global, and the only variables that NC words of the source may use. Never vacant.
+    Parametric,
+    /// The condition register (number 0) and other hidden state of the source. Never vacant.
+    Register,
+    /// Introduced by the compiler, local to one program. Never vacant.
+    Temp,
+}
+
+impl Class {
+    /// True where a variable of the class may be vacant.
+    pub const fn nullable(self) -> bool {
+        matches!(self, Class::Local | Class::Common | Class::Retained)
+    }
+
+    /// True where other programs see the variable.
+    pub const fn shared(self) -> bool {
+        !matches!(self, Class::Local | Class::Temp)
+    }
+}
+
+/// A variable. Its number is the one it has in the source; letters count from 101 (VA).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Var {
+    /// Its class.
+    pub class: Class,
+    /// Its number.
+    pub number: u32,
+}
+
+/// The space that a computed variable number counts in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Bank {
+    /// The one space of all numbered variables, locals and system variables too: `#[..]`.
+    Numbered,
+    /// The global variables: `V(..)`.
+    Global,
+    /// The parametric variables: `R(..)`.
+    Parametric,
+}
+
+/// Something that can be assigned.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    /// A variable.
+    Var(Var),
+    /// The variable with a computed number.
+    Indirect(Bank, Box<Expr>),
+    /// State of the machine.
+    System(Sys, Vec<Expr>),
+}
+
+impl Place {
+    /// The expression that reads it.
+    pub fn read(&self) -> Expr {
+        match self {
+            Place::Var(var) => Expr::Var(*var),
+            Place::Indirect(bank, index) => Expr::Indirect(*bank, index.clone()),
+            Place::System(state, subscripts) => Expr::System(*state, subscripts.clone()),
+        }
+    }
+}
+
+/// Where a statement comes from and what people wrote beside it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Site {
+    /// The bytes of the block in its file.
+    pub span: Span,
+    /// Its sequence number.
+    pub sequence: Option<u32>,
+    /// Its comments.
+    pub remarks: Vec<Remark>,
+    /// Its block-skip level: skipped when that switch is on. On a terminator always absent:
+    /// lowering makes a branch on [`Cond::Switch`] of it.
+    pub skip: Option<u8>,
+}
+
+/// A comment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// Its text, without its fence.
+    pub text: String,
+    /// True where it stood before the words of its block.
+    pub leading: bool,
+}
+
+/// A statement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stmt {
+    /// What it does.
+    pub kind: StmtKind,
+    /// Where it comes from.
+    pub site: Site,
+}
+
+/// What a statement does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StmtKind {
+    /// Nothing; carries comments, or is an empty block.
+    Remark,
+    /// Writes a place.
+    Assign {
+        /// What is written.
+        target: Place,
+        /// The value.
+        value: Expr,
+    },
+    /// A block of NC words.
+    Nc(Nc),
+    /// From here on, each block that moves an axis calls `call` when its move is done.
+    ModalCall(Call),
+    /// Ends the innermost modal call.
+    ModalCallOff,
+    /// Stops the machine for good with a number and a message.
+    Alarm {
+        /// The number, as the source writes it.
+        number: Expr,
+        /// The message.
+        text: String,
+    },
+    /// Stops until cycle start and shows a message.
+    StopMessage {
+        /// The number, as the source writes it.
+        number: Expr,
+        /// The message.
+        text: String,
+    },
+    /// Formatted output to a port, one line.
+    Output(Vec<OutputPart>),
+    /// Opens the output port.
+    OpenPort,
+    /// Closes the output port.
+    ClosePort,
+    /// Prints to the screen or a port, with no stated number format.
+    Print {
+        /// True for the port.
+        serial: bool,
+        /// What is printed.
+        parts: Vec<PrintPart>,
+        /// True where the next print goes on in the same line.
+        stay: bool,
+    },
+    /// Waits for the operator (or the port) to give a number.
+    Input {
+        /// True for the port.
+        serial: bool,
+        /// Where it goes.
+        target: Place,
+    },
+    /// Sets every variable of the class to 0: all that any program of the library names.
+    ClearAll(Class),
+    /// Waits until all moves are done before anything behind it is read.
+    Sync,
+    /// Limits how many blocks are read ahead; 0 for no limit.
+    LimitLookahead(Expr),
+    /// Gives names to variables from a number on.
+    SetNames {
+        /// The first.
+        first: Var,
+        /// The names.
+        names: Vec<String>,
+    },
+}
+
+/// A block of NC words.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Nc {
+    /// Its operations and words, in the order they were written in.
+    pub items: Vec<NcItem>,
+}
+
+/// One thing in an NC block.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NcItem {
+    /// An operation.
+    Op(Op),
+    /// A word's value in its role.
+    Word(Role, Expr),
+    /// A G or M code computed at run time, in the numbering of the source's control: `G#10`.
+    Code(char, Expr),
+}
+
+/// A piece of formatted output.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OutputPart {
+    /// Text; a space is a space.
+    Text(String),
+    /// A value with so many digits before and after the point.
+    Value {
+        /// What is printed.
+        value: Expr,
+        /// Digits before the point.
+        whole: u32,
+        /// Digits behind it.
+        fraction: u32,
+    },
+}
+
+/// A piece of unformatted output.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PrintPart {
+    /// Text.
+    Text(String),
+    /// A value.
+    Value(Expr),
+}
+
+/// A terminator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Terminator {
+    /// How the block ends.
+    pub kind: TermKind,
+    /// Where it comes from; default for a mere fall-through.
+    pub site: Site,
+}
+
+/// How a block ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TermKind {
+    /// Goes on at a block.
+    Jump(BlockId),
+    /// Goes on at one of two.
+    Branch {
+        /// Which.
+        cond: Cond,
+        /// Where it holds.
+        yes: BlockId,
+        /// Where it does not.
+        no: BlockId,
+    },
+    /// Goes on at the block whose label is the value, rounded to nearest; stops with an
+    /// alarm where none is.
+    Computed {
+        /// The label's number.
+        value: Expr,
+        /// Every block that has a number for a label.
+        targets: Vec<(u32, BlockId)>,
+    },
+    /// Calls, then goes on.
+    Call {
+        /// The call.
+        call: Call,
+        /// Where it goes on.
+        next: BlockId,
+    },
+    /// Returns to the caller: behind the call, or at a sequence number of the caller.
+    Return {
+        /// The sequence number.
+        to: Option<Expr>,
+    },
+    /// Goes to another program for good.
+    Chain(ProgramName),
+    /// Ends the run.
+    End {
+        /// True where the program is rewound.
+        rewind: bool,
+    },
+    /// The text of the program ends here without a word that ends it.
+    Stray,
+}
+
+/// A call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    /// What is called.
+    pub callee: Callee,
+    /// True where a new level of locals is opened.
+    pub level: bool,
+    /// Values of the new level's locals, in the order written.
+    pub arguments: Vec<Argument>,
+    /// How often it runs, in all; once where absent.
+    pub count: Option<Expr>,
+}
+
+/// An argument of a call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Argument {
+    /// The local it sets.
+    pub local: u32,
+    /// Its value.
+    pub value: Expr,
+}
+
+/// What a call goes to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Callee {
+    /// A program.
+    Program(ProgramName),
+    /// A block of this program.
+    Block(BlockId),
+    /// The program with a computed number.
+    Computed(Expr),
+    /// A cycle that the machine's maker keeps outside the library, by its number.
+    Cycle(u32),
+}
+
+impl TermKind {
+    /// The blocks that the terminator can go on at, callees aside.
+    pub fn successors(&self) -> Vec<BlockId> {
+        match self {
+            TermKind::Jump(to) | TermKind::Call { next: to, .. } => vec![*to],
+            TermKind::Branch { yes, no, .. } => vec![*yes, *no],
+            TermKind::Computed { targets, .. } => targets.iter().map(|(_, to)| *to).collect(),
+            TermKind::Return { .. } | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {
+                Vec::new()
+            }
+        }
+    }
+
+    /// Calls `f` on every block id that the terminator names, callees included.
+    pub fn for_each_target(&mut self, f: &mut dyn FnMut(&mut BlockId)) {
+        match self {
+            TermKind::Jump(to) => f(to),
+            TermKind::Branch { yes, no, .. } => {
+                f(yes);
+                f(no);
+            }
+            TermKind::Computed { targets, .. } => targets.iter_mut().for_each(|(_, to)| f(to)),
+            TermKind::Call { call, next } => {
+                if let Callee::Block(entry) = &mut call.callee {
+                    f(entry);
+                }
+                f(next);
+            }
+            TermKind::Return { .. } | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {}
+        }
+    }
+}
+
+impl Nc {
+    /// True when the block has this operation.
+    pub fn has(&self, op: Op) -> bool {
+        self.ops().any(|o| o == op)
+    }
+
+    /// The value of the word in this role.
+    pub fn word(&self, role: Role) -> Option<&Expr> {
+        self.items.iter().find_map(|item| match item {
+            NcItem::Word(r, value) if *r == role => Some(value),
+            _ => None,
+        })
+    }
+
+    /// The operations, in order.
+    pub fn ops(&self) -> impl Iterator<Item = Op> + '_ {
+        self.items.iter().filter_map(|item| match item {
+            NcItem::Op(op) => Some(*op),
+            _ => None,
+        })
+    }
+
+    /// True when an axis word makes the block a move.
+    pub fn moves(&self) -> bool {
+        self.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_axis()))
+    }
+}

@@ -1,0 +1,188 @@
+//! Visits the expressions of statements, terminators, calls and conditions.
+//!
+//! "Outermost" expressions are those that stand in a statement by themselves; [`Expr::walk`]
+//! goes on into their operands. Order is the order of evaluation.
+
+use super::{Call, Callee, Cond, Expr, NcItem, OutputPart, Place, PrintPart, StmtKind, TermKind};
+
+/// Writes a visitor by shared and by exclusive reference from one text.
+macro_rules! visitors {
+    ($name:ident, $iter:ident $(, $mut:tt)?) => {
+        impl Expr {
+            #[doc = "Visits the operands, those in conditions included, not theirs."]
+            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+                match self {
+                    Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
+                    Expr::Indirect(_, a) | Expr::Negate(a) => f(a),
+                    Expr::System(_, all) | Expr::Call(_, all) => all.$iter().for_each(f),
+                    Expr::Binary(_, a, b) => {
+                        f(a);
+                        f(b);
+                    }
+                    Expr::Truth(cond) => cond.$name(f),
+                }
+            }
+        }
+
+        impl Cond {
+            #[doc = "Visits the outermost expressions."]
+            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+                match self {
+                    Cond::Compare(_, a, b) => {
+                        f(a);
+                        f(b);
+                    }
+                    Cond::And(all) | Cond::Or(all) => all.$iter().for_each(|cond| cond.$name(f)),
+                    Cond::Not(inner) => inner.$name(f),
+                    Cond::Switch(_) => {}
+                }
+            }
+        }
+
+        impl Place {
+            #[doc = "Visits the outermost expressions that say which place it is."]
+            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+                match self {
+                    Place::Var(_) => {}
+                    Place::Indirect(_, index) => f(index),
+                    Place::System(_, subscripts) => subscripts.$iter().for_each(f),
+                }
+            }
+        }
+
+        impl Call {
+            #[doc = "Visits the outermost expressions: callee, arguments, count."]
+            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+                if let Callee::Computed(number) = &$($mut)? self.callee {
+                    f(number);
+                }
+                self.arguments.$iter().for_each(|argument| f(&$($mut)? argument.value));
+                self.count.$iter().for_each(f);
+            }
+        }
+
+        impl StmtKind {
+            #[doc = "Visits the outermost expressions, those of a written place included."]
+            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+                match self {
+                    StmtKind::Assign { target, value } => {
+                        target.$name(f);
+                        f(value);
+                    }
+                    StmtKind::Nc(nc) => nc.items.$iter().for_each(|item| match item {
+                        NcItem::Word(_, value) | NcItem::Code(_, value) => f(value),
+                        NcItem::Op(_) => {}
+                    }),
+                    StmtKind::ModalCall(call) => call.$name(f),
+                    StmtKind::Alarm { number, .. } | StmtKind::StopMessage { number, .. } => f(number),
+                    StmtKind::Output(parts) => parts.$iter().for_each(|part| {
+                        if let OutputPart::Value { value, .. } = part {
+                            f(value);
+                        }
+                    }),
+                    StmtKind::Print { parts, .. } => parts.$iter().for_each(|part| {
+                        if let PrintPart::Value(value) = part {
+                            f(value);
+                        }
+                    }),
+                    StmtKind::Input { target, .. } => target.$name(f),
+                    StmtKind::LimitLookahead(count) => f(count),
+                    StmtKind::Remark
+                    | StmtKind::ClearAll(_)
+                    | StmtKind::ModalCallOff
+                    | StmtKind::OpenPort
+                    | StmtKind::ClosePort
+                    | StmtKind::Sync
+                    | StmtKind::SetNames { .. } => {}
+                }
+            }
+        }
+
+        impl TermKind {
+            #[doc = "Visits the outermost expressions, those of a condition included."]
+            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+                match self {
+                    TermKind::Branch { cond, .. } => cond.$name(f),
+                    TermKind::Computed { value, .. } => f(value),
+                    TermKind::Call { call, .. } => call.$name(f),
+                    TermKind::Return { to } => to.$iter().for_each(f),
+                    TermKind::Jump(_) | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {}
+                }
+            }
+        }
+    };
+}
+
+visitors!(exprs, iter);
+visitors!(exprs_mut, iter_mut, mut);
+
+impl Expr {
+    /// Visits the expression and everything in it. Bounded by the validator's depth limit.
+    pub fn walk<'e>(&'e self, f: &mut dyn FnMut(&'e Expr)) {
+        f(self);
+        self.exprs(&mut |operand| operand.walk(f));
+    }
+
+    /// Like [`Expr::walk`], to change things in place.
+    pub fn walk_mut(&mut self, f: &mut dyn FnMut(&mut Expr)) {
+        f(self);
+        self.exprs_mut(&mut |operand| operand.walk_mut(f));
+    }
+
+    /// True where evaluating it may stop the machine, so that it must not be dropped. Only what
+    /// surely cannot is false: plain reads, constants, and rounding and signs of these. Sums and
+    /// products may overflow on a control with a short range.
+    pub fn may_alarm(&self) -> bool {
+        use crate::canon::Func;
+        match self {
+            Expr::Number(_) | Expr::Vacant | Expr::Var(_) => false,
+            Expr::Negate(a) => a.may_alarm(),
+            Expr::Call(Func::Abs | Func::Fix | Func::Fup | Func::Round | Func::Sign, arguments) => {
+                arguments.iter().any(Expr::may_alarm)
+            }
+            _ => true,
+        }
+    }
+}
+
+impl Cond {
+    /// True where testing it may stop the machine.
+    pub fn may_alarm(&self) -> bool {
+        let mut found = false;
+        self.exprs(&mut |e| found |= e.may_alarm());
+        found
+    }
+}
+
+impl Cond {
+    /// True where the operator's switches have a say.
+    pub fn has_switch(&self) -> bool {
+        match self {
+            Cond::Compare(_, a, b) => a.has_switch() || b.has_switch(),
+            Cond::And(all) | Cond::Or(all) => all.iter().any(Cond::has_switch),
+            Cond::Not(inner) => inner.has_switch(),
+            Cond::Switch(_) => true,
+        }
+    }
+}
+
+impl Expr {
+    fn has_switch(&self) -> bool {
+        if let Expr::Truth(cond) = self {
+            return cond.has_switch();
+        }
+        let mut found = false;
+        self.exprs(&mut |operand| found |= operand.has_switch());
+        found
+    }
+}
+
+impl StmtKind {
+    /// The place that the statement writes by itself.
+    pub fn target(&self) -> Option<&Place> {
+        match self {
+            StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } => Some(target),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! Empty blocks of another family of controls.
+//!
+//! Law: an empty block does nothing. Within a family it may hold back a control that reads ahead, and stays; what an
+//! empty block or a statement without effect of another control leaves behind is left out.
+
+use super::Context;
+use crate::ir::{Module, StmtKind};
+
+/// Leaves empty blocks out.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if context.source.dialect().family == context.target.dialect().family {
+        return;
+    }
+    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+        let says = |site: &crate::ir::Site| site.sequence.is_some() || !site.remarks.is_empty();
+        block.stmts.retain(|stmt| stmt.kind != StmtKind::Remark || says(&stmt.site));
+    }
+}

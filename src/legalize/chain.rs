@@ -1,0 +1,148 @@
+//! Going on in another program for good, and returning to a sequence number of the caller.
+
+use super::rewrite::{Part, highest_temp, rebuild};
+use super::{Context, calls_of, reachable};
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{
+    BlockId, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind,
+    TermKind, Terminator, Var,
+};
+use crate::syntax::{Label, ProgramName};
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// The register that carries a return's sequence number, by its number in [`Class::Register`].
+const RETURN_TO: u32 = 1;
+
+/// Replaces a jump to another program by a stop, a call and the end of the run.
+///
+/// Law: the source stops and waits for the operator's start, runs the other program and never comes
+/// back; a stop, a call and an end do that. Side condition: the call takes a level of nesting.
+pub fn chain(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.statement("start").is_some() {
+        return;
+    }
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        if !program.blocks.iter().any(|b| matches!(b.term.kind, TermKind::Chain(_))) {
+            continue;
+        }
+        rebuild(program, &mut |builder, part| match part {
+            Part::Term(Terminator { kind: TermKind::Chain(name), site }) => {
+                let span = site.span;
+                let why = "the other program is called behind a stop, and the run ends when it returns";
+                context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                builder.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Stop)] }), site);
+                let callee = Callee::Program(name);
+                let call = Call { callee, level: false, arguments: Vec::new(), count: None };
+                builder.end_then(Site::default(), |next| TermKind::Call { call, next });
+                builder.end(TermKind::End { rewind: true }, Site { span, ..Site::default() });
+            }
+            other => other.keep(builder),
+        });
+    }
+}
+
+/// Returns to a sequence number of the caller by a register that each caller looks at.
+///
+/// Law: the callee leaves the number in a register and returns; behind the call, the caller jumps to
+/// the block of that number, and goes on where it is 0. Side conditions: every caller is in the
+/// library; a call is not repeated, for such a return ends its repeats. A caller that lacks the number
+/// goes on behind the call where the source would alarm.
+pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.statement("return.to.sequence").is_some() && !context.target.is("m99.p.jumps.here") {
+        return;
+    }
+    let mut numbers: BTreeMap<ProgramName, Vec<u32>> = BTreeMap::new();
+    let register = Var { class: Class::Register, number: RETURN_TO };
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for span in subroutines_that_return_to(program) {
+            let why = "a subroutine inside the program returns to a block by its number";
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+        }
+        for block in &mut program.blocks {
+            let TermKind::Return { to } = &mut block.term.kind else { continue };
+            let Some(wanted) = to.take() else { continue };
+            let span = block.term.site.span;
+            match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {
+                (Some(number), Some(name)) => {
+                    numbers.entry(name.clone()).or_default().push(number as u32);
+                    let kind = StmtKind::Assign { target: Place::Var(register), value: wanted };
+                    let site = Site { span, ..Site::default() };
+                    block.stmts.push(crate::ir::Stmt { kind, site });
+                    let why = "returns to a block of the caller by way of a register that callers in the library look at";
+                    context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                }
+                _ => {
+                    let why = "returns to a block of the caller whose number is not a constant";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+                }
+            }
+        }
+    }
+    if numbers.is_empty() {
+        return;
+    }
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let wanted = |call: &Call| match &call.callee {
+            Callee::Program(name) => numbers.get(name),
+            _ => None,
+        };
+        if !program.blocks.iter().flat_map(calls_of).any(|call| wanted(call).is_some()) {
+            continue;
+        }
+        let place: BTreeMap<u32, BlockId> = program
+            .ids()
+            .rev()
+            .flat_map(|id| {
+                program.block(id).into_iter().flat_map(move |b| b.labels.iter().map(move |l| (l.clone(), id)))
+            })
+            .filter_map(|(label, id)| match label {
+                Label::Number(n) => Some((n, id)),
+                Label::Name(_) => None,
+            })
+            .collect();
+        let temp = Var { class: Class::Temp, number: highest_temp(program) + 1 };
+        rebuild(program, &mut |builder, part| match part {
+            Part::Term(Terminator { kind: TermKind::Call { call, next }, site: whole })
+                if wanted(&call).is_some() =>
+            {
+                let span = whole.span;
+                let site = || Site { span, ..Site::default() };
+                let targets: Vec<(u32, BlockId)> =
+                    wanted(&call).into_iter().flatten().filter_map(|n| Some((*n, *place.get(n)?))).collect();
+                if call.count.as_ref().is_some_and(|count| count.constant() != Some(1.0)) {
+                    let why = "a repeated call of a program that returns to a block of its caller";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+                }
+                let assign = |var, value| StmtKind::Assign { target: Place::Var(var), value };
+                let clear = || assign(register, Expr::Number(0.0));
+                builder.push(clear(), site());
+                builder.end_then(whole, |next| TermKind::Call { call, next });
+                // Cleared at once, so that a plain return of this program carries no number.
+                builder.push(assign(temp, Expr::Var(register)), site());
+                builder.push(clear(), site());
+                for (number, to) in targets {
+                    let cond =
+                        Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(f64::from(number)));
+                    builder.end_then(site(), |no| TermKind::Branch { cond, yes: to, no });
+                }
+                builder.end(TermKind::Jump(next), Site::default());
+            }
+            other => other.keep(builder),
+        });
+    }
+}
+
+/// The calls inside a program of what may return to a sequence number: nobody looks at the register behind them.
+fn subroutines_that_return_to(program: &Program) -> Vec<Span> {
+    let returns_to = |id: &BlockId| {
+        program.block(*id).is_some_and(|block| matches!(block.term.kind, TermKind::Return { to: Some(_) }))
+    };
+    let returns = |call: &Call| match call.callee {
+        Callee::Block(entry) => reachable(program, entry).iter().any(returns_to),
+        _ => false,
+    };
+    let calls = program.blocks.iter().filter(|block| calls_of(block).any(returns));
+    calls.map(|block| block.term.site.span).collect()
+}

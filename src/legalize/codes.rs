@@ -1,0 +1,114 @@
+//! Codes known by their number only: computed ones, and those of a machine's builder.
+//!
+//! Law: a number means the same on both controls where both tables give it the same operation with the same fixed
+//! operands. Every number that the value may be is looked up; where that set is not known, the code is a
+//! condition that a reviewer must accept within a family of controls, and an error across families.
+//! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
+
+use super::Context;
+use crate::canon::{Group, Op, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::analysis::{Constant, Summaries, values_at};
+use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
+use crate::text::Span;
+
+/// Checks every code that is known by its number.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let coded = |program: &Program| {
+        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+        stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.items.iter().any(|i| matches!(i, NcItem::Code(..)))))
+    };
+    if !module.programs.iter().any(coded) {
+        return;
+    }
+    let summaries = Summaries::of(module);
+    let mut found: Vec<(usize, Span, Finding)> = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                for item in &nc.items {
+                    if let NcItem::Code(letter, value) = item {
+                        let numbers = numbers(value, program, &summaries, id, at, context.source);
+                        let finding = check(*letter, numbers, context.source, context.target);
+                        found.extend(finding.map(|finding| (index, stmt.site.span, finding)));
+                    }
+                }
+            }
+        }
+    }
+    for (index, span, finding) in found {
+        let (code, what) = match finding {
+            Finding::Other(code) => {
+                (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
+            }
+            Finding::Any(letter) => {
+                let same = context.source.dialect().family == context.target.dialect().family;
+                let what = format!(
+                    "which {letter} code is computed here is not known: each that it may be must mean the same on the target"
+                );
+                (if same { Code::Conditional } else { Code::NoEquivalent }, what)
+            }
+        };
+        context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
+    }
+}
+
+enum Finding {
+    /// This code has another meaning, or none.
+    Other(String),
+    /// Any code of the letter.
+    Any(char),
+}
+
+/// The numbers that a code may be; none where that is not known.
+fn numbers(
+    value: &Expr,
+    program: &Program,
+    summaries: &Summaries,
+    id: BlockId,
+    at: usize,
+    source: &Control,
+) -> Option<Vec<f64>> {
+    if let Some(number) = value.constant() {
+        return Some(vec![number]);
+    }
+    let Expr::Var(var) = value else { return None };
+    let mut numbers = Vec::new();
+    for constant in values_at(program, summaries, *var, id, at)? {
+        match constant {
+            Constant::Number(number) => numbers.push(number),
+            Constant::Vacant => {}
+            Constant::State(Sys::Modal, subscripts) => {
+                numbers.extend(codes_of_group(*subscripts.first()?, source)?);
+            }
+            Constant::State(..) => return None,
+        }
+    }
+    Some(numbers)
+}
+
+/// The codes that a modal variable may hold: those of the group that its number stands for.
+fn codes_of_group(number: f64, source: &Control) -> Option<Vec<f64>> {
+    let group = Group::ALL.iter().find(|group| group.number().is_some_and(|n| f64::from(n) == number))?;
+    let codes = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
+    Some(codes.filter_map(|row| row.code.strip_prefix('G')?.parse().ok()).collect())
+}
+
+fn check(letter: char, numbers: Option<Vec<f64>>, source: &Control, target: &Control) -> Option<Finding> {
+    let Some(numbers) = numbers else { return Some(Finding::Any(letter)) };
+    let same = |number: f64| {
+        let (here, there) = (source.code(letter, number, &[]), target.code(letter, number, &[]));
+        let unnamed = |op: Op| {
+            matches!(op, Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther)
+        };
+        here.zip(there).is_some_and(|(here, there)| {
+            here.op == there.op && here.fixed == there.fixed && !unnamed(here.op)
+        })
+    };
+    numbers
+        .into_iter()
+        .find(|number| !same(*number))
+        .map(|number| Finding::Other(format!("{letter}{number}")))
+}

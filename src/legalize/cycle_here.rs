@@ -1,0 +1,76 @@
+//! Running the active drilling cycle at the present place.
+//!
+//! Law: on the target a cycle runs in each block that has a position; giving it the place where the tool
+//! stands (`X#5041 Y#5042` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. In the block that defines the
+//! cycle nothing need be added where that block runs the cycle anyway. A block that defines a cycle without a position
+//! and without running it is stored by a repeat of none.
+//! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
+
+use super::{Context, ModalFacts};
+use crate::canon::{Group, Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
+use std::collections::BTreeMap;
+
+/// Replaces the code that runs a cycle where the tool stands.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some() {
+        return;
+    }
+    let facts = ModalFacts::of(module, &context.entry);
+    // What a bare definition does differs only where the two controls do not agree on it.
+    let runs = |control: &crate::dialect::Control| {
+        control.behaviour("cycle.runs.without.axes").map(|b| b.value.clone())
+    };
+    let stored = runs(context.source).as_deref() == Some("false");
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in &mut block.stmts {
+                state.step(stmt);
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere));
+                nc.items.retain(|item| *item != NcItem::Op(Op::CycleHere));
+                let placed = nc.word(Role::X).is_some() || nc.word(Role::Y).is_some();
+                let span = stmt.site.span;
+                let what = if defines && !here && !placed && stored && nc.word(Role::Repeat).is_none() {
+                    nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
+                    Some(
+                        "the source only stores a cycle that is defined without a position; a repeat of none does that on the target where it is so taken",
+                    )
+                } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
+                    let what = "a cycle is run where the tool stands under a rotation, which would turn that place once more: write the cycle's position there";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                    None
+                } else if here && !placed {
+                    place(nc, state.op(Group::Distance))
+                        .err()
+                        .or((!defines)
+                            .then_some("the cycle is run where the tool stands by giving that place"))
+                } else {
+                    None
+                };
+                if let Some(what) = what {
+                    let unknown = here && state.op(Group::Distance).is_none();
+                    let code = if unknown { Code::NoEquivalent } else { Code::Conditional };
+                    context.add_once(index, what, Diagnostic::new(code, span, what));
+                }
+            }
+        }
+    }
+}
+
+/// Adds the present place to a block.
+fn place(nc: &mut Nc, distance: Option<Op>) -> Result<(), &'static str> {
+    let here = |axis: f64| Expr::System(Sys::WorkPosition, vec![Expr::Number(axis)]);
+    let words = match distance {
+        Some(Op::Absolute) => [NcItem::Word(Role::X, here(1.0)), NcItem::Word(Role::Y, here(2.0))],
+        Some(Op::Incremental) => {
+            [NcItem::Word(Role::X, Expr::Number(0.0)), NcItem::Word(Role::Y, Expr::Number(0.0))]
+        }
+        _ => return Err("a cycle is run where the tool stands, and absolute or incremental is not known"),
+    };
+    let at = nc.items.iter().position(|item| matches!(item, NcItem::Word(..))).unwrap_or(nc.items.len());
+    nc.items.splice(at..at, words);
+    Ok(())
+}

@@ -1,0 +1,126 @@
+//! Functions that the target lacks, by arithmetic that it has.
+//!
+//! Each file holds one group: its law, its domain and how far off it may be.
+//! A function without an emulation is an error; one whose emulation is off by
+//! more than the last digit of binary64 brings a review diagnostic with its bound.
+
+mod decimal;
+mod exponential;
+mod modulo;
+mod rounding;
+mod trigonometry;
+
+use super::{Context, Position, Rewriter, rewrite_program};
+use crate::canon::Func;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{BinOp, Expr, Module};
+
+/// What became of a function.
+enum Emulated {
+    /// The same value, to the last digit of the arithmetic.
+    Exact(Expr),
+    /// The same value within a bound, or inside a domain: the text says which.
+    Near(Expr, String),
+    /// Not to be had: why.
+    Missing(String),
+}
+
+/// Replaces the functions that the target lacks.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut found = Vec::new();
+        let (source, target) = (context.source, context.target);
+        rewrite_program(program, &mut |e, position, rewriter| {
+            let span = rewriter.span;
+            let (name, emulated) = match e {
+                Expr::Call(function, arguments) => {
+                    (function.name(), call(function, arguments, position, rewriter, source, target))
+                }
+                Expr::Binary(BinOp::Mod, a, b) if !modulo::is_native(&a, &b, target) => {
+                    ("mod", modulo::by_division(*a, *b, rewriter, target))
+                }
+                other => return other,
+            };
+            match emulated {
+                Emulated::Exact(value) => value,
+                Emulated::Near(value, why) => {
+                    found.push((Code::NearlyEqual, span, format!("{name}: {why}")));
+                    value
+                }
+                Emulated::Missing(why) => {
+                    found.push((Code::NoEquivalent, span, why));
+                    Expr::Number(0.0)
+                }
+            }
+        });
+        for (code, span, message) in found {
+            let fact = format!("{}{message}", code.number());
+            context.add_once(index, &fact, Diagnostic::new(code, span, message));
+        }
+    }
+}
+
+fn call(
+    function: Func,
+    mut arguments: Vec<Expr>,
+    position: Position,
+    rewriter: &mut Rewriter<'_>,
+    source: &Control,
+    target: &Control,
+) -> Emulated {
+    let in_word = matches!(position, Position::Word(_) | Position::Code);
+    let keep = target.function(function, arguments.len()).is_some();
+    let second = if arguments.len() > 1 { arguments.pop() } else { None };
+    let Some(first) = arguments.pop() else { return missing(function.name(), target) };
+    match (function, second) {
+        // ROUND inside a word is another function on these controls: it stands alone.
+        (Func::Round, None) if in_word && keep => Emulated::Exact(rounding::nearest(first, rewriter, target)),
+        (Func::RoundIncrement, None)
+            if target.behaviour("round.in.address").is_some_and(|b| b.value == "increment") =>
+        {
+            Emulated::Exact(Expr::Call(function, vec![first]))
+        }
+        (Func::Atan, Some(second)) => trigonometry::atan2(first, second, rewriter, source, target),
+        (Func::Asin | Func::Acos, None) => trigonometry::inverse(function, first, rewriter, source, target),
+        (_, second) if keep => {
+            Emulated::Exact(Expr::Call(function, [Some(first), second].into_iter().flatten().collect()))
+        }
+        (Func::Round | Func::Fup | Func::Bcd | Func::Bin, None)
+            if target.function(Func::Fix, 1).is_none() =>
+        {
+            missing(function.name(), target)
+        }
+        (Func::Round, None) => Emulated::Exact(rounding::nearest(first, rewriter, target)),
+        (Func::Tan, None) => trigonometry::tan(first, rewriter),
+        (Func::Sign, None) => rounding::sign(first, rewriter),
+        (Func::Fup, None) => rounding::fup(first, rewriter),
+        (Func::RoundPlaces, Some(places)) => rounding::round_places(first, &places, rewriter, target),
+        (Func::Bcd, None) => decimal::bcd(first, rewriter),
+        (Func::Bin, None) => decimal::bin(first, rewriter),
+        (Func::Exp, None) => exponential::exp(first, rewriter),
+        (Func::Ln, None) => exponential::ln(first, rewriter),
+        (Func::Pow, Some(power)) => exponential::pow(first, power, rewriter, target),
+        _ => missing(function.name(), target),
+    }
+}
+
+fn missing(function: &str, target: &Control) -> Emulated {
+    let title = &target.dialect().title;
+    Emulated::Missing(format!("{title} has no function '{function}', and arithmetic does not give it"))
+}
+
+/// `a op b`.
+fn binary(op: BinOp, a: Expr, b: Expr) -> Expr {
+    Expr::Binary(op, Box::new(a), Box::new(b))
+}
+
+/// The function of one argument.
+fn apply(function: Func, a: Expr) -> Expr {
+    Expr::Call(function, vec![a])
+}
+
+/// A constant.
+fn number(value: f64) -> Expr {
+    Expr::Number(value)
+}

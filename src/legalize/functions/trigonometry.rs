@@ -1,0 +1,112 @@
+//! TAN, ASIN, ACOS and the two-argument ATAN.
+
+use super::{Emulated, apply, binary, number};
+use crate::canon::Func;
+use crate::dialect::Control;
+use crate::ir::{BinOp, Cond, Expr, Relation};
+use crate::legalize::{Prelude, Rewriter};
+
+/// Law: `SIN[a]/COS[a]`. Off by at most two units of the last digit; at 90 degrees it divides by
+/// what the control has for `COS[90]`, as the tangent itself would.
+pub fn tan(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
+    let a = rewriter.held(a);
+    Emulated::Exact(binary(BinOp::Div, apply(Func::Sin, a.clone()), apply(Func::Cos, a)))
+}
+
+/// ASIN and ACOS: the target's own where their ranges agree, else by the arc tangent.
+///
+/// Law: `ASIN[x] = ATAN[x/SQRT[1-x*x]]` for x inside -1 and 1, `90*x` at them; `ACOS[x] = 90 - ASIN[x]`.
+/// Near the ends `1-x*x` loses digits: off by at most 1e-7 degrees.
+pub fn inverse(
+    function: Func,
+    a: Expr,
+    rewriter: &mut Rewriter<'_>,
+    source: &Control,
+    target: &Control,
+) -> Emulated {
+    let question = if function == Func::Asin { "asin.range" } else { "acos.range" };
+    let range = |control: &Control| control.behaviour(question).map(|b| b.value.clone()).unwrap_or_default();
+    let (wanted, got) = (range(source), range(target));
+    if target.function(function, 1).is_some() {
+        let value = apply(function, a);
+        return match (wanted.as_str(), got.as_str()) {
+            (w, g) if w == g && w != "unknown" => Emulated::Exact(value),
+            ("270..90", "-90..90") => Emulated::Exact(wrapped(value, rewriter)),
+            _ => {
+                Emulated::Near(value, format!("the range is {wanted} on the source and {got} on the target"))
+            }
+        };
+    }
+    let x = rewriter.held(a);
+    let square = binary(BinOp::Mul, x.clone(), x.clone());
+    let root = rewriter.hold(apply(Func::Sqrt, binary(BinOp::Sub, number(1.0), square)));
+    let zero = Cond::Compare(Relation::Equal, Expr::Var(root), number(0.0));
+    let asin = rewriter.hold(binary(BinOp::Mul, number(90.0), x.clone()));
+    // The divisor is made 1 where it would be 0; the quotient is not used there.
+    let divisor = rewriter.hold(Expr::Var(root));
+    rewriter.first(Prelude::When(zero.clone(), divisor, number(1.0)));
+    let inside = apply(Func::Atan, binary(BinOp::Div, x, Expr::Var(divisor)));
+    rewriter.first(Prelude::When(zero.negated(), asin, inside));
+    let value = match function {
+        Func::Asin if wanted == "270..90" => wrapped(Expr::Var(asin), rewriter),
+        Func::Asin => Expr::Var(asin),
+        _ => binary(BinOp::Sub, number(90.0), Expr::Var(asin)),
+    };
+    Emulated::Near(value, "by the arc tangent, within 1e-7 degrees".into())
+}
+
+/// An angle of -90 to 90 as one of 270 to 360 and 0 to 90.
+fn wrapped(angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
+    let angle = rewriter.hold(angle);
+    let below = Cond::Compare(Relation::Less, Expr::Var(angle), number(0.0));
+    let turned = binary(BinOp::Add, Expr::Var(angle), number(360.0));
+    rewriter.first(Prelude::When(below, angle, turned));
+    Expr::Var(angle)
+}
+
+/// The two-argument arc tangent: the target's own where form and range agree, else by quadrants.
+///
+/// Law: with q the one-argument arc tangent of y/x: q where x > 0; q+180 where x < 0; where x = 0,
+/// 90 or -90 by the sign of y; where both are 0, a quotient of zeros stops the machine, as the function does. For the
+/// range 0..360, 360 is added to what is negative; for -180..180, 360 is taken from what is above 180. Exact up to
+/// the quotient's last digit; a direction less than that below 0 comes out as 360.
+pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, target: &Control) -> Emulated {
+    let range =
+        |control: &Control| control.behaviour("atan2.range").map(|b| b.value.clone()).unwrap_or_default();
+    let wanted = range(source);
+    if target.function(Func::Atan, 2).is_some() && wanted == range(target) && wanted.contains("..") {
+        return Emulated::Exact(Expr::Call(Func::Atan, vec![y, x]));
+    }
+    if target.function(Func::Atan, 1).is_none() {
+        return super::missing(Func::Atan.name(), target);
+    }
+    let (y, x) = (rewriter.held(y), rewriter.held(x));
+    let compare = |relation, a: &Expr| Cond::Compare(relation, a.clone(), number(0.0));
+    let divisor = rewriter.hold(x.clone());
+    rewriter.first(Prelude::When(compare(Relation::Equal, &x), divisor, y.clone()));
+    let angle = rewriter.hold(apply(Func::Atan, binary(BinOp::Div, y.clone(), Expr::Var(divisor))));
+    let turned = |by: f64| binary(BinOp::Add, Expr::Var(angle), number(by));
+    rewriter.first(Prelude::When(compare(Relation::Less, &x), angle, turned(180.0)));
+    let upright = |relation| Cond::And(vec![compare(Relation::Equal, &x), compare(relation, &y)]);
+    rewriter.first(Prelude::When(upright(Relation::Greater), angle, number(90.0)));
+    rewriter.first(Prelude::When(upright(Relation::Less), angle, number(-90.0)));
+    match wanted.as_str() {
+        "0..360" => {
+            rewriter.first(Prelude::When(compare(Relation::Less, &Expr::Var(angle)), angle, turned(360.0)));
+            Emulated::Exact(Expr::Var(angle))
+        }
+        "-180..180" => {
+            let above = Cond::Compare(Relation::Greater, Expr::Var(angle), number(180.0));
+            rewriter.first(Prelude::When(above, angle, turned(-360.0)));
+            Emulated::Exact(Expr::Var(angle))
+        }
+        _ => {
+            let above = Cond::Compare(Relation::Greater, Expr::Var(angle), number(180.0));
+            rewriter.first(Prelude::When(above, angle, turned(-360.0)));
+            Emulated::Near(
+                Expr::Var(angle),
+                "no source gives the range of the source's two-argument form; -180 to 180 is taken".into(),
+            )
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Numbers without a decimal point, where the target does not count them as the source does.
+//!
+//! Law: n increments are `n * increment` of the unit in force. Side condition: the unit is known, from the
+//! text or from a machine profile; else the number keeps its form only where both controls count alike.
+
+use super::{Context, ModalFacts, Setting};
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{BareLength, Control, Units};
+use crate::ir::{BlockId, Call, Expr, Module, NcItem, StmtKind, TermKind};
+
+/// Converts counts of increments that the target reads otherwise.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let mut any = false;
+    for program in &module.programs {
+        for block in &program.blocks {
+            let mut note = |e: &Expr| e.walk(&mut |e| any |= matches!(e, Expr::Increments(_)));
+            block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut note));
+            block.term.kind.exprs(&mut note);
+        }
+    }
+    if !any {
+        return;
+    }
+    let facts = ModalFacts::of(module, &context.entry);
+    let (source, target) = (context.source, context.target);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        // A program that names one unit throughout is in it wherever it is entered.
+        let named = unit_named(program);
+        let mut unknown = None;
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in &mut block.stmts {
+                state.step(stmt);
+                let units = unit(&state.of(Group::Units)).or(named).or(source.units());
+                let failed = match &mut stmt.kind {
+                    StmtKind::Nc(nc) => nc.items.iter_mut().any(|item| match item {
+                        NcItem::Word(role, value) => !word(value, *role, units, source, target),
+                        _ => false,
+                    }),
+                    StmtKind::ModalCall(call) => !arguments(call, units, source, target),
+                    _ => false,
+                };
+                if failed {
+                    unknown.get_or_insert(stmt.site.span);
+                }
+            }
+            let units = unit(&state.of(Group::Units)).or(named).or(source.units());
+            if let TermKind::Call { call, .. } = &mut block.term.kind
+                && !arguments(call, units, source, target)
+            {
+                unknown.get_or_insert(block.term.site.span);
+            }
+        }
+        if let Some(span) = unknown {
+            let what = "a number without a decimal point counts increments whose size depends on the unit in force, which is not known here";
+            let help = "name the unit in the program (G20, G21) or in the machine profile of the source";
+            context.add_once(
+                index,
+                "increments",
+                Diagnostic::new(Code::NoEquivalent, span, what).with_help(help),
+            );
+        }
+    }
+}
+
+fn unit(setting: &Setting) -> Option<Units> {
+    match setting {
+        Setting::Known(Op::Inch, _) => Some(Units::Inch),
+        Setting::Known(Op::Metric, _) => Some(Units::Metric),
+        _ => None,
+    }
+}
+
+fn unit_named(program: &crate::ir::Program) -> Option<Units> {
+    let mut named = None;
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        let StmtKind::Nc(nc) = &stmt.kind else { continue };
+        for op in nc.ops() {
+            let here = match op {
+                Op::Inch => Units::Inch,
+                Op::Metric => Units::Metric,
+                _ => continue,
+            };
+            if named.is_some_and(|other| other != here) {
+                return None;
+            }
+            named = Some(here);
+        }
+    }
+    named
+}
+
+/// Converts a word where it must be; false where it must be and cannot.
+fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, target: &Control) -> bool {
+    let bare = if role == Role::Feed { target.bare_feed() } else { target.bare_length() };
+    if bare == BareLength::Increments && same_increments(source, target) && role != Role::Feed {
+        return true;
+    }
+    convert(value, units, source)
+}
+
+fn arguments(call: &mut Call, units: Option<Units>, source: &Control, target: &Control) -> bool {
+    let mut good = true;
+    for argument in &mut call.arguments {
+        let letter = target.argument_letter(argument.local);
+        let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));
+        if bare != BareLength::Increments || !same_increments(source, target) {
+            good &= convert(&mut argument.value, units, source);
+        }
+    }
+    good
+}
+
+fn same_increments(source: &Control, target: &Control) -> bool {
+    let (a, b) = (source.numbers(), target.numbers());
+    (a.increment_mm, a.increment_inch, a.increment_degrees)
+        == (b.increment_mm, b.increment_inch, b.increment_degrees)
+}
+
+fn convert(value: &mut Expr, units: Option<Units>, source: &Control) -> bool {
+    let inner = match value {
+        Expr::Negate(inner) => inner.as_mut(),
+        other => other,
+    };
+    let Expr::Increments(count) = inner else { return true };
+    // Zero is zero in every unit.
+    let per_unit = match units {
+        _ if *count == 0.0 => 1.0,
+        Some(Units::Metric) => 1.0 / source.numbers().increment_mm,
+        Some(Units::Inch) => 1.0 / source.numbers().increment_inch,
+        None => return false,
+    };
+    // Dividing by a whole number gives the decimal that a person would write.
+    *inner = Expr::Number(*count / per_unit.round());
+    true
+}

@@ -1,0 +1,29 @@
+//! Operations that the target has no code for, and that nothing stood in for.
+//!
+//! Runs last of the passes that rewrite: what is left without a row in the target's table is refused here,
+//! in the words of the machine and not of a table.
+
+use super::Context;
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Module, StmtKind};
+use std::collections::BTreeSet;
+
+/// Refuses what the target cannot do.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let target = context.target.dialect();
+    let codes = target.codes.iter().filter(|row| row.preferred).map(|row| row.op);
+    let had: BTreeSet<Op> = codes.chain(target.words.iter().filter_map(|row| row.op)).collect();
+    let mut found = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            found.extend(nc.ops().filter(|op| !had.contains(op)).map(|op| (index, stmt.site.span, op)));
+        }
+    }
+    for (index, span, op) in found {
+        let meaning = op.meaning().trim().trim_end_matches('.');
+        let what = format!("{} has no code for this ({op}): {meaning}", target.title);
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+    }
+}

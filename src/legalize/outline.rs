@@ -1,0 +1,128 @@
+//! Subroutines inside a program, where the target calls programs only.
+//!
+//! Law: what a call of a block runs is what is reachable from it; a program
+//! made of copies of those blocks does the same and returns to the same place.
+//! Side condition: blocks that the main part reaches as well are copied, so an
+//! operator who edits one must edit both; the copies carry the same comments.
+
+use super::{Context, calls_of, reachable};
+use crate::ir::{Block, BlockId, Callee, Module, Program, Site, StmtKind, TermKind, Terminator};
+use crate::syntax::{Label, ProgramName};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Gives each called block a program of its own.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.statement("call.local").is_some() {
+        return;
+    }
+    let mut out = Vec::with_capacity(module.programs.len());
+    let mut origins = Vec::with_capacity(module.programs.len());
+    for (index, program) in std::mem::take(&mut module.programs).into_iter().enumerate() {
+        outline(program, &mut out);
+        origins.resize(out.len(), context.origins[index]);
+    }
+    module.programs = out;
+    context.origins = origins;
+}
+
+/// Appends the program and, behind it, the programs made of its subroutines.
+fn outline(mut program: Program, out: &mut Vec<Program>) {
+    let entries: BTreeSet<BlockId> = program
+        .blocks
+        .iter()
+        .flat_map(calls_of)
+        .filter_map(|call| match call.callee {
+            Callee::Block(entry) => Some(entry),
+            _ => None,
+        })
+        .collect();
+    if entries.is_empty() {
+        out.push(program);
+        return;
+    }
+    let names: BTreeMap<BlockId, ProgramName> =
+        entries.iter().map(|&entry| (entry, sub_name(&program, entry))).collect();
+    let mut outlined = BTreeSet::new();
+    let mut subs = Vec::new();
+    for (&entry, name) in &names {
+        let body = reachable(&program, entry);
+        outlined.extend(body.iter().copied());
+        subs.push(extract(&program, entry, &body, Some(name.clone()), Site::default()));
+    }
+    let main = reachable(&program, BlockId(0));
+    let keep = program.ids().filter(|id| main.contains(id) || !outlined.contains(id)).collect();
+    let (name, site) = (program.name.take(), std::mem::take(&mut program.site));
+    let mut all = vec![extract(&program, BlockId(0), &keep, name, site)];
+    all.extend(subs);
+    for program in &mut all {
+        program.blocks.iter_mut().for_each(|block| rename_calls(block, &names));
+    }
+    out.extend(all);
+}
+
+/// A name that no program in any source has: the parent's and the label.
+fn sub_name(program: &Program, entry: BlockId) -> ProgramName {
+    let parent = match &program.name {
+        Some(ProgramName::Number(n)) => format!("O{n}"),
+        Some(ProgramName::Name(name)) => name.clone(),
+        None => format!("FILE{}", program.file),
+    };
+    let label = match program.block(entry).and_then(|block| block.labels.first()) {
+        Some(Label::Number(n)) => n.to_string(),
+        Some(Label::Name(name)) => name.clone(),
+        None => format!("BLOCK{}", entry.0),
+    };
+    ProgramName::Name(format!("{parent}/{label}"))
+}
+
+/// A program of some of the blocks, entered at `entry`.
+fn extract(
+    program: &Program,
+    entry: BlockId,
+    body: &BTreeSet<BlockId>,
+    name: Option<ProgramName>,
+    site: Site,
+) -> Program {
+    let leads = body.first() == Some(&entry);
+    let shift = u32::from(!leads);
+    let place: BTreeMap<BlockId, BlockId> =
+        body.iter().zip(shift..).map(|(&old, new)| (old, BlockId(new))).collect();
+    let mut blocks = Vec::with_capacity(body.len() + 1);
+    if !leads {
+        let jump = TermKind::Jump(place.get(&entry).copied().unwrap_or(BlockId(0)));
+        let term = Terminator { kind: jump, site: Site::default() };
+        blocks.push(Block { labels: Vec::new(), stmts: Vec::new(), term });
+    }
+    for block in body.iter().filter_map(|&id| program.block(id)) {
+        let mut block = block.clone();
+        for_each_jump(&mut block.term.kind, &mut |to| *to = place.get(to).copied().unwrap_or(*to));
+        blocks.push(block);
+    }
+    Program { name, file: program.file, site, blocks }
+}
+
+/// Every successor; callees keep their ids until they are renamed.
+fn for_each_jump(kind: &mut TermKind, f: &mut dyn FnMut(&mut BlockId)) {
+    match kind {
+        TermKind::Call { next, .. } => f(next),
+        other => other.for_each_target(f),
+    }
+}
+
+fn rename_calls(block: &mut Block, names: &BTreeMap<BlockId, ProgramName>) {
+    let rename = |callee: &mut Callee| {
+        if let Callee::Block(entry) = callee
+            && let Some(name) = names.get(entry)
+        {
+            *callee = Callee::Program(name.clone());
+        }
+    };
+    for stmt in &mut block.stmts {
+        if let StmtKind::ModalCall(call) = &mut stmt.kind {
+            rename(&mut call.callee);
+        }
+    }
+    if let TermKind::Call { call, .. } = &mut block.term.kind {
+        rename(&mut call.callee);
+    }
+}

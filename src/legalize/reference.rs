@@ -1,0 +1,80 @@
+//! The return to the reference position without axes, where the target needs them named.
+//!
+//! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
+//! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
+//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves.
+
+use super::{Context, ModalFacts};
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
+
+/// Names the axes of returns that name none.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if !context.source.is("reference.all.axes") || context.target.is("reference.all.axes") {
+        return;
+    }
+    let ncs = || {
+        module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).filter_map(|stmt| {
+            match &stmt.kind {
+                StmtKind::Nc(nc) => Some(nc),
+                _ => None,
+            }
+        })
+    };
+    if !ncs().any(bare) {
+        return;
+    }
+    let rotary = [Role::A, Role::B, Role::C];
+    let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
+    let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
+    let facts = ModalFacts::of(module, &context.entry);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let mut out = Vec::with_capacity(block.stmts.len());
+            for mut stmt in std::mem::take(&mut block.stmts) {
+                state.step(&stmt);
+                let span = stmt.site.span;
+                let mut restore = None;
+                if let StmtKind::Nc(nc) = &mut stmt.kind
+                    && bare(nc)
+                {
+                    let (code, what) = match state.op(Group::Distance) {
+                        Some(distance) => {
+                            restore = (distance == Op::Absolute).then_some(distance);
+                            name(nc, &axes);
+                            (
+                                Code::Conditional,
+                                "all axes return at once from where they stand; in which order the source moves them is not stated",
+                            )
+                        }
+                        None => (
+                            Code::NoEquivalent,
+                            "a return to the reference position without axes, where absolute or incremental is not known",
+                        ),
+                    };
+                    context.add(index, Diagnostic::new(code, span, what));
+                }
+                out.push(stmt);
+                if let Some(distance) = restore {
+                    let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(distance)] });
+                    out.push(Stmt { kind, site: Site { span, ..Site::default() } });
+                }
+            }
+            block.stmts = out;
+        }
+    }
+}
+
+fn bare(nc: &Nc) -> bool {
+    nc.has(Op::ReferenceReturn) && !nc.moves()
+}
+
+fn name(nc: &mut Nc, axes: &[Role]) {
+    nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
+    let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
+    nc.items.insert(at, NcItem::Op(Op::Incremental));
+    let words = axes.iter().map(|axis| NcItem::Word(*axis, Expr::Number(0.0)));
+    nc.items.splice(at + 2..at + 2, words);
+}

@@ -1,0 +1,294 @@
+//! Registers for variables: one map for the whole library.
+//!
+//! A variable whose number the target has too keeps it. All others get a register of their own, the
+//! one that the lock gives them or the next free one: their values outlive a program, so every one of
+//! them interferes with every other. Temporaries live inside one program and are coloured
+//! ([`super::temporaries`]) before this runs.
+
+use super::clear;
+use super::rewrite::variables_of;
+use super::{Context, Position, Rewriter, rewrite_program};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, VariableClass};
+use crate::ir::{Bank, BinOp, Class, Expr, Module, Place, StmtKind, Var};
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A register of the target: its name before the number, and its number.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Register {
+    /// `#`, `V`.
+    pub name: String,
+    /// Its number.
+    pub number: u32,
+}
+
+/// The map, and what the lock is to remember of it.
+#[derive(Clone, Debug, Default)]
+pub struct Registers {
+    /// The register of each variable.
+    pub of: BTreeMap<Var, Register>,
+    /// What was chosen, by the variable's name on the source.
+    pub chosen: BTreeMap<String, u32>,
+}
+
+/// Chooses registers for everything in the library. `locked` are the choices of earlier runs.
+pub fn allocate(module: &mut Module, locked: &BTreeMap<String, u32>, context: &mut Context<'_>) -> Registers {
+    let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        variables_of(program, &mut |var| {
+            users.entry(var).or_insert((index, program.site.span));
+        });
+    }
+    if clear::is_needed(module, context) {
+        users.insert(clear::COUNTER, (0, Span::default()));
+    }
+    let banks = banks(module);
+    for (bank, place) in &banks {
+        for number in reached(*bank, context.source) {
+            users.entry(Var { class: class_of(*bank), number }).or_insert(*place);
+        }
+    }
+    let mut pool = Pool::new(context.target, locked);
+    let mut registers = Registers::default();
+    keep_numbers(&users, &mut pool, &mut registers, context);
+    let runs: Vec<(Bank, u32)> =
+        banks.keys().filter_map(|bank| run_of(*bank, &mut pool, &users, &mut registers, context)).collect();
+    for (&var, &(index, span)) in &users {
+        if registers.of.contains_key(&var) {
+            continue;
+        }
+        let name = name_of(var, module, context.source);
+        match pool.take(var.class, name.as_deref()) {
+            Some(number) => {
+                if let Some(name) = name.filter(|_| var.class != Class::Temp) {
+                    registers.chosen.insert(name, number);
+                }
+                registers.of.insert(var, Register { name: pool.name.clone(), number });
+            }
+            None => {
+                let what = format!(
+                    "the target has no register left for {}; {} variables of the library want one",
+                    name.unwrap_or_else(|| "a temporary".into()),
+                    users.len()
+                );
+                context.add(index, Diagnostic::new(Code::OutOfRegisters, span, what));
+            }
+        }
+    }
+    super::locked::check(module, locked, &registers, context);
+    point(module, &runs);
+    registers
+}
+
+/// The class that a bank counts in.
+fn class_of(bank: Bank) -> Class {
+    if bank == Bank::Parametric { Class::Parametric } else { Class::Global }
+}
+
+/// The numbers that a computed one can be, in a bank of its own.
+fn reached(bank: Bank, source: &Control) -> Vec<u32> {
+    let wanted = match bank {
+        Bank::Numbered => return Vec::new(),
+        Bank::Global => "common",
+        Bank::Parametric => "parametric",
+    };
+    source
+        .classes()
+        .iter()
+        .filter(|row| row.class == wanted && !row.nullable)
+        .flat_map(|row| row.first..=row.last)
+        .collect()
+}
+
+/// The name of a variable on the source.
+pub(super) fn name_of(var: Var, module: &Module, source: &Control) -> Option<String> {
+    if let Some(name) = module.names.get(&var) {
+        return Some(name.clone());
+    }
+    let class = match var.class {
+        Class::Local => "local",
+        Class::Common => "common",
+        Class::Retained => "retained",
+        Class::Global => "global",
+        Class::Parametric => "parametric",
+        Class::Register => return Some(format!("register {}", var.number)),
+        Class::Temp => return None,
+    };
+    let rows = source.classes();
+    let row = rows.iter().find(|row| row.class == class && (row.first..=row.last).contains(&var.number));
+    let row = row.or_else(|| {
+        rows.iter().find(|row| row.class != "letter" && (row.first..=row.last).contains(&var.number))
+    });
+    Some(format!("{}{}", row.map_or("#", |row| row.name.as_str()), var.number))
+}
+
+/// Variables whose number the target has too.
+fn keep_numbers(
+    users: &BTreeMap<Var, (usize, Span)>,
+    pool: &mut Pool<'_>,
+    registers: &mut Registers,
+    context: &Context<'_>,
+) {
+    for &var in users.keys().filter(|var| var.class.nullable()) {
+        let there = context.target.variable_class(&pool.name, var.number);
+        let same_kind = there.is_some_and(|row| (row.class == "local") == (var.class == Class::Local));
+        if same_kind && !context.target.is_reserved(&pool.name, var.number) {
+            pool.used.insert(var.number);
+            registers.of.insert(var, Register { name: pool.name.clone(), number: var.number });
+        }
+    }
+}
+
+/// Which spaces of computed numbers the library uses, and where first.
+fn banks(module: &Module) -> BTreeMap<Bank, (usize, Span)> {
+    let mut banks = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            let mut note = |e: &Expr, span: Span| {
+                e.walk(&mut |e| {
+                    if let Expr::Indirect(bank, _) = e {
+                        banks.entry(*bank).or_insert((index, span));
+                    }
+                });
+            };
+            for stmt in &block.stmts {
+                stmt.kind.exprs(&mut |e| note(e, stmt.site.span));
+                if let Some(place @ Place::Indirect(..)) = stmt.kind.target() {
+                    note(&place.read(), stmt.site.span);
+                }
+            }
+            block.term.kind.exprs(&mut |e| note(e, block.term.site.span));
+        }
+    }
+    banks
+}
+
+/// A run of registers for variables that are reached by computed numbers: what is added to the number.
+fn run_of(
+    bank: Bank,
+    pool: &mut Pool<'_>,
+    users: &BTreeMap<Var, (usize, Span)>,
+    registers: &mut Registers,
+    context: &mut Context<'_>,
+) -> Option<(Bank, u32)> {
+    let (class, letter) = match bank {
+        Bank::Global => (Class::Global, "V"),
+        Bank::Parametric => (Class::Parametric, "R"),
+        Bank::Numbered => return None,
+    };
+    let numbers: Vec<u32> =
+        users.keys().filter(|var| var.class == class).map(|var| var.number).filter(|n| *n <= 100).collect();
+    let (first, last) = (*numbers.first()?, *numbers.last()?);
+    match pool.run(first, last, &format!("{letter}(..)")) {
+        Some(base) => {
+            registers.chosen.insert(format!("{letter}(..)"), base);
+            for number in numbers {
+                let register = Register { name: pool.name.clone(), number: base + number };
+                registers.of.insert(Var { class, number }, register);
+            }
+            Some((bank, base))
+        }
+        None => {
+            let (index, span) = users.values().next().copied()?;
+            let what = format!(
+                "the target has no {} registers in a row for variables with computed numbers",
+                last - first + 1
+            );
+            context.add(index, Diagnostic::new(Code::OutOfRegisters, span, what));
+            None
+        }
+    }
+}
+
+/// Turns computed numbers into those of the target.
+fn point(module: &mut Module, runs: &[(Bank, u32)]) {
+    if runs.is_empty() {
+        return;
+    }
+    let base_of = |bank: Bank| runs.iter().find(|(b, _)| *b == bank).map(|(_, base)| f64::from(*base));
+    let shifted = |index: Expr, base: f64| match index {
+        Expr::Number(n) => Expr::Number(n + base),
+        index => Expr::Binary(BinOp::Add, Box::new(Expr::Number(base)), Box::new(index)),
+    };
+    for program in &mut module.programs {
+        rewrite_program(program, &mut |e, _: Position, _: &mut Rewriter<'_>| match e {
+            Expr::Indirect(bank, index) => match base_of(bank) {
+                // Adding 0 makes a number of what nobody has set, as it is on the source.
+                Some(base) => Expr::Binary(
+                    BinOp::Add,
+                    Box::new(Expr::Indirect(Bank::Numbered, Box::new(shifted(*index, base)))),
+                    Box::new(Expr::Number(0.0)),
+                ),
+                None => Expr::Indirect(bank, index),
+            },
+            other => other,
+        });
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            if let StmtKind::Assign { target: Place::Indirect(bank, index), .. } = &mut stmt.kind
+                && let Some(base) = base_of(*bank)
+            {
+                let old = std::mem::replace(index.as_mut(), Expr::Vacant);
+                (*bank, **index) = (Bank::Numbered, shifted(old, base));
+            }
+        }
+    }
+}
+
+/// The registers of the target and which of them are taken.
+struct Pool<'a> {
+    name: String,
+    /// Rows to take from, those that keep their values first.
+    rows: Vec<&'a VariableClass>,
+    used: BTreeSet<u32>,
+    locked: &'a BTreeMap<String, u32>,
+    target: &'a Control,
+}
+
+impl<'a> Pool<'a> {
+    fn new(target: &'a Control, locked: &'a BTreeMap<String, u32>) -> Self {
+        let mut rows: Vec<&VariableClass> =
+            target.classes().iter().filter(|row| row.class != "local" && row.class != "letter").collect();
+        // What every control of the kind has comes before what must be bought.
+        rows.sort_by_key(|row| (row.option.is_some(), row.first));
+        let name = rows.first().map_or_else(|| "#".into(), |row| row.name.clone());
+        let used = locked.values().copied().collect();
+        Self { name, rows, used, locked, target }
+    }
+
+    fn free(&self, number: u32) -> bool {
+        !self.used.contains(&number) && !self.target.is_reserved(&self.name, number)
+    }
+
+    fn take(&mut self, class: Class, name: Option<&str>) -> Option<u32> {
+        if let Some(&number) = name.and_then(|name| self.locked.get(name)) {
+            return Some(number);
+        }
+        let keeps = |row: &&&VariableClass| row.retained != Some(false);
+        let volatile = matches!(class, Class::Temp | Class::Register | Class::Common | Class::Local);
+        let preferred = self.rows.iter().filter(|row| keeps(row) != volatile);
+        let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
+        let number = preferred.chain(rest).flat_map(|row| row.first..=row.last).find(|n| self.free(*n))?;
+        self.used.insert(number);
+        Some(number)
+    }
+
+    /// A base so that `base + first ..= base + last` are free registers of one kind that keep their values.
+    fn run(&mut self, first: u32, last: u32, name: &str) -> Option<u32> {
+        if let Some(&base) = self.locked.get(name) {
+            return Some(base);
+        }
+        let keeps = |row: &&&VariableClass| row.retained != Some(false);
+        let mut numbers: Vec<u32> =
+            self.rows.iter().filter(keeps).flat_map(|row| row.first..=row.last).collect();
+        numbers.sort_unstable();
+        let all: BTreeSet<u32> = numbers.iter().copied().collect();
+        let fits = |base: &u32| (base + first..=base + last).all(|n| all.contains(&n) && self.free(n));
+        // Round bases read best: V12 in #512 or #612.
+        let bases = numbers.iter().filter_map(|n| n.checked_sub(first));
+        let round = bases.clone().filter(|base| base % 100 == 0).find(&fits);
+        let base = round.or_else(|| bases.clone().find(&fits))?;
+        self.used.extend(base + first..=base + last);
+        Some(base)
+    }
+}

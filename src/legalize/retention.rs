@@ -1,0 +1,51 @@
+//! Variables that one control keeps over power-off and the other clears.
+//!
+//! Law: a variable that every run writes before it reads it does not show what it held at power-on. For the others the
+//! difference can be seen, and is a review diagnostic: a counter kept in `#100` starts anew on a control that clears it,
+//! and a test for vacancy after power-on never comes true on one that keeps it.
+
+use super::Context;
+use super::exposed::{Exposed, roots};
+use super::registers::{Register, Registers};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Class, Module, Var};
+
+/// Reports variables whose life differs.
+pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
+    let differing = |var: &Var, register: &Register| {
+        let there =
+            context.target.variable_class(&register.name, register.number).and_then(|row| row.retained);
+        let here = match var.class {
+            Class::Common => Some(false),
+            Class::Retained => Some(true),
+            _ => None,
+        };
+        (here.is_some() && here != there).then_some(here == Some(true))
+    };
+    let lives: Vec<(Var, String, bool)> = registers
+        .of
+        .iter()
+        .filter_map(|(var, r)| Some((*var, format!("{}{}", r.name, r.number), differing(var, r)?)))
+        .collect();
+    if lives.is_empty() {
+        return;
+    }
+    let exposed = Exposed::of(module);
+    for index in roots(module) {
+        for (var, name, kept) in &lives {
+            if exposed.at_entry(index).contains(var) {
+                let what = if *kept {
+                    format!(
+                        "{name} keeps its value over power-off on the source, not on the target, and the program reads what an earlier run left in it"
+                    )
+                } else {
+                    format!(
+                        "{name} is vacant after power-on on the source and keeps its value on the target, and the program reads what an earlier run left in it"
+                    )
+                };
+                let span = module.programs[index].site.span;
+                context.add(index, Diagnostic::new(Code::OtherRetention, span, what));
+            }
+        }
+    }
+}

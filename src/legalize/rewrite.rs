@@ -1,0 +1,331 @@
+//! Rewrites expressions, and puts in front of a statement what a rewriting needs.
+
+use crate::canon::Role;
+use crate::ir::{
+    BlockId, Builder, Call, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program, Site, Stmt,
+    StmtKind, TermKind, Terminator, Var,
+};
+use crate::text::Span;
+
+/// Where an expression stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Position {
+    /// The value of a word.
+    Word(Role),
+    /// The number of a computed code.
+    Code,
+    /// An argument of a call.
+    Argument(u32),
+    /// The right side of an assignment.
+    Value,
+    /// A variable's number or a subscript.
+    Subscript,
+    /// An operand of a condition.
+    Condition,
+    /// Something printed.
+    Output,
+    /// A count, a computed target, a program number.
+    Other,
+}
+
+/// What runs before the statement whose expression was rewritten.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Prelude {
+    /// An assignment.
+    Assign(Var, Expr),
+    /// An assignment under a condition.
+    When(Cond, Var, Expr),
+    /// A call.
+    Call(Call),
+}
+
+/// Collects what must run before a statement.
+pub struct Rewriter<'a> {
+    prelude: Vec<Prelude>,
+    next_temp: &'a mut u32,
+    /// The bytes that the statement came from.
+    pub span: Span,
+}
+
+impl Rewriter<'_> {
+    /// A temporary of its own.
+    pub fn temp(&mut self) -> Var {
+        *self.next_temp += 1;
+        Var { class: Class::Temp, number: *self.next_temp }
+    }
+
+    /// Runs something first.
+    pub fn first(&mut self, step: Prelude) {
+        self.prelude.push(step);
+    }
+
+    /// Computes `value` first, and yields the temporary that holds it.
+    pub fn hold(&mut self, value: Expr) -> Var {
+        let temp = self.temp();
+        self.first(Prelude::Assign(temp, value));
+        temp
+    }
+
+    /// Like [`Rewriter::hold`], but leaves constants and temporaries as they are.
+    pub fn held(&mut self, value: Expr) -> Expr {
+        match value {
+            Expr::Number(_) | Expr::Var(Var { class: Class::Temp, .. }) => value,
+            other => Expr::Var(self.hold(other)),
+        }
+    }
+}
+
+/// A part of a program that is rebuilt.
+pub(super) enum Part {
+    /// The start of a block of the old program, behind its labels.
+    Start(BlockId),
+    /// A statement.
+    Stmt(Stmt),
+    /// The end of the block.
+    Term(Terminator),
+}
+
+impl Part {
+    /// Lays the part down as it was.
+    pub fn keep(self, builder: &mut Builder) {
+        match self {
+            Part::Start(_) => {}
+            Part::Stmt(stmt) => builder.push(stmt.kind, stmt.site),
+            Part::Term(term) => builder.end(term.kind, term.site),
+        }
+    }
+}
+
+/// Builds a program anew: `each` is given its parts in their order and lays down what becomes of them. Ids of
+/// blocks in what it lays down are those of the old program and those that the builder hands out.
+pub(super) fn rebuild(program: &mut Program, each: &mut dyn FnMut(&mut Builder, Part)) {
+    let mut builder = Builder::over(program.blocks.len());
+    for (index, block) in std::mem::take(&mut program.blocks).into_iter().enumerate() {
+        let id = BlockId(index as u32);
+        builder.start(id);
+        block.labels.into_iter().for_each(|label| builder.label(label));
+        each(&mut builder, Part::Start(id));
+        block.stmts.into_iter().for_each(|stmt| each(&mut builder, Part::Stmt(stmt)));
+        each(&mut builder, Part::Term(block.term));
+    }
+    *program = builder.finish(program.name.take(), program.file, std::mem::take(&mut program.site));
+}
+
+/// The function that [`rewrite_program`] calls on every expression, innermost first.
+pub type Rewrite<'f> = dyn FnMut(Expr, Position, &mut Rewriter<'_>) -> Expr + 'f;
+
+/// Calls `rewrite` on every expression of a program, innermost first, and
+/// lays what it wants done first before the statement.
+///
+/// Statements keep their order; a prelude runs right before its statement, so
+/// what it reads is what the expression would have read.
+pub fn rewrite_program(program: &mut Program, rewrite: &mut Rewrite<'_>) {
+    let mut next_temp = highest_temp(program);
+    rebuild(program, &mut |builder, mut part| {
+        let mut rewriter = Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span: Span::default() };
+        match &mut part {
+            Part::Start(_) => return,
+            Part::Stmt(stmt) => {
+                rewriter.span = stmt.site.span;
+                statement(&mut stmt.kind, &mut |e, p| map(e, p, rewrite, &mut rewriter));
+                lay(builder, rewriter.prelude, &stmt.site);
+            }
+            Part::Term(term) => {
+                rewriter.span = term.site.span;
+                terminator(&mut term.kind, &mut |e, p| map(e, p, rewrite, &mut rewriter));
+                lay(builder, rewriter.prelude, &term.site);
+            }
+        }
+        part.keep(builder);
+    });
+}
+
+fn lay(builder: &mut Builder, prelude: Vec<Prelude>, site: &Site) {
+    // A skipped block skips its prelude with it; comments and number stay with the statement.
+    // It has no place of its own in the source, so that optimization may tidy it.
+    let site = || Site { skip: site.skip, ..Site::default() };
+    for step in prelude {
+        match step {
+            Prelude::Assign(var, value) => {
+                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
+            }
+            Prelude::When(cond, var, value) => {
+                let (yes, no) = (builder.fresh(), builder.fresh());
+                if cond.may_alarm() {
+                    unless_skipped(builder, site().skip, no);
+                }
+                builder.end(TermKind::Branch { cond, yes, no }, Site::default());
+                builder.start(yes);
+                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
+                builder.start(no);
+            }
+            Prelude::Call(call) => {
+                let behind = builder.fresh();
+                unless_skipped(builder, site().skip, behind);
+                builder.end(TermKind::Call { call, next: behind }, Site::default());
+                builder.start(behind);
+            }
+        }
+    }
+}
+
+/// Goes on at `behind` while the switch of a skipped block is on: a terminator cannot be skipped itself.
+fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
+    if let Some(level) = skip {
+        let cond = Cond::Switch(level);
+        builder.end_then(Site::default(), |no| TermKind::Branch { cond, yes: behind, no });
+    }
+}
+
+/// Applies `rewrite` to the parts of an expression, then to itself.
+fn map(e: Expr, position: Position, rewrite: &mut Rewrite<'_>, rewriter: &mut Rewriter<'_>) -> Expr {
+    let mut inner = |e: Box<Expr>, p: Position| Box::new(map(*e, p, rewrite, rewriter));
+    let mapped = match e {
+        Expr::Negate(a) => Expr::Negate(inner(a, position)),
+        Expr::Binary(op, a, b) => {
+            let a = inner(a, position);
+            Expr::Binary(op, a, inner(b, position))
+        }
+        Expr::Indirect(bank, index) => Expr::Indirect(bank, inner(index, Position::Subscript)),
+        Expr::System(state, subscripts) => Expr::System(
+            state,
+            subscripts.into_iter().map(|s| map(s, Position::Subscript, rewrite, rewriter)).collect(),
+        ),
+        Expr::Call(function, arguments) => {
+            Expr::Call(function, arguments.into_iter().map(|a| map(a, position, rewrite, rewriter)).collect())
+        }
+        Expr::Truth(mut cond) => {
+            condition(&mut cond, &mut |e, p| map(e, p, rewrite, rewriter));
+            Expr::Truth(cond)
+        }
+        leaf @ (Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_)) => leaf,
+    };
+    rewrite(mapped, position, rewriter)
+}
+
+type Each<'f> = dyn FnMut(Expr, Position) -> Expr + 'f;
+
+fn replace(e: &mut Expr, position: Position, f: &mut Each<'_>) {
+    *e = f(std::mem::replace(e, Expr::Vacant), position);
+}
+
+fn place(target: &mut Place, f: &mut Each<'_>) {
+    match target {
+        Place::Var(_) => {}
+        Place::Indirect(_, index) => replace(index, Position::Subscript, f),
+        Place::System(_, subscripts) => {
+            subscripts.iter_mut().for_each(|s| replace(s, Position::Subscript, f));
+        }
+    }
+}
+
+fn condition(cond: &mut Cond, f: &mut Each<'_>) {
+    match cond {
+        Cond::Compare(_, a, b) => {
+            replace(a, Position::Condition, f);
+            replace(b, Position::Condition, f);
+        }
+        Cond::And(parts) | Cond::Or(parts) => parts.iter_mut().for_each(|part| condition(part, f)),
+        Cond::Not(inner) => condition(inner, f),
+        Cond::Switch(_) => {}
+    }
+}
+
+fn call(call: &mut Call, f: &mut Each<'_>) {
+    if let crate::ir::Callee::Computed(e) = &mut call.callee {
+        replace(e, Position::Other, f);
+    }
+    for argument in &mut call.arguments {
+        replace(&mut argument.value, Position::Argument(argument.local), f);
+    }
+    call.count.iter_mut().for_each(|count| replace(count, Position::Other, f));
+}
+
+fn nc(nc: &mut Nc, f: &mut Each<'_>) {
+    for item in &mut nc.items {
+        match item {
+            NcItem::Op(_) => {}
+            NcItem::Word(role, value) => replace(value, Position::Word(*role), f),
+            NcItem::Code(_, value) => replace(value, Position::Code, f),
+        }
+    }
+}
+
+/// Calls `f` on each whole expression of a statement.
+pub(super) fn statement(kind: &mut StmtKind, f: &mut Each<'_>) {
+    match kind {
+        StmtKind::Assign { target, value } => {
+            replace(value, Position::Value, f);
+            place(target, f);
+        }
+        StmtKind::Nc(block) => nc(block, f),
+        StmtKind::ModalCall(c) => call(c, f),
+        StmtKind::Alarm { number, .. } | StmtKind::StopMessage { number, .. } => {
+            replace(number, Position::Other, f);
+        }
+        StmtKind::Output(parts) => {
+            for part in parts {
+                if let OutputPart::Value { value, .. } = part {
+                    replace(value, Position::Output, f);
+                }
+            }
+        }
+        StmtKind::Print { parts, .. } => {
+            for part in parts {
+                if let PrintPart::Value(value) = part {
+                    replace(value, Position::Output, f);
+                }
+            }
+        }
+        StmtKind::Input { target, .. } => place(target, f),
+        StmtKind::LimitLookahead(blocks) => replace(blocks, Position::Other, f),
+        _ => {}
+    }
+}
+
+/// Calls `f` on each whole expression of a terminator.
+pub(super) fn terminator(kind: &mut TermKind, f: &mut Each<'_>) {
+    match kind {
+        TermKind::Branch { cond, .. } => condition(cond, f),
+        TermKind::Computed { value, .. } => replace(value, Position::Other, f),
+        TermKind::Call { call: c, .. } => call(c, f),
+        TermKind::Return { to: Some(to) } => replace(to, Position::Other, f),
+        _ => {}
+    }
+}
+
+/// The highest number of a temporary in a program.
+pub(super) fn highest_temp(program: &Program) -> u32 {
+    let mut highest = 0;
+    variables_of(program, &mut |var| {
+        if var.class == Class::Temp {
+            highest = highest.max(var.number);
+        }
+    });
+    highest
+}
+
+/// Calls `f` on every variable that a program names.
+pub fn variables_of(program: &Program, f: &mut dyn FnMut(Var)) {
+    let mut read = |e: &Expr| {
+        e.walk(&mut |e| {
+            if let Expr::Var(var) = e {
+                f(*var);
+            }
+        });
+    };
+    for block in &program.blocks {
+        for stmt in &block.stmts {
+            stmt.kind.exprs(&mut read);
+            match &stmt.kind {
+                StmtKind::SetNames { first, .. } => read(&Expr::Var(*first)),
+                kind => kind.target().into_iter().for_each(|place| {
+                    if let Place::Var(var) = place {
+                        read(&Expr::Var(*var));
+                    }
+                }),
+            }
+        }
+        block.term.kind.exprs(&mut read);
+    }
+}

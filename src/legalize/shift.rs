@@ -1,0 +1,79 @@
+//! Cancelling every zero shift for good, where the target can leave them for one block only.
+//!
+//! Law: while shifts are cancelled, coordinates are machine coordinates; a rapid move in absolute
+//! coordinates under that state is the same move marked as one in machine coordinates. Side conditions: the
+//! state, the motion and the distance mode are known from the text; the move is rapid, because the target's
+//! machine-coordinate block is. Counter-example: a cut at feed with shifts cancelled, which is refused.
+
+use super::emptied::drop_emptied;
+use super::{Context, Modal, ModalFacts};
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{BlockId, Module, NcItem, Stmt, StmtKind};
+use std::collections::BTreeMap;
+
+/// Marks the moves under cancelled shifts.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let cancels = |stmt: &Stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::ShiftCancel));
+    let lacks = context.target.code_for(Op::ShiftCancel, &BTreeMap::new()).is_none()
+        && context.target.word_for(Op::ShiftCancel).is_none();
+    if !lacks || !module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(cancels) {
+        return;
+    }
+    let facts = ModalFacts::of(module, &context.entry);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in &mut block.stmts {
+                state.step(stmt);
+                if let Some((code, what)) = mark(stmt, &state) {
+                    context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));
+                }
+            }
+            drop_emptied(block);
+        }
+    }
+}
+
+fn mark(stmt: &mut Stmt, state: &Modal) -> Option<(Code, &'static str)> {
+    let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
+    let moves =
+        nc.moves() && !nc.has(Op::ReferenceReturn) && !nc.has(Op::SetPosition) && !nc.has(Op::MachineOnce);
+    let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ShiftCancel));
+    // A modal call behind the move may leave another shift, but not before it.
+    let cancelled = at.map(|_| Op::ShiftCancel).or(state.op(Group::WorkOffset));
+    if let Some(at) = at {
+        nc.items.remove(at);
+    }
+    if !moves {
+        return None;
+    }
+    match cancelled {
+        Some(Op::ShiftCancel) => {
+            let first_word = nc.items.iter().position(|item| matches!(item, NcItem::Word(..)));
+            nc.items.insert(at.or(first_word).unwrap_or(0), NcItem::Op(Op::MachineOnce));
+            match (state.op(Group::Motion), state.op(Group::Distance)) {
+                (Some(Op::Rapid), Some(Op::Absolute)) => match state.op(Group::LengthComp) {
+                    Some(Op::LengthOff) => None,
+                    _ => Some((
+                        Code::Conditional,
+                        "the move is marked as one in machine coordinates, which on the target also leaves tool length compensation out for the block",
+                    )),
+                },
+                (Some(Op::Rapid), None) => Some((
+                    Code::Conditional,
+                    "a move in machine coordinates: taken as absolute, which the text here does not say",
+                )),
+                _ => Some((
+                    Code::NoEquivalent,
+                    "a move with all zero shifts cancelled that is not known to be rapid and absolute: the target has machine coordinates for such moves only",
+                )),
+            }
+        }
+        Some(_) => None,
+        None => Some((
+            Code::Conditional,
+            "which work offset is in force here depends on what ran before; the target keeps the one it has",
+        )),
+    }
+}

@@ -1,0 +1,297 @@
+//! Machine state that the target keeps in another form, or not at all.
+//!
+//! Laws: a diameter is twice a radius; a modal code plus one is the code and one; the seconds since
+//! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
+//! frame no source settles is taken as the work position, with a review diagnostic from lowering.
+
+use super::{Context, Position, Rewriter, rewrite_program};
+use crate::canon::{Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
+use crate::text::Span;
+use std::collections::BTreeSet;
+
+/// States that the target may hold in each other's stead, and by what the first is multiplied to give the second.
+const SCALED: &[(Sys, Sys, f64)] = &[
+    (Sys::RadiusGeometry, Sys::DiameterGeometry, 2.0),
+    (Sys::RadiusWear, Sys::DiameterWear, 2.0),
+    (Sys::DiameterGeometry, Sys::RadiusGeometry, 0.5),
+    (Sys::DiameterWear, Sys::RadiusWear, 0.5),
+    (Sys::CycleSeconds, Sys::TimerMs, 1000.0),
+    (Sys::AxisPosition, Sys::WorkPosition, 1.0),
+    (Sys::DiameterOrRadius, Sys::DiameterGeometry, 1.0),
+    (Sys::DiameterOrRadius, Sys::RadiusGeometry, 0.5),
+    (Sys::RadiusGeometry, Sys::DiameterOrRadius, 2.0),
+    (Sys::DiameterGeometry, Sys::DiameterOrRadius, 1.0),
+];
+
+/// The letter number of T in [`Sys::Address`].
+const ADDRESS_T: f64 = 20.0;
+
+/// Rewrites machine state to what the target has.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let (source, target) = (context.source, context.target);
+    let mut timed = BTreeSet::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut found: Vec<(Span, Finding)> = Vec::new();
+        rewrite_program(program, &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
+            Expr::System(state, subscripts) => {
+                if state == Sys::CycleSeconds {
+                    timed.insert(index);
+                }
+                read(state, subscripts, (source, target), rewriter.span, &mut found)
+            }
+            other => other,
+        });
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            write(stmt, (source, target), &mut found);
+        }
+        for (span, finding) in found {
+            finding.report(index, span, context);
+        }
+    }
+    if target.system_run(Sys::CycleSeconds).is_none() {
+        start_timer(module, &callers_of(module, timed), context);
+    }
+}
+
+enum Finding {
+    Missing(Sys),
+    Unconfirmed(Sys, String),
+    Wiring,
+    LastTool,
+    ReadOnly(Sys),
+    Table(Sys),
+}
+
+impl Finding {
+    fn report(self, index: usize, span: Span, context: &mut Context<'_>) {
+        let title = context.target.dialect().title.clone();
+        match self {
+            Finding::Missing(state) => {
+                let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+            }
+            Finding::ReadOnly(state) => {
+                let what = format!("{title} cannot write '{state}'");
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+            }
+            Finding::Unconfirmed(state, note) => {
+                let what = format!("where {title} keeps '{state}' is not confirmed{note}");
+                context.unconfirmed(index, span, &format!("system:{state}"), what);
+            }
+            Finding::Table(state) => {
+                let what = match state {
+                    Sys::DiameterOrRadius => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
+                    state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
+                };
+                context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
+            }
+            Finding::Wiring => {
+                let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
+                context.add_once(index, "wiring", Diagnostic::new(Code::Conditional, span, what));
+            }
+            Finding::LastTool => {
+                let what = "the target tells the last T word, which is the tool in the spindle only behind its tool change";
+                context.add_once(index, "tool", Diagnostic::new(Code::Conditional, span, what));
+            }
+        }
+    }
+}
+
+fn wired(state: Sys) -> bool {
+    use Sys::*;
+    matches!(state, Input | InputWord | Output | OutputWord | Analog | InputInverted | OutputInverted)
+}
+
+/// The target's run of variables for a state with these subscripts.
+fn held<'c>(
+    state: Sys,
+    subscripts: &[Expr],
+    target: &'c Control,
+) -> Option<&'c crate::dialect::SystemVariable> {
+    let constants: Option<Vec<u32>> =
+        subscripts.iter().map(|s| s.constant().filter(|n| *n >= 0.0).map(|n| n as u32)).collect();
+    match constants {
+        Some(constants) => target.system_address(state, &constants).map(|(_, _, row)| row),
+        None => target.system_run(state),
+    }
+}
+
+fn note(state: Sys, row: &crate::dialect::SystemVariable, span: Span, found: &mut Vec<(Span, Finding)>) {
+    if !row.origin.confirmed {
+        let note = row.origin.note.as_deref().map(|note| format!(": {note}")).unwrap_or_default();
+        found.push((span, Finding::Unconfirmed(state, note)));
+    }
+    if wired(state) {
+        found.push((span, Finding::Wiring));
+    }
+}
+
+fn read(
+    state: Sys,
+    subscripts: Vec<Expr>,
+    (source, target): (&Control, &Control),
+    span: Span,
+    found: &mut Vec<(Span, Finding)>,
+) -> Expr {
+    if let Some(row) = held(state, &subscripts, target) {
+        note(state, row, span, found);
+        settled(state, state, 1.0, source, span, found);
+        return Expr::System(state, subscripts);
+    }
+    for (_, other, factor) in SCALED.iter().filter(|(from, ..)| *from == state) {
+        if let Some(row) = held(*other, &subscripts, target) {
+            note(*other, row, span, found);
+            let value = Expr::System(*other, subscripts);
+            return scaled(value, 1.0 / settled(state, *other, *factor, source, span, found));
+        }
+    }
+    match state {
+        Sys::ModalMotionPlus1 if held(Sys::Modal, &[Expr::Number(1.0)], target).is_some() => {
+            binary(BinOp::Add, Expr::System(Sys::Modal, vec![Expr::Number(1.0)]), 1.0)
+        }
+        Sys::ActiveTool if held(Sys::Address, &[Expr::Number(ADDRESS_T)], target).is_some() => {
+            found.push((span, Finding::LastTool));
+            Expr::System(Sys::Address, vec![Expr::Number(ADDRESS_T)])
+        }
+        Sys::Pi => Expr::Number(std::f64::consts::PI),
+        Sys::Euler => Expr::Number(std::f64::consts::E),
+        Sys::Empty => Expr::Vacant,
+        _ => {
+            found.push((span, Finding::Missing(state)));
+            Expr::Number(0.0)
+        }
+    }
+}
+
+/// By what a state is multiplied to give the other, where that hangs on what the source's table holds.
+fn settled(
+    state: Sys,
+    other: Sys,
+    factor: f64,
+    source: &Control,
+    span: Span,
+    found: &mut Vec<(Span, Finding)>,
+) -> f64 {
+    if state != Sys::DiameterOrRadius {
+        return factor;
+    }
+    match source.behaviour("radius.offset.table").map(|row| row.value.as_str()) {
+        Some("diameter") => factor,
+        Some("radius") => 2.0 * factor,
+        _ => {
+            found.push((span, Finding::Table(other)));
+            factor
+        }
+    }
+}
+
+/// A value times a factor; a division where the factor is a fraction whose inverse is exact.
+fn scaled(value: Expr, factor: f64) -> Expr {
+    if let Some(number) = value.constant() {
+        return Expr::Number(number * factor);
+    }
+    match factor {
+        1.0 => value,
+        f if f < 1.0 && (1.0 / f).fract() == 0.0 => binary(BinOp::Div, value, 1.0 / f),
+        f => binary(BinOp::Mul, value, f),
+    }
+}
+
+fn binary(op: BinOp, a: Expr, b: f64) -> Expr {
+    Expr::Binary(op, Box::new(a), Box::new(Expr::Number(b)))
+}
+
+fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Vec<(Span, Finding)>) {
+    let span = stmt.site.span;
+    if let StmtKind::Nc(nc) = &mut stmt.kind
+        && nc.has(Op::WriteRadius)
+    {
+        return write_radius(nc, (source, target), span, found);
+    }
+    let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else { return };
+    if let Some(row) = held(*state, subscripts, target) {
+        note(*state, row, span, found);
+        settled(*state, *state, 1.0, source, span, found);
+        if !row.access.contains('w') {
+            found.push((span, Finding::ReadOnly(*state)));
+        }
+        return;
+    }
+    for (_, other, factor) in SCALED.iter().filter(|(from, ..)| from == state) {
+        if let Some(row) = held(*other, subscripts, target).filter(|row| row.access.contains('w')) {
+            note(*other, row, span, found);
+            let factor = settled(*state, *other, *factor, source, span, found);
+            *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
+            *state = *other;
+            return;
+        }
+    }
+    found.push((span, Finding::Missing(*state)));
+}
+
+/// What a block writes into the cutter table, as the target's table holds it.
+fn write_radius(
+    nc: &mut Nc,
+    (source, target): (&Control, &Control),
+    span: Span,
+    found: &mut Vec<(Span, Finding)>,
+) {
+    let table = |control: &Control| control.behaviour("radius.offset.table").map(|row| row.value.clone());
+    let factor = match (table(source).as_deref(), table(target).as_deref()) {
+        (Some("diameter"), Some("radius")) => 0.5,
+        (Some("radius"), Some("diameter")) => 2.0,
+        (Some("radius"), Some("radius")) | (Some("diameter"), Some("diameter")) => 1.0,
+        (_, Some("radius")) => {
+            found.push((span, Finding::Table(Sys::RadiusGeometry)));
+            0.5
+        }
+        _ => return found.push((span, Finding::Table(Sys::DiameterOrRadius))),
+    };
+    for item in &mut nc.items {
+        if let NcItem::Word(Role::OffsetValue, value) = item {
+            *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
+        }
+    }
+}
+
+/// The programs, and all that call them, directly or not.
+fn callers_of(module: &Module, mut programs: BTreeSet<usize>) -> BTreeSet<usize> {
+    loop {
+        let names: BTreeSet<_> = programs.iter().filter_map(|i| module.programs[*i].name.clone()).collect();
+        let calls =
+            |program: &crate::ir::Program| {
+                program.blocks.iter().flat_map(super::calls_of).any(
+                    |call| matches!(&call.callee, crate::ir::Callee::Program(name) if names.contains(name)),
+                )
+            };
+        let all: BTreeSet<usize> = (0..module.programs.len())
+            .filter(|i| programs.contains(i) || calls(&module.programs[*i]))
+            .collect();
+        if all == programs {
+            return all;
+        }
+        programs = all;
+    }
+}
+
+/// Sets the timer to 0 where each main program that reads it starts.
+fn start_timer(module: &mut Module, timed: &BTreeSet<usize>, context: &mut Context<'_>) {
+    for &index in timed {
+        let program = &mut module.programs[index];
+        if program.ends()
+            && let Some(block) = program.blocks.first_mut()
+        {
+            let kind = StmtKind::Assign {
+                target: Place::System(Sys::TimerMs, Vec::new()),
+                value: Expr::Number(0.0),
+            };
+            block.stmts.insert(0, Stmt { kind, site: Site::default() });
+            let what = "the seconds since cycle start are counted by the millisecond timer, which the program sets to 0";
+            let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
+            context.add_once(index, "cycle seconds", finding);
+        }
+    }
+}

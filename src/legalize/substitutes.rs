@@ -1,0 +1,51 @@
+//! Operations whose nearest relative on the target changes nothing that is measured on the part.
+//!
+//! Each row is a condition that a reviewer must accept: another coolant, corners that are rounded or stopped at
+//! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here.
+
+use super::Context;
+use super::emptied::drop_emptied;
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Module, NcItem, StmtKind};
+use std::collections::BTreeMap;
+
+/// An operation, what stands for it (nothing: it is left out), and what a reviewer must accept.
+const ROWS: &[(Op, Option<Op>, &str)] = &[
+    (Op::Mist, Some(Op::Flood), "the target has no mist coolant: flood is switched on in its place"),
+    (Op::Flood, Some(Op::Mist), "the target has no flood coolant: mist is switched on in its place"),
+    (
+        Op::RampsOff,
+        None,
+        "acceleration ramps off: the target has no such code, and rounds or stops at corners as it is set",
+    ),
+    (
+        Op::RampsOn,
+        None,
+        "acceleration ramps on: the target has no such code, and rounds or stops at corners as it is set",
+    ),
+];
+
+/// Puts substitutes in the place of operations that the target lacks.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let has = |op: Op| context.target.code_for(op, &BTreeMap::new()).is_some();
+    let rows: Vec<_> = ROWS.iter().filter(|(op, other, _)| !has(*op) && other.is_none_or(has)).collect();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for block in &mut program.blocks {
+            for stmt in &mut block.stmts {
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                for (op, other, what) in &rows {
+                    let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
+                        continue;
+                    };
+                    match other {
+                        Some(other) => nc.items[at] = NcItem::Op(*other),
+                        None => drop(nc.items.remove(at)),
+                    }
+                    context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, *what));
+                }
+            }
+            drop_emptied(block);
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! What the conversion takes for granted of the target, where no maker's text says so.
+//!
+//! Runs last: what stands in a program then is what the target will be told. Each fact is said once a program,
+//! at the first place that rests on it. Facts about vacancy matter only where a variable may be vacant; that is looked
+//! for by data flow.
+
+use super::Context;
+use crate::canon::{Func, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Behaviour, Control, Row};
+use crate::ir::analysis::{Summaries, Vacancy};
+use crate::ir::{
+    BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, NcItem, Program, Relation, StmtKind, TermKind,
+    Var,
+};
+use crate::text::Span;
+use std::collections::BTreeSet;
+
+/// Reports the unconfirmed facts of the target that programs rest on.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let summaries = Summaries::of(module);
+    let own = context.source.is("vacancy");
+    for (index, program) in module.programs.iter().enumerate() {
+        let mut found =
+            Found { target: context.target, said: BTreeSet::new(), all: Vec::new(), home: program.site.span };
+        let given = given(module, program);
+        let vacancy = own.then(|| Vacancy::of(program, &summaries, &given));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            found.home = program.site.span;
+            found.block(block);
+            if let Some(vacancy) = &vacancy {
+                found.vacant(id, block, vacancy);
+            }
+        }
+        for (span, fact, message) in found.all {
+            let help = format!(
+                "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the target"
+            );
+            let finding = Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help);
+            context.add_once(index, &format!("target {fact}"), finding);
+        }
+    }
+}
+
+/// The locals that every call of a program in the library sets.
+fn given(module: &Module, program: &Program) -> BTreeSet<Var> {
+    let calls = module.programs.iter().flat_map(|p| &p.blocks).flat_map(super::calls_of);
+    let to_it =
+        calls.filter(|call| matches!((&call.callee, &program.name), (Callee::Program(a), Some(b)) if a == b));
+    let sets = to_it.map(|call| {
+        let locals = call.arguments.iter().filter(|a| !a.value.may_be_vacant());
+        let vars = locals.map(|a| Var { class: Class::Local, number: a.local });
+        if call.level { vars.collect() } else { BTreeSet::new() }
+    });
+    sets.reduce(|a: BTreeSet<Var>, b| a.intersection(&b).copied().collect()).unwrap_or_default()
+}
+
+struct Found<'c> {
+    target: &'c Control,
+    said: BTreeSet<String>,
+    all: Vec<(Span, String, String)>,
+    /// Where a finding goes whose statement has no place of its own.
+    home: Span,
+}
+
+impl Found<'_> {
+    fn row<T: Row>(&mut self, row: &T, span: Span) {
+        if row.origin().confirmed || !self.said.insert(row.fact()) {
+            return;
+        }
+        let note = row.origin().note.as_deref().unwrap_or("no source says so");
+        let message = format!(
+            "rests on the unconfirmed fact '{}' of the target, {}: {note}",
+            row.fact(),
+            self.target.dialect().title
+        );
+        self.all.push((span, row.fact(), message));
+    }
+
+    /// The behaviour must be confirmed, whatever its answer.
+    fn behaviour(&mut self, name: &str, span: Span) {
+        let row: Option<Behaviour> = self.target.behaviour(name).cloned();
+        if let Some(row) = row {
+            self.row(&row, span);
+        }
+    }
+
+    /// The place of a statement, or of the next one that has any.
+    fn span(&self, block: &Block, at: usize) -> Span {
+        let spans = block.stmts.iter().skip(at).map(|stmt| stmt.site.span).chain([block.term.site.span]);
+        spans.into_iter().find(|span| !span.is_empty()).unwrap_or(self.home)
+    }
+
+    fn block(&mut self, block: &Block) {
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            let span = self.span(block, at);
+            stmt.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
+            match &stmt.kind {
+                StmtKind::Nc(nc) => {
+                    let operands = nc
+                        .items
+                        .iter()
+                        .filter_map(|item| match item {
+                            NcItem::Word(role, value) => Some((*role, value.constant()?)),
+                            _ => None,
+                        })
+                        .filter(|(role, _)| *role == crate::canon::Role::WorkOffset)
+                        .collect();
+                    nc.ops().for_each(|op| self.code(op, &operands, span));
+                }
+                StmtKind::Output(_) => self.statement("output.formatted", span),
+                StmtKind::OpenPort => self.statement("output.open", span),
+                StmtKind::ClosePort => self.statement("output.close", span),
+                StmtKind::ModalCall(_) => self.statement("call.modal", span),
+                _ => {}
+            }
+        }
+        let span = self.span(block, block.stmts.len());
+        block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
+        match &block.term.kind {
+            TermKind::Computed { .. } => self.statement("goto.computed", span),
+            TermKind::Return { to: Some(_) } => self.statement("return.to.sequence", span),
+            TermKind::Call { call, .. } if call.count.is_some() && !call.arguments.is_empty() => {
+                self.behaviour("call.repeat.reloads.arguments", span);
+            }
+            _ => {}
+        }
+    }
+
+    fn statement(&mut self, name: &str, span: Span) {
+        if let Some(row) = self.target.statement(name).cloned() {
+            self.row(&row, span);
+        }
+    }
+
+    fn code(&mut self, op: Op, operands: &std::collections::BTreeMap<crate::canon::Role, f64>, span: Span) {
+        // Operands pick between spellings of one operation only where it has several.
+        let some = if op == Op::SelectWork { operands.clone() } else { Default::default() };
+        if let Some(row) = self.target.code_for(op, &some).cloned() {
+            self.row(&row, span);
+        }
+    }
+
+    fn value(&mut self, e: &Expr, span: Span) {
+        match e {
+            Expr::Call(function, arguments) => {
+                if let Some(row) = self.target.function(*function, arguments.len()).cloned() {
+                    self.row(&row, span);
+                }
+                match function {
+                    Func::Round => self.behaviour("round.half.away", span),
+                    Func::RoundIncrement => self.behaviour("round.in.address", span),
+                    Func::Fix => self.behaviour("fix.toward.zero", span),
+                    Func::Asin => self.behaviour("asin.range", span),
+                    Func::Acos => self.behaviour("acos.range", span),
+                    Func::Atan if arguments.len() == 2 => self.behaviour("atan2.range", span),
+                    Func::Atan => self.behaviour("atan.range", span),
+                    _ => {}
+                }
+            }
+            Expr::Binary(BinOp::Mod, ..) => {
+                self.behaviour("mod.rounds.operands", span);
+                self.behaviour("mod.sign", span);
+            }
+            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, ..) => self.behaviour("bits.of.fraction", span),
+            _ => {}
+        }
+    }
+
+    /// Facts that matter only where a variable may be vacant.
+    fn vacant(&mut self, id: BlockId, block: &Block, vacancy: &Vacancy<'_>) {
+        vacancy.forward(id, &mut |at, may| match block.stmts.get(at) {
+            Some(stmt) => {
+                let mut arithmetic = false;
+                stmt.kind.exprs(&mut |e| e.walk(&mut |e| arithmetic |= computes_with(e, may)));
+                if arithmetic {
+                    let span = self.span(block, at);
+                    self.behaviour("vacant.arithmetic.zero", span);
+                }
+            }
+            None => {
+                if let TermKind::Branch { cond, .. } = &block.term.kind {
+                    let span = self.span(block, at);
+                    self.condition(cond, span, may);
+                }
+            }
+        });
+    }
+
+    fn condition(&mut self, cond: &Cond, span: Span, may: &dyn Fn(&Expr) -> bool) {
+        match cond {
+            Cond::Compare(_, _, Expr::Vacant) | Cond::Compare(_, Expr::Vacant, _) => {}
+            Cond::Compare(relation, a, b) => {
+                if may(a) || may(b) {
+                    let equality = matches!(relation, Relation::Equal | Relation::NotEqual);
+                    self.behaviour(if equality { "vacant.eq.zero" } else { "vacant.compares.as.zero" }, span);
+                }
+                let mut arithmetic = false;
+                for e in [a, b] {
+                    e.walk(&mut |e| arithmetic |= computes_with(e, may));
+                }
+                if arithmetic {
+                    self.behaviour("vacant.arithmetic.zero", span);
+                }
+            }
+            Cond::And(parts) | Cond::Or(parts) => {
+                parts.iter().for_each(|part| self.condition(part, span, may))
+            }
+            Cond::Not(inner) => self.condition(inner, span, may),
+            Cond::Switch(_) => {}
+        }
+    }
+}
+
+/// True where arithmetic takes an operand that may be vacant.
+fn computes_with(e: &Expr, may: &dyn Fn(&Expr) -> bool) -> bool {
+    match e {
+        Expr::Binary(_, a, b) => may(a) || may(b),
+        Expr::Call(_, arguments) => arguments.iter().any(may),
+        _ => false,
+    }
+}

@@ -1,0 +1,25 @@
+//! A comparison as a value, where the target has comparisons in conditions only.
+//!
+//! Law: `t = 0`, then `t = 1` where the condition holds, is the truth value.
+//! Nothing is assumed of the operands; they are evaluated once, before the
+//! statement, as they would have been in it.
+
+use super::{Context, Position, Prelude, Rewriter, rewrite_program};
+use crate::ir::{Expr, Module};
+
+/// Replaces truth values by temporaries that an IF sets.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.is("comparison.is.value") {
+        return;
+    }
+    for program in &mut module.programs {
+        rewrite_program(program, &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
+            Expr::Truth(cond) => {
+                let truth = rewriter.hold(Expr::Number(0.0));
+                rewriter.first(Prelude::When(*cond, truth, Expr::Number(1.0)));
+                Expr::Var(truth)
+            }
+            other => other,
+        });
+    }
+}

@@ -1,0 +1,330 @@
+//! A library from one control to another: read, lower, link, legalize, emit.
+
+use super::names::{number_programs, report_twins};
+use super::{Input, Lock};
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::dialect::Control;
+use crate::emit::{Emitted, Naming, Register};
+use crate::ir::{Module, Program, validate};
+use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
+use crate::lower::Lowered;
+use crate::opt;
+use crate::syntax::{ProgramName, parse_file};
+use crate::text::Span;
+use rayon::prelude::*;
+
+/// What became of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// It does the same on the target, by all that is known.
+    Converted,
+    /// It does the same if what the diagnostics name is so: a person must look.
+    Review,
+    /// It has no runnable conversion.
+    Refused,
+}
+
+/// What became of one program of the source.
+#[derive(Clone, Debug)]
+pub struct ProgramReport {
+    /// Index of its file among the inputs.
+    pub file: usize,
+    /// Its name on the source, as it is written there; none for one without.
+    pub name: Option<String>,
+    /// What became of it.
+    pub outcome: Outcome,
+    /// What was found, in source order.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Which bytes of the target file each block comes from: source span, target range.
+    pub map: Vec<(Span, std::ops::Range<usize>)>,
+}
+
+/// What became of a library.
+#[derive(Clone, Debug)]
+pub struct Conversion {
+    /// One report a program of the source, in order of files and places.
+    pub programs: Vec<ProgramReport>,
+    /// The text of each target file; none where every program of the file was refused.
+    pub texts: Vec<Option<String>>,
+    /// What the next run is to choose again.
+    pub lock: Lock,
+}
+
+/// How a library is converted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// How much is optimized.
+    pub level: opt::Level,
+    /// True to write refused programs too, with an alarm at every hole.
+    pub draft: bool,
+}
+
+/// A file of the source, lowered.
+struct File {
+    tape: bool,
+    /// Indexes of its programs in the module.
+    programs: std::ops::Range<usize>,
+}
+
+/// Converts a library.
+pub fn convert(
+    inputs: &[Input],
+    source: &Control,
+    target: &Control,
+    lock: Lock,
+    options: Options,
+) -> Conversion {
+    if source.entry() == target.entry() {
+        return unchanged(inputs, source, lock);
+    }
+    if let Some(done) = super::segments::convert(inputs, source, target, &lock, options) {
+        return done;
+    }
+    let lowered: Vec<Lowered> =
+        inputs.par_iter().enumerate().map(|(at, input)| lower(at, input, source)).collect();
+    let mut module = Module::default();
+    let mut found: Vec<Vec<Diagnostic>> = Vec::new();
+    let mut files = Vec::with_capacity(inputs.len());
+    for file in lowered {
+        let first = module.programs.len();
+        for (program, diagnostics) in file.programs {
+            module.programs.push(program);
+            found.push(diagnostics);
+        }
+        module.names.extend(file.names);
+        files.push(File { tape: file.tape, programs: first..module.programs.len() });
+    }
+    let written: Vec<Option<String>> =
+        module.programs.iter().map(|p| p.name.as_ref().map(written_name)).collect();
+    name_the_nameless(&mut module, inputs, source, target);
+    report_twins(&module, inputs, &mut found);
+    let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
+    let mut holes = vec![Vec::new(); module.programs.len()];
+    let original = options.draft.then(|| module.clone());
+    let mut made =
+        make(module, &mut found.clone(), source, target, lock.clone(), options.level, Modal::unknown());
+    if let Some(original) = original {
+        // Each round stops the machine where the last one found a hole, until none is left.
+        for _ in 0..4 {
+            let more = super::draft::holes(&made.found, &mut holes);
+            if !more {
+                break;
+            }
+            let mut module = original.clone();
+            super::draft::fill(&mut module, &holes);
+            let mut next = make(
+                module,
+                &mut found.clone(),
+                source,
+                target,
+                lock.clone(),
+                options.level,
+                Modal::unknown(),
+            );
+            super::draft::keep_errors(&made.found, &mut next.found);
+            made = next;
+        }
+    }
+    let mut texts = Vec::with_capacity(files.len());
+    let mut reports: Vec<ProgramReport> = Vec::with_capacity(written.len());
+    let mut parts: Vec<Vec<Emitted>> = made.parts;
+    for (at, file) in files.iter().enumerate() {
+        let framed = frames(source, target, file.tape);
+        let mut text = String::new();
+        let mut any = false;
+        for index in file.programs.clone() {
+            let mut diagnostics = std::mem::take(&mut made.found[index]);
+            diagnostics.sort_by_key(|d| (d.span.start, d.code));
+            diagnostics.dedup();
+            drop_echoes(&mut diagnostics);
+            let outcome = outcome(&diagnostics);
+            let mut map = Vec::new();
+            if outcome != Outcome::Refused || options.draft {
+                for part in std::mem::take(&mut parts[index]) {
+                    any |= !part.text.is_empty();
+                    let base = text.len() + if framed { 2 } else { 0 };
+                    map.extend(part.blocks.into_iter().map(|(span, r)| (span, r.start + base..r.end + base)));
+                    text.push_str(&part.text);
+                }
+            }
+            reports.push(ProgramReport { file: at, name: written[index].clone(), outcome, diagnostics, map });
+        }
+        texts.push(any.then(|| if framed { format!("%\n{text}%\n") } else { text }));
+    }
+    debug_assert!(home.windows(2).all(|w| w[0] <= w[1]));
+    Conversion { programs: reports, texts, lock: made.lock }
+}
+
+/// On a control that knows programs by number each needs one. Programs without a name get that of their
+/// file, and a number by it; within a family a program without a number stays what it is.
+fn name_the_nameless(module: &mut Module, inputs: &[Input], source: &Control, target: &Control) {
+    if source.dialect().family == target.dialect().family {
+        return;
+    }
+    for program in module.programs.iter_mut().filter(|program| program.name.is_none()) {
+        let file = inputs.get(program.file).map(|input| input.name.clone());
+        program.name = file.map(ProgramName::Name);
+    }
+}
+
+/// A library through the passes, by program of the source.
+pub(super) struct Made {
+    pub found: Vec<Vec<Diagnostic>>,
+    pub parts: Vec<Vec<Emitted>>,
+    lock: Lock,
+}
+
+pub(super) fn make(
+    mut module: Module,
+    found: &mut Vec<Vec<Diagnostic>>,
+    source: &Control,
+    target: &Control,
+    mut lock: Lock,
+    level: opt::Level,
+    entry: Modal,
+) -> Made {
+    let count = module.programs.len();
+    let mut context = Context::new(source, target, count);
+    context.entry = entry;
+    let mut fault = opt::run(&mut module, opt::Options { level, ..Default::default() }).err();
+    legalize(&mut module, &mut context);
+    let tidied = opt::run(&mut module, opt::Options { level, legalized: true, ..Default::default() });
+    fault = fault.or(tidied.err());
+    let registers = assign_registers(&mut module, &lock.variables, &mut context);
+    let names = number_programs(&module, &mut lock, target, &mut context);
+    lock.variables.extend(registers.chosen.clone());
+    let naming = naming(&module, &registers, &names);
+    let origins = context.origins.clone();
+    let legal = context.into_findings();
+    found.resize_with(count, Vec::new);
+    found.iter_mut().zip(legal).for_each(|(all, more)| all.extend(more));
+    let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
+    if let Some(fault) = fault {
+        found.iter_mut().for_each(|all| {
+            all.push(Diagnostic::new(Code::Internal, Span::default(), fault.to_string()));
+        });
+    }
+    match validate(&module) {
+        Ok(_) => {
+            let emitted: Vec<_> =
+                module.programs.par_iter().map(|program| emit(program, &naming, target)).collect();
+            for (origin, result) in origins.into_iter().zip(emitted) {
+                match result {
+                    Ok(mut text) => {
+                        found[origin].append(&mut text.findings);
+                        parts[origin].push(text);
+                    }
+                    Err(diagnostics) => found[origin].extend(diagnostics),
+                }
+            }
+        }
+        Err(faults) => {
+            for all in found.iter_mut() {
+                let what = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+                all.push(Diagnostic::new(Code::Internal, Span::default(), what));
+            }
+        }
+    }
+    Made { found: std::mem::take(found), parts, lock }
+}
+
+/// Lowers one file; errors of reading are findings of the program they stand in.
+fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
+    let entry = source.entry();
+    let parsed = parse_file(&input.bytes, entry.parse);
+    (entry.lower)(&parsed, at, &input.name, source)
+}
+
+/// Emits a program, and reads the text back: what the target's own grammar refuses is never written.
+fn emit(program: &Program, naming: &Naming, target: &Control) -> Result<Emitted, Vec<Diagnostic>> {
+    let (Some(emit), parse) = (target.entry().emit, target.entry().parse) else {
+        let what = format!("programs cannot be written for {}", target.dialect().title);
+        return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
+    };
+    let emitted = emit(program, naming, target)?;
+    let parsed = parse_file(emitted.text.as_bytes(), parse);
+    let faults = parsed.blocks.iter().flat_map(|block| &block.errors);
+    let faults: Vec<Diagnostic> = faults
+        .filter(|fault| fault.code.severity() == Severity::Error)
+        .map(|fault| {
+            let at = fault.span.start as usize;
+            let source = emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
+            let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
+            let line = emitted.text[line..].lines().next().unwrap_or_default();
+            let what = format!("the target would not read '{line}': {}", fault.message);
+            Diagnostic::new(Code::Internal, source.unwrap_or(program.site.span), what)
+        })
+        .collect();
+    if faults.is_empty() { Ok(emitted) } else { Err(faults) }
+}
+
+fn naming(module: &Module, registers: &Registers, names: &[(ProgramName, u32)]) -> Naming {
+    let mut naming = Naming::new();
+    for (var, register) in &registers.of {
+        naming.set_variable(*var, Register::number(&register.name, register.number));
+    }
+    for (name, number) in names {
+        naming.set_program(name.clone(), *number);
+    }
+    for program in &module.programs {
+        for block in &program.blocks {
+            if let crate::ir::TermKind::Return { to: Some(to) } = &block.term.kind {
+                match to.constant() {
+                    Some(number) => naming.keep_sequence(number as u32),
+                    None => naming.keep_every_sequence(),
+                }
+            }
+        }
+    }
+    naming
+}
+
+/// Emission fails again where an earlier part already said why: the first word is enough.
+pub(super) fn drop_echoes(diagnostics: &mut Vec<Diagnostic>) {
+    let error = |d: &Diagnostic| d.severity() == Severity::Error;
+    let told: Vec<Span> =
+        diagnostics.iter().filter(|d| error(d) && d.code != Code::Unmapped).map(|d| d.span).collect();
+    let touches = |span: Span| {
+        told.iter().any(|t| t.start < span.end.max(span.start + 1) && span.start < t.end.max(t.start + 1))
+    };
+    diagnostics.retain(|d| d.code != Code::Unmapped || !touches(d.span));
+}
+
+pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {
+    match diagnostics.iter().map(Diagnostic::severity).max() {
+        Some(Severity::Error) => Outcome::Refused,
+        Some(Severity::Review) => Outcome::Review,
+        _ => Outcome::Converted,
+    }
+}
+
+/// Whether the file is framed by `%`: as the source was within a family, else as the target's files are.
+pub(super) fn frames(source: &Control, target: &Control, tape: bool) -> bool {
+    tape || source.dialect().family != target.dialect().family
+}
+
+pub(super) fn written_name(name: &ProgramName) -> String {
+    match name {
+        ProgramName::Number(n) => format!("O{n:04}"),
+        ProgramName::Name(name) => name.clone(),
+    }
+}
+
+/// From a control to itself: the text stays as it is, byte for byte.
+fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
+    let mut programs = Vec::new();
+    let mut texts = Vec::new();
+    for (at, input) in inputs.iter().enumerate() {
+        let lowered = lower(at, input, control);
+        texts.push(String::from_utf8(input.bytes.clone()).ok());
+        programs.extend(lowered.programs.into_iter().map(|(program, diagnostics)| {
+            let diagnostics: Vec<_> =
+                diagnostics.into_iter().filter(|d| d.severity() == Severity::Error).collect();
+            let outcome = outcome(&diagnostics);
+            let name = program.name.as_ref().map(written_name);
+            ProgramReport { file: at, name, outcome, diagnostics, map: Vec::new() }
+        }));
+    }
+    Conversion { programs, texts, lock }
+}

@@ -1,0 +1,77 @@
+//! Drafts: refused programs with an alarm at every hole, so that they cannot be run past one.
+
+use crate::diag::{Diagnostic, Severity};
+use crate::ir::{Expr, Module, Program, Site, Stmt, StmtKind, TermKind};
+use crate::text::Span;
+
+/// Adds the places of errors to the holes of their programs; true where any is new.
+pub fn holes(found: &[Vec<Diagnostic>], holes: &mut [Vec<(Span, &'static str)>]) -> bool {
+    let mut new = false;
+    for (all, holes) in found.iter().zip(holes) {
+        for error in all.iter().filter(|d| d.severity() == Severity::Error) {
+            let hole = (error.span, error.code.number());
+            if !holes.iter().any(|(span, _)| *span == hole.0) {
+                holes.push(hole);
+                new = true;
+            }
+        }
+    }
+    new
+}
+
+/// Puts an alarm in the place of everything that overlaps a hole.
+pub fn fill(module: &mut Module, holes: &[Vec<(Span, &'static str)>]) {
+    for (program, holes) in module.programs.iter_mut().zip(holes) {
+        holes.iter().for_each(|(span, code)| fill_one(program, *span, code));
+    }
+}
+
+fn fill_one(program: &mut Program, hole: Span, code: &str) {
+    let touches =
+        |span: Span| !span.is_empty() && span.start < hole.end.max(hole.start + 1) && hole.start < span.end;
+    let alarm = |span: Span| Stmt {
+        kind: StmtKind::Alarm { number: Expr::Number(99.0), text: format!("NOT CONVERTED {code}") },
+        site: Site { span, ..Site::default() },
+    };
+    let mut filled = false;
+    for block in &mut program.blocks {
+        for stmt in block.stmts.iter_mut().filter(|stmt| touches(stmt.site.span)) {
+            let site = std::mem::take(&mut stmt.site);
+            *stmt = Stmt { site, ..alarm(hole) };
+            filled = true;
+        }
+        if touches(block.term.site.span) {
+            let site =
+                Site { remarks: std::mem::take(&mut block.term.site.remarks), ..block.term.site.clone() };
+            block.stmts.push(Stmt { site, ..alarm(hole) });
+            block.term.site = Site::default();
+            block.term.kind = match &block.term.kind {
+                TermKind::Call { next, .. } => TermKind::Jump(*next),
+                TermKind::Jump(to) => TermKind::Jump(*to),
+                _ => TermKind::End { rewind: true },
+            };
+            filled = true;
+        }
+    }
+    if !filled {
+        // What lowering could not keep stood before the first statement that comes behind it.
+        let behind = |span: Span| !span.is_empty() && span.start >= hole.end;
+        for block in &mut program.blocks {
+            let at = block.stmts.iter().position(|stmt| behind(stmt.site.span));
+            if let Some(at) = at.or_else(|| behind(block.term.site.span).then_some(block.stmts.len())) {
+                block.stmts.insert(at, alarm(hole));
+                return;
+            }
+        }
+        if let Some(block) = program.blocks.first_mut() {
+            block.stmts.insert(0, alarm(hole));
+        }
+    }
+}
+
+/// The errors that made the holes stay errors of the draft.
+pub fn keep_errors(before: &[Vec<Diagnostic>], after: &mut [Vec<Diagnostic>]) {
+    for (before, after) in before.iter().zip(after) {
+        after.extend(before.iter().filter(|d| d.severity() == Severity::Error).cloned());
+    }
+}

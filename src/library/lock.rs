@@ -1,0 +1,88 @@
+//! `macroglot.lock`: which register holds which variable, which number a program
+//! got. Later runs honour it, so that a library stays one library; a reviewer can read it.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The choices of earlier runs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lock {
+    /// Version of this file's shape.
+    pub version: u32,
+    /// The source's dialect.
+    pub from: String,
+    /// The target's dialect.
+    pub to: String,
+    /// Register numbers on the target, by the variable's name on the source.
+    #[serde(default)]
+    pub variables: BTreeMap<String, u32>,
+    /// Program numbers on the target, by what names the program on the source.
+    #[serde(default)]
+    pub programs: BTreeMap<String, u32>,
+}
+
+/// Why a lock could not be used.
+#[derive(Debug, thiserror::Error)]
+pub enum LockError {
+    /// It cannot be read or is no lock.
+    #[error("{0}: {1}")]
+    Unreadable(PathBuf, String),
+    /// It is of another conversion.
+    #[error(
+        "{path}: is the lock of a conversion from {from} to {to}; use another --out, or delete it to choose anew"
+    )]
+    OtherPair {
+        /// The lock.
+        path: PathBuf,
+        /// Its source.
+        from: String,
+        /// Its target.
+        to: String,
+    },
+}
+
+/// The version that is written.
+const VERSION: u32 = 1;
+
+const HEAD: &str = "\
+# Which register of the target holds which variable of the source, and which
+# number each program got that had none there. Written by macroglot, honoured by
+# its next run; keep it with the converted programs.
+
+";
+
+impl Lock {
+    /// The file's name.
+    pub const NAME: &'static str = "macroglot.lock";
+
+    /// An empty lock for a pair of dialects.
+    pub fn new(from: &str, to: &str) -> Self {
+        Self { version: VERSION, from: from.into(), to: to.into(), ..Self::default() }
+    }
+
+    /// The lock at `path`; an empty one where there is none.
+    pub fn load(path: &Path, from: &str, to: &str) -> Result<Self, LockError> {
+        let text = match std::fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::new(from, to)),
+            Err(error) => return Err(LockError::Unreadable(path.to_owned(), error.to_string())),
+        };
+        let lock: Self = toml::from_str(&text)
+            .map_err(|error| LockError::Unreadable(path.to_owned(), error.message().to_string()))?;
+        if lock.version != VERSION {
+            let why = format!("is of version {}, this macroglot writes version {VERSION}", lock.version);
+            return Err(LockError::Unreadable(path.to_owned(), why));
+        }
+        if lock.from != from || lock.to != to {
+            return Err(LockError::OtherPair { path: path.to_owned(), from: lock.from, to: lock.to });
+        }
+        Ok(lock)
+    }
+
+    /// Its text.
+    pub fn print(&self) -> String {
+        format!("{HEAD}{}", toml::to_string(self).unwrap_or_default())
+    }
+}

@@ -1,0 +1,24 @@
+//! A folder of programs as one linked thing.
+//!
+//! Programs call one another and share variables, so a library is read, linked
+//! and converted as a whole: one map of variables and program numbers for all
+//! of it, kept in `macroglot.lock` so that the next run makes the same choices.
+
+mod convert;
+mod detect;
+mod draft;
+mod inputs;
+mod lock;
+mod names;
+mod outputs;
+mod project;
+mod segments;
+mod verified;
+
+pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
+pub use detect::{Detected, detect};
+pub use inputs::{Input, InputError, gather, same_file};
+pub use lock::{Lock, LockError};
+pub use outputs::{Output, OutputError, plan, write_all};
+pub use project::{Library, Machine, Project, ProjectError};
+pub use verified::judge;

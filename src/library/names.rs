@@ -1,0 +1,111 @@
+//! Program numbers on the target.
+
+use super::convert::written_name;
+use super::{Input, Lock};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{Callee, Module, TermKind};
+use crate::legalize::{Context, calls_of};
+use crate::syntax::ProgramName;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// First number for main programs that have none on the source, and for subroutines made programs.
+const FIRST_MAIN: u32 = 1000;
+const FIRST_SUB: u32 = 8000;
+
+/// Gives every program that has a name a number: its own, the lock's, or the next free one.
+pub fn number_programs(
+    module: &Module,
+    lock: &mut Lock,
+    target: &Control,
+    context: &mut Context<'_>,
+) -> Vec<(ProgramName, u32)> {
+    let mut taken: BTreeSet<u32> = lock.programs.values().copied().collect();
+    let names: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    for name in &names {
+        if let ProgramName::Number(n) = name {
+            taken.insert(*n);
+        }
+    }
+    // Calls that leave the library keep their numbers free, too.
+    for call in module.programs.iter().flat_map(|p| &p.blocks).flat_map(calls_of) {
+        if let Callee::Program(ProgramName::Number(n)) = &call.callee {
+            taken.insert(*n);
+        }
+    }
+    let max = target.text().program_max;
+    let mut out = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        let Some(name) = &program.name else { continue };
+        let key = written_name(name);
+        let number = match (lock.programs.get(&key), name) {
+            (Some(n), ProgramName::Name(_)) => Some(*n),
+            (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
+            _ => {
+                let first = if program.returns() && !program.ends() { FIRST_SUB } else { FIRST_MAIN };
+                (first..=max).chain(1..first).find(|n| !taken.contains(n))
+            }
+        };
+        match number {
+            Some(number) => {
+                if *name != ProgramName::Number(number) {
+                    taken.insert(number);
+                    lock.programs.insert(key, number);
+                }
+                out.push((name.clone(), number));
+            }
+            None => {
+                let what = format!("no program number up to {max} is free for '{key}'");
+                context.add(index, Diagnostic::new(Code::OutOfNumbers, program.site.span, what));
+            }
+        }
+    }
+    out
+}
+
+/// Reports programs that share a number: only one of them can be in a control. Where the library calls
+/// that number it is not known which one is meant.
+pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnostic>]) {
+    let mut twins: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        if let Some(name) = &program.name {
+            twins.entry(name).or_default().push(index);
+        }
+    }
+    twins.retain(|_, indexes| indexes.len() > 1);
+    let place = |index: usize| {
+        let file = module.programs[index].file;
+        inputs.get(file).map_or_else(String::new, |input| input.name.clone())
+    };
+    for (name, indexes) in &twins {
+        for &index in indexes {
+            let others: BTreeSet<String> =
+                indexes.iter().filter(|i| **i != index).map(|i| place(*i)).collect();
+            let others = others.into_iter().collect::<Vec<_>>().join(", ");
+            let what =
+                format!("{} stands in {others} as well: a control can hold one of them", written_name(name));
+            found[index].push(Diagnostic::new(Code::TwinProgram, module.programs[index].site.span, what));
+        }
+    }
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            let modal = calls_of(block).map(|call| &call.callee);
+            let chained = match &block.term.kind {
+                TermKind::Chain(name) => Some(Callee::Program(name.clone())),
+                _ => None,
+            };
+            for callee in modal.chain(chained.as_ref()) {
+                if let Callee::Program(name) = callee
+                    && let Some(indexes) = twins.get(name)
+                {
+                    let places = indexes.iter().map(|i| place(*i)).collect::<Vec<_>>().join(", ");
+                    let what = format!(
+                        "calls {}, which stands in {places}: which one is meant is not known",
+                        written_name(name)
+                    );
+                    found[index].push(Diagnostic::new(Code::AmbiguousCall, block.term.site.span, what));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! `macroglot.toml`: a shop's libraries and machines, so that `convert` and `check`
+//! need no flags in its repository.
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A shop's project file.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Project {
+    /// The machines, by name.
+    #[serde(default)]
+    pub machines: BTreeMap<String, Machine>,
+    /// The libraries, by name.
+    #[serde(default)]
+    pub libraries: BTreeMap<String, Library>,
+    /// The folder that the file lies in; all its paths count from here.
+    #[serde(skip)]
+    pub root: PathBuf,
+}
+
+/// A machine.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Machine {
+    /// Its dialect.
+    pub dialect: String,
+    /// Its profile.
+    pub profile: Option<PathBuf>,
+}
+
+/// A library of programs.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Library {
+    /// Its folder.
+    pub path: PathBuf,
+    /// The machine its programs are written for.
+    pub machine: String,
+    /// The machines it is converted to, and the folder each conversion goes to.
+    #[serde(default)]
+    pub targets: BTreeMap<String, PathBuf>,
+}
+
+/// Why a project file could not be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}{place}: {message}", place = .line.map(|n| format!(":{n}")).unwrap_or_default())]
+pub struct ProjectError {
+    /// The file.
+    pub path: PathBuf,
+    /// The line, where known.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl Project {
+    /// The file's name.
+    pub const NAME: &'static str = "macroglot.toml";
+
+    /// The project file in `folder` or the nearest folder above it.
+    pub fn find(folder: &Path) -> Result<Option<Self>, ProjectError> {
+        let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        let Some(path) = folder.ancestors().map(|f| f.join(Self::NAME)).find(|path| path.is_file()) else {
+            return Ok(None);
+        };
+        let fault = |line, message: String| ProjectError { path: path.clone(), line, message };
+        let text = std::fs::read_to_string(&path).map_err(|error| fault(None, error.to_string()))?;
+        let mut project: Self = toml::from_str(&text).map_err(|error| {
+            let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
+            fault(line, error.message().to_string())
+        })?;
+        for (name, library) in &project.libraries {
+            for machine in std::iter::once(&library.machine).chain(library.targets.keys()) {
+                if !project.machines.contains_key(machine) {
+                    let message =
+                        format!("library '{name}' names machine '{machine}', which [machines] has not");
+                    return Err(fault(None, message));
+                }
+            }
+        }
+        project.root = path.parent().map(Path::to_owned).unwrap_or_default();
+        Ok(Some(project))
+    }
+}

@@ -1,0 +1,179 @@
+//! One block: its statements in order, its words together.
+
+use super::Lowering;
+use super::register::{self, Source};
+use super::words::Planned;
+use crate::canon::Func;
+use crate::diag::Diagnostic;
+use crate::ir::{BinOp, Expr, Place, Site, StmtKind, Var};
+use crate::syntax::{
+    Block, ExprKind, Index, Item, ItemKind, Label, TestSubject, VarRef, Word, for_each_expr,
+};
+use crate::text::Span;
+
+/// Words of a block, more than any control takes: each letter twice.
+const MOST_WORDS: usize = 52;
+
+impl Lowering<'_> {
+    /// Lowers a block. Statements act from left to right; the words act together,
+    /// behind the statements or before the first jump.
+    pub(super) fn block(&mut self, block: &Block, mut site: Site) {
+        for error in &block.errors {
+            self.findings.add(Diagnostic::new(error.code, error.span, error.message.clone()));
+        }
+        if site.skip.take().is_some() {
+            self.findings.not_understood(block.span, "no source says that this control skips blocks");
+        }
+        let mut words: Vec<(&Word, Span)> = block.items.iter().filter_map(as_word).collect();
+        if words.len() > MOST_WORDS {
+            self.findings.not_understood(block.span, "no block of this control has so many words");
+            words.clear();
+        }
+        self.check_mixture(block, &words);
+        let mut planned = (!words.is_empty()).then(|| self.words(&words, &block.items));
+        let mut said = planned.is_some();
+        let mut jumped = false;
+        for item in &block.items {
+            match &item.kind {
+                ItemKind::Branch { relation, target } => {
+                    if let Some(planned) = planned.take() {
+                        self.act(planned, &site);
+                    }
+                    self.branch(*relation, target, &site, item.span);
+                    jumped = true;
+                    said = true;
+                }
+                ItemKind::Word(_) if jumped => {
+                    let message = "no source says what words behind a jump do";
+                    self.findings.not_understood(item.span, message);
+                }
+                _ => said |= self.statement(item, &site),
+            }
+        }
+        if let Some(planned) = planned.take() {
+            self.act(planned, &site);
+        }
+        if !said && !site.remarks.is_empty() {
+            self.push(StmtKind::Remark, &site);
+        }
+    }
+
+    fn act(&mut self, planned: Planned, site: &Site) {
+        for nc in planned.blocks {
+            self.push(StmtKind::Nc(nc), site);
+        }
+        if let Some(flow) = planned.flow {
+            self.flow(flow, site);
+        }
+    }
+
+    /// Lowers a statement; false where it says nothing.
+    fn statement(&mut self, item: &Item, site: &Site) -> bool {
+        match &item.kind {
+            ItemKind::Sequence { .. } | ItemKind::Comment(_) | ItemKind::EndOfBlock => return false,
+            ItemKind::Tape | ItemKind::Skip(_) | ItemKind::Word(_) => return false,
+            ItemKind::Label(Label::Number(number)) => {
+                self.place_label(*number);
+                return false;
+            }
+            ItemKind::Assign { target, value, .. } => {
+                if let (Some(target), Some((value, source))) = (self.variable(target), self.value(value)) {
+                    self.assign(target, value, site);
+                    self.set_register(source, Expr::Var(target), site);
+                }
+            }
+            ItemKind::Step { target, down } => {
+                if let Some(target) = self.variable(target) {
+                    let whole = Expr::Call(Func::Fix, vec![Expr::Var(target)]);
+                    let op = if *down { BinOp::Sub } else { BinOp::Add };
+                    let value = Expr::Binary(op, Box::new(whole), Box::new(Expr::Number(1.0)));
+                    self.assign(target, value, site);
+                    self.set_register(Source::Arithmetic, Expr::Var(target), site);
+                }
+            }
+            ItemKind::Test(subject) => self.test(subject, site, item.span),
+            ItemKind::Timer(target) => self.timer(target, site),
+            ItemKind::Transfer { table, cells } => self.transfer(table, cells, site, item.span),
+            ItemKind::Unparsed => {}
+            _ => self.findings.not_understood(item.span, "this control has no such statement"),
+        }
+        true
+    }
+
+    /// Assigns a variable.
+    pub(super) fn assign(&mut self, target: Var, value: Expr, site: &Site) {
+        self.push(StmtKind::Assign { target: Place::Var(target), value }, site);
+    }
+
+    /// Notes what the condition register holds from here on; [`register`] drops what nobody reads.
+    pub(super) fn set_register(&mut self, source: Source, value: Expr, site: &Site) {
+        self.assign(register::marker(source), value, site);
+    }
+
+    fn test(&mut self, subject: &TestSubject, site: &Site, span: Span) {
+        match subject {
+            TestSubject::Variable(variable) => {
+                if let Some(variable) = self.variable(variable) {
+                    self.set_register(Source::Test, Expr::Var(variable), site);
+                }
+            }
+            TestSubject::Code(number) => {
+                if let Some(value) = self.code_is_active(*number, span) {
+                    self.set_register(Source::Flag, value, site);
+                }
+            }
+            TestSubject::Flag(flag) => {
+                if let Some(value) = self.flag(*flag, span) {
+                    self.set_register(Source::Flag, value, site);
+                }
+            }
+        }
+    }
+
+    /// Refuses a block where nobody knows whether a word sees a variable before or
+    /// after the assignment beside it.
+    fn check_mixture(&mut self, block: &Block, words: &[(&Word, Span)]) {
+        let mut read: Vec<&VarRef> = Vec::new();
+        for (word, _) in words {
+            if let Some(ExprKind::Variable(variable)) = word.value.as_ref().map(|value| &value.kind) {
+                read.push(variable);
+            }
+        }
+        for item in &block.items {
+            let same = |v: &VarRef| read.iter().any(|r| r.name == v.name && r.index == v.index);
+            let clash = match &item.kind {
+                ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } => same(target),
+                ItemKind::Timer(target) => same(target),
+                ItemKind::Transfer { cells, .. } => cells.iter().any(|c| !c.store && same(&c.variable)),
+                _ => false,
+            };
+            if clash {
+                let message = "no source says whether a word of this block sees the value before or after it";
+                self.findings.not_understood(item.span, message);
+            }
+            if !words.is_empty() && reads_machine(item) {
+                let message =
+                    "no source says whether this reads the machine before or after the block's words";
+                self.findings.not_understood(item.span, message);
+            }
+        }
+    }
+}
+
+fn as_word(item: &Item) -> Option<(&Word, Span)> {
+    match &item.kind {
+        ItemKind::Word(word) => Some((word, item.span)),
+        _ => None,
+    }
+}
+
+/// True for an assignment that reads an active value, `V1=X`.
+fn reads_machine(item: &Item) -> bool {
+    let mut reads = false;
+    if let ItemKind::Assign { .. } = item.kind {
+        for_each_expr(std::slice::from_ref(item), &mut |expr| {
+            reads |= matches!(&expr.kind, ExprKind::Variable(v) if v.index == Index::None);
+        });
+    }
+    reads
+}

@@ -1,0 +1,131 @@
+//! Labels, jumps, calls and ends.
+
+use super::register::REGISTER;
+use super::{Lowering, cycle_name};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{BlockId, Call, Callee, Cond, Expr, Relation, Site, TermKind};
+use crate::syntax::{BinaryOp, Label, Target};
+use crate::text::Span;
+
+/// Where a block's words send the control.
+pub(super) enum Flow {
+    /// Calls a part of this program.
+    CallBlock {
+        /// Its label.
+        label: u32,
+        /// How often it runs, in all.
+        count: Option<Expr>,
+        /// The place that names it.
+        span: Span,
+    },
+    /// Calls a cycle of the maker.
+    CallCycle(u32),
+    /// Jumps to a label.
+    Jump(u32, Span),
+    /// Ends a called part.
+    Return,
+    /// Ends the program; a cycle goes back to its caller.
+    End {
+        /// True for the end that rewinds.
+        rewind: bool,
+    },
+}
+
+impl Lowering<'_> {
+    /// The block that a label names.
+    fn target(&mut self, label: u32, span: Span) -> Option<BlockId> {
+        let found = self.labels.get(&label).copied();
+        if found.is_none() {
+            let message = format!("the program has no label ${label}");
+            self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
+        } else if self.repeated.contains(&label) && !self.findings.is("goto.first.label", span) {
+            let message = format!("${label} stands more than once; the first one is taken");
+            self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
+        }
+        found
+    }
+
+    /// Goes on under a label.
+    pub(super) fn place_label(&mut self, number: u32) {
+        // A label that stands a second time is a place that no jump reaches by its number.
+        let first = self.labels.get(&number).copied().filter(|_| self.placed.insert(number));
+        let id = first.unwrap_or_else(|| self.build.fresh());
+        self.build.start(id);
+        if first.is_some() {
+            // `$2` is no sequence number: N2 is another block.
+            let name = format!("${number}");
+            self.build.label(if self.computed { Label::Number(number) } else { Label::Name(name) });
+        }
+    }
+
+    /// Lowers a jump on the condition register.
+    pub(super) fn branch(&mut self, relation: BinaryOp, target: &Target, site: &Site, span: Span) {
+        let relation = match relation {
+            BinaryOp::Equal => Relation::Equal,
+            BinaryOp::NotEqual => Relation::NotEqual,
+            BinaryOp::Less => Relation::Less,
+            BinaryOp::LessEqual => Relation::LessEqual,
+            BinaryOp::Greater => Relation::Greater,
+            BinaryOp::GreaterEqual => Relation::GreaterEqual,
+            _ => return self.findings.not_understood(span, "this control has no such jump"),
+        };
+        let cond = Cond::Compare(relation, Expr::Var(REGISTER), Expr::Number(0.0));
+        match target {
+            Target::Label(Label::Number(label)) => {
+                if let Some(yes) = self.target(*label, span) {
+                    self.build.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
+                }
+            }
+            Target::Computed(label) => {
+                let Some(value) = self.operand(label) else { return };
+                let shared = self.dispatches.iter().find(|(known, _)| *known == value).map(|(_, id)| *id);
+                let no = self.build.fresh();
+                let yes = shared.unwrap_or_else(|| self.build.fresh());
+                self.build.end(TermKind::Branch { cond, yes, no }, site.clone());
+                if shared.is_none() {
+                    self.dispatch(value, yes, site);
+                }
+                self.build.start(no);
+            }
+            _ => self.findings.not_understood(span, "this control jumps to labels only"),
+        }
+    }
+
+    /// Builds the block that goes to the label that a value names; one serves all
+    /// jumps by the same variable, since it names every label of the program.
+    fn dispatch(&mut self, value: Expr, id: BlockId, site: &Site) {
+        self.build.start(id);
+        let targets = self.labels.iter().map(|(number, id)| (*number, *id)).collect();
+        self.build.end(TermKind::Computed { value: value.clone(), targets }, site.clone());
+        self.dispatches.push((value, id));
+    }
+
+    /// Leaves the present block.
+    pub(super) fn flow(&mut self, flow: Flow, site: &Site) {
+        let site = site.clone();
+        match flow {
+            Flow::CallBlock { label, count, span } => {
+                if let Some(entry) = self.target(label, span) {
+                    self.call(Callee::Block(entry), count, site);
+                }
+            }
+            Flow::CallCycle(number) => self.call(Callee::Program(cycle_name(number)), None, site),
+            Flow::Jump(label, span) => {
+                if let Some(to) = self.target(label, span) {
+                    self.build.end(TermKind::Jump(to), site);
+                }
+            }
+            Flow::Return => self.build.end(TermKind::Return { to: None }, site),
+            Flow::End { rewind: false } if self.is_cycle => {
+                self.ends.insert(site.span);
+                self.build.end(TermKind::Return { to: None }, site);
+            }
+            Flow::End { rewind } => self.build.end(TermKind::End { rewind }, site),
+        }
+    }
+
+    fn call(&mut self, callee: Callee, count: Option<Expr>, site: Site) {
+        let call = Call { callee, level: false, arguments: Vec::new(), count };
+        self.build.end_then(site, |next| TermKind::Call { call, next });
+    }
+}

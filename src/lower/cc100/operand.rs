@@ -1,0 +1,162 @@
+//! Values of words: lengths, radii, tools, and the words that a block leaves out.
+
+use super::Lowering;
+use super::words::Planned;
+use crate::canon::{Op, Role, Sys};
+use crate::dialect::BareLength;
+use crate::ir::{Class, Expr, Nc, NcItem, Var};
+use crate::lower::common::constant;
+use crate::syntax::{Expr as Written, ExprKind, Index, Item, ItemKind, Word};
+use crate::text::Span;
+
+impl Lowering<'_> {
+    /// The value of a word in its role.
+    pub(super) fn word_value(&mut self, role: Role, word: &Word, span: Span) -> Option<Expr> {
+        let Some(written) = &word.value else {
+            self.findings.not_understood(span, format!("{} has no value", word.letter));
+            return None;
+        };
+        let value = match constant(written) {
+            Some(number) => self.number(role, number, written, span)?,
+            None => self.operand(written)?,
+        };
+        match role {
+            Role::ArcRadius => self.radius(value, span),
+            Role::ArcI | Role::ArcJ | Role::ArcK => self.centre(value, span),
+            _ => Some(value),
+        }
+    }
+
+    /// A constant. Without a decimal point a length counts what the table says.
+    fn number(&mut self, role: Role, number: f64, written: &Written, span: Span) -> Option<Expr> {
+        let counts = match role {
+            Role::Feed => self.control.bare_feed(),
+            _ if role.is_length() => self.control.bare_length(),
+            _ => return Some(Expr::Number(number)),
+        };
+        if has_point(written) || number == 0.0 {
+            return Some(Expr::Number(number));
+        }
+        self.findings.rest_on(self.control.numbers(), span);
+        match counts {
+            BareLength::Units => Some(Expr::Number(number)),
+            BareLength::Increments if number < 0.0 => Some(Expr::Negate(Box::new(Expr::Increments(-number)))),
+            BareLength::Increments => Some(Expr::Increments(number)),
+            BareLength::Unknown => {
+                self.findings.not_understood(span, "no source says what a number without a point counts");
+                None
+            }
+        }
+    }
+
+    /// A radius in the common sense, where the shorter arc is positive.
+    fn radius(&mut self, value: Expr, span: Span) -> Option<Expr> {
+        let negative = self.findings.behaviour("arc.radius.negative", span);
+        let positive = self.control.behaviour("arc.radius.positive").filter(|row| row.value != "unknown");
+        if value.constant().is_none_or(|radius| radius > 0.0) {
+            match positive {
+                Some(row) => self.findings.rest_on(row, span),
+                None if value.constant().is_some() => {
+                    let message = "no source says which arc a positive radius means on this control";
+                    self.findings.not_understood(span, message);
+                    return None;
+                }
+                None => {
+                    let why = "the arc of a positive radius is not known, and a variable may be positive";
+                    self.findings.unconfirmed("behaviour:arc.radius.positive".into(), Some(why), span);
+                }
+            }
+        }
+        match (negative, positive.map(|row| row.value.as_str())) {
+            (Some("short"), None | Some("long")) => Some(match value {
+                Expr::Number(radius) => Expr::Number(-radius),
+                Expr::Negate(radius) => *radius,
+                radius => Expr::Negate(Box::new(radius)),
+            }),
+            (Some("long"), None | Some("short")) => Some(value),
+            _ => {
+                self.findings.not_understood(span, "no source says which arc the sign of a radius means");
+                None
+            }
+        }
+    }
+
+    fn centre(&mut self, value: Expr, span: Span) -> Option<Expr> {
+        if self.findings.behaviour("arc.centre", span) == Some("incremental") {
+            return Some(value);
+        }
+        self.findings.not_understood(span, "no source says from where this control counts an arc's centre");
+        None
+    }
+
+    /// Lowers a tool word that stands by itself. The tool is changed before the block's
+    /// moves, and its length acts in them; tool 0 takes the length away.
+    pub(super) fn tool(&mut self, word: &Word, span: Span, plan: &mut Planned, nc: &mut Nc) {
+        let Some(tool) = self.word_value(Role::Tool, word, span) else { return };
+        let changes = self.findings.behaviour("tool.change.word", span);
+        let length = self.findings.is("tool.word.selects.length", span);
+        let none = tool == Expr::Number(0.0);
+        match changes {
+            Some("t") if none && length => {}
+            Some("t") => {
+                let change = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, tool.clone())];
+                plan.blocks.push(Nc { items: change });
+            }
+            Some(_) => self.add(nc, NcItem::Word(Role::Tool, tool.clone()), span),
+            None => self.findings.not_understood(span, "no source says what the tool word does"),
+        }
+        if length && none {
+            self.add(nc, NcItem::Op(Op::LengthOff), span);
+        } else if length {
+            self.add(nc, NcItem::Op(Op::LengthPlus), span);
+            self.add(nc, NcItem::Word(Role::LengthOffset, tool), span);
+        }
+    }
+
+    /// Adds what the control takes from elsewhere: the active tool's radius, the
+    /// variables that a drilling cycle reads.
+    pub(super) fn complete(&mut self, nc: &mut Nc, items: &[Item], span: Span) {
+        let compensates = nc.has(Op::RadiusLeft) || nc.has(Op::RadiusRight);
+        if compensates && nc.word(Role::RadiusOffset).is_none() {
+            if self.findings.is("radius.offset.active.tool", span) {
+                let tool = Expr::System(Sys::ActiveTool, Vec::new());
+                nc.items.push(NcItem::Word(Role::RadiusOffset, tool));
+            } else {
+                self.findings.not_understood(span, "no source says whose radius is taken here");
+            }
+        }
+        if nc.ops().any(Op::is_cycle) && nc.word(Role::Z).is_none() {
+            self.cycle_words(nc, items, span);
+        }
+    }
+
+    fn cycle_words(&mut self, nc: &mut Nc, items: &[Item], span: Span) {
+        for (role, name) in [(Role::CycleR, "cycle.variable.retract"), (Role::Z, "cycle.variable.depth")] {
+            let number = self.findings.behaviour(name, span).and_then(|number| number.parse::<u32>().ok());
+            let Some(number) = number else {
+                self.findings.not_understood(span, "no source says which variables the cycle reads");
+                continue;
+            };
+            let beside = items.iter().find_map(|item| match &item.kind {
+                ItemKind::Assign { target, value, .. } if target.index == Index::Number(number) => {
+                    constant(value)
+                }
+                _ => None,
+            });
+            let read = Expr::Var(Var { class: Class::Global, number });
+            self.add(nc, NcItem::Word(role, beside.map_or(read, Expr::Number)), span);
+        }
+    }
+}
+
+/// True where a number is written with a decimal point.
+fn has_point(written: &Written) -> bool {
+    let mut at = written;
+    loop {
+        match &at.kind {
+            ExprKind::Number(number) => return number.point,
+            ExprKind::Negate(inner) | ExprKind::Plus(inner) | ExprKind::Group(inner) => at = inner,
+            _ => return false,
+        }
+    }
+}

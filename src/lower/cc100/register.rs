@@ -1,0 +1,210 @@
+//! The condition register: which jump looks at what.
+//!
+//! Lowering notes every setting of the register as an assignment to a marker, and
+//! every jump as one on [`REGISTER`]. Here, on the whole program, a jump whose
+//! register can only be what one variable still holds becomes a comparison of
+//! that variable with zero; it is exact, since the register keeps the sign of
+//! what the variable was given last. Where ways with different settings meet, the
+//! register itself is assigned, in those places that a jump can see. All other
+//! markers go.
+//!
+//! Whether a plain load sets the register no source says. A jump that sees one
+//! behind the last arithmetic is therefore left to a reviewer.
+
+use super::graph::Graph;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Block, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var};
+use crate::lower::common::Findings;
+
+/// The condition register.
+pub const REGISTER: Var = Var { class: Class::Register, number: 0 };
+
+/// What sets the register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Arithmetic, INC and DEC.
+    Arithmetic,
+    /// TST of a variable.
+    Test,
+    /// TST of a state of the machine: only zero or not zero is known of it.
+    Flag,
+    /// A load on a control of which it is known that a load sets the register.
+    LoadThatSets,
+    /// A load that may set the register or not.
+    Load,
+}
+
+const SOURCES: [Source; 5] =
+    [Source::Arithmetic, Source::Test, Source::Flag, Source::LoadThatSets, Source::Load];
+
+/// The variable whose assignment notes a setting; gone when [`resolve`] is done.
+pub fn marker(source: Source) -> Var {
+    Var { class: Class::Register, number: 1 + source as u32 }
+}
+
+fn source_of(stmt: &Stmt) -> Option<(Source, &Expr)> {
+    let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind else { return None };
+    let source = SOURCES.into_iter().find(|source| marker(*source) == *var)?;
+    Some((source, value))
+}
+
+/// What is known of the register at a place.
+#[derive(Clone, Debug, PartialEq)]
+struct State {
+    /// The variable whose sign it has.
+    var: Option<Var>,
+    /// One bit a [`Source`] that it may come from, and [`OUTSIDE`].
+    from: u8,
+}
+
+/// The register may be what it was before the program, or what a called cycle left.
+const OUTSIDE: u8 = 1 << 7;
+
+const fn bit(source: Source) -> u8 {
+    1 << source as u8
+}
+
+impl State {
+    fn outside() -> Self {
+        Self { var: None, from: OUTSIDE }
+    }
+
+    fn may(&self, source: Source) -> bool {
+        self.from & bit(source) != 0
+    }
+
+    fn join(&self, other: &Self) -> Self {
+        Self { var: self.var.filter(|_| self.var == other.var), from: self.from | other.from }
+    }
+
+    fn step(&mut self, stmt: &Stmt) {
+        match source_of(stmt) {
+            Some((Source::Load, _)) => self.from |= bit(Source::Load),
+            Some((source, value)) => {
+                let var = if let Expr::Var(var) = value { Some(*var) } else { None };
+                *self = Self { var, from: bit(source) };
+            }
+            None => {
+                if let StmtKind::Assign { target: Place::Var(var), .. } = &stmt.kind
+                    && self.var == Some(*var)
+                {
+                    self.var = None;
+                }
+            }
+        }
+    }
+
+    fn through(mut self, block: &Block) -> Self {
+        block.stmts.iter().for_each(|stmt| self.step(stmt));
+        if leaves(block) { Self::outside() } else { self }
+    }
+}
+
+/// True where another program runs behind the block.
+fn leaves(block: &Block) -> bool {
+    matches!(&block.term.kind, TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)))
+}
+
+/// The relation of a jump on the register.
+fn jump(block: &Block) -> Option<Relation> {
+    match &block.term.kind {
+        TermKind::Branch { cond: Cond::Compare(relation, Expr::Var(REGISTER), _), .. } => Some(*relation),
+        _ => None,
+    }
+}
+
+/// Gives every jump its condition and takes the markers out.
+pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
+    let graph = Graph::of(program);
+    let starts = graph.forward(program, &State::outside(), State::join, |block, state| state.through(block));
+    let mut seen = false;
+    for (block, start) in program.blocks.iter_mut().zip(starts) {
+        let Some(relation) = jump(block) else { continue };
+        let state = start.through(block);
+        report(&state, relation, block, findings);
+        match (state.var, &mut block.term.kind) {
+            (Some(var), TermKind::Branch { cond, .. }) => {
+                *cond = Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0));
+            }
+            _ => seen = true,
+        }
+    }
+    let live = if seen { live_at_end(program, &graph) } else { vec![false; program.blocks.len()] };
+    for (block, live) in program.blocks.iter_mut().zip(live) {
+        settle(block, live);
+    }
+}
+
+fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findings<'_>) {
+    let span = block.term.site.span;
+    let control = findings.control();
+    if state.from & OUTSIDE != 0 {
+        let message = "the condition register may be set outside this program here";
+        findings.add(Diagnostic::new(Code::RegisterUnset, span, message));
+    }
+    if state.may(Source::Flag) && !matches!(relation, Relation::Equal | Relation::NotEqual) {
+        let message = "a test of the machine's state is zero or not; its sign is in no source";
+        findings.not_understood(span, message);
+    }
+    if state.may(Source::Arithmetic)
+        && let Some(row) = control.behaviour("condition.register")
+    {
+        findings.rest_on(row, span);
+    }
+    if state.may(Source::Load) || state.may(Source::LoadThatSets) {
+        match control.behaviour("load.sets.condition").filter(|row| row.value != "unknown") {
+            Some(row) => findings.rest_on(row, span),
+            None => {
+                let why = "a load between the arithmetic and this jump is taken to leave the register alone";
+                findings.unconfirmed("behaviour:load.sets.condition".into(), Some(why), span);
+            }
+        }
+    }
+}
+
+/// Whether a jump can see the register as it is at the end of each block, before its jump.
+fn live_at_end(program: &Program, graph: &Graph) -> Vec<bool> {
+    let back = graph.reversed();
+    let mut at_start = vec![false; graph.len()];
+    let mut at_end = vec![false; graph.len()];
+    let mut work: Vec<usize> =
+        (0..program.blocks.len()).filter(|&at| jump(&program.blocks[at]).is_some()).collect();
+    work.iter().for_each(|&at| at_end[at] = true);
+    while let Some(at) = work.pop() {
+        let sets = |stmt: &Stmt| source_of(stmt).is_some_and(|(source, _)| source != Source::Load);
+        let hides = program.blocks.get(at).is_some_and(|block| block.stmts.iter().any(sets));
+        if hides || at_start[at] {
+            continue;
+        }
+        at_start[at] = true;
+        for &before in back.from(at) {
+            if !at_end[before] && !program.blocks.get(before).is_some_and(leaves) {
+                at_end[before] = true;
+                work.push(before);
+            }
+        }
+    }
+    at_end.truncate(program.blocks.len());
+    at_end
+}
+
+/// Turns the markers that a jump can see into assignments of the register, and drops the rest.
+fn settle(block: &mut Block, live: bool) {
+    let last = block
+        .stmts
+        .iter()
+        .rposition(|stmt| source_of(stmt).is_some_and(|(source, _)| source != Source::Load));
+    let mut at = 0;
+    block.stmts.retain_mut(|stmt| {
+        let here = at;
+        at += 1;
+        if source_of(stmt).is_none() {
+            return true;
+        }
+        let keep = live && last == Some(here);
+        if keep && let StmtKind::Assign { target, .. } = &mut stmt.kind {
+            *target = Place::Var(REGISTER);
+        }
+        keep
+    });
+}

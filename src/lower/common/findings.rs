@@ -1,0 +1,78 @@
+//! What is found while one program is lowered.
+
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Row};
+use crate::text::Span;
+use std::collections::HashSet;
+
+/// The findings of one program. A fact that no maker's text confirms is reported
+/// where the program first rests on it, and only there.
+#[derive(Debug)]
+pub struct Findings<'c> {
+    control: &'c Control,
+    list: Vec<Diagnostic>,
+    told: HashSet<String>,
+}
+
+impl<'c> Findings<'c> {
+    /// No findings yet.
+    pub fn new(control: &'c Control) -> Self {
+        Self { control, list: Vec::new(), told: HashSet::new() }
+    }
+
+    /// The control whose facts are relied on.
+    pub fn control(&self) -> &'c Control {
+        self.control
+    }
+
+    /// Adds a finding.
+    pub fn add(&mut self, diagnostic: Diagnostic) {
+        self.list.push(diagnostic);
+    }
+
+    /// The construct at `span` has no known meaning: the program is refused.
+    pub fn not_understood(&mut self, span: Span, message: impl Into<String>) {
+        self.add(Diagnostic::new(Code::NotUnderstood, span, message));
+    }
+
+    /// The construct at `span` rests on a row of the table.
+    pub fn rest_on<R: Row>(&mut self, row: &R, span: Span) {
+        if !row.origin().confirmed {
+            self.unconfirmed(row.fact(), row.origin().note.as_deref(), span);
+        }
+    }
+
+    /// The answer to a question of behaviour on which the construct at `span` rests.
+    /// An unknown or missing answer is none, and is left for the caller to report.
+    pub fn behaviour(&mut self, name: &str, span: Span) -> Option<&'c str> {
+        let row = self.control.behaviour(name).filter(|row| row.value != "unknown")?;
+        self.rest_on(row, span);
+        Some(&row.value)
+    }
+
+    /// True where the answer to a question of behaviour, on which the construct at `span` rests, is `true`.
+    pub fn is(&mut self, name: &str, span: Span) -> bool {
+        self.behaviour(name, span) == Some("true")
+    }
+
+    /// The construct at `span` rests on a fact that nothing confirms, named as
+    /// a machine profile confirms it: `behaviour:load.sets.condition`.
+    pub fn unconfirmed(&mut self, fact: String, note: Option<&str>, span: Span) {
+        let confirmed = self.control.profile().confirm.contains(&fact);
+        if confirmed || !self.told.insert(fact.clone()) {
+            return;
+        }
+        let table = self.control.entry().file;
+        let why = note.map(|note| format!(": {note}")).unwrap_or_default();
+        let message = format!("rests on the unconfirmed fact '{fact}' of {table}{why}");
+        let help =
+            format!("check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile");
+        self.add(Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help));
+    }
+
+    /// The findings, in the order of their places.
+    pub fn into_list(mut self) -> Vec<Diagnostic> {
+        self.list.sort_by_key(|finding| finding.span);
+        self.list
+    }
+}

@@ -1,0 +1,40 @@
+//! What the lowerings of all dialects need: findings that name a fact once,
+//! the site of a block, constants.
+
+mod findings;
+mod programs;
+mod site;
+
+pub use findings::Findings;
+pub use programs::{ProgramText, programs, says_something};
+pub use site::{remark_text, site_of};
+
+use crate::syntax::{Expr, ExprKind, Item, ItemKind};
+
+/// The value of a constant: a number, signed or in brackets or not. One that is too
+/// large for any control is none.
+pub fn constant(expr: &Expr) -> Option<f64> {
+    let mut sign = 1.0;
+    let mut at = expr;
+    loop {
+        match &at.kind {
+            ExprKind::Number(number) => return Some(sign * number.value).filter(|value| value.is_finite()),
+            ExprKind::Negate(inner) => {
+                sign = -sign;
+                at = inner;
+            }
+            ExprKind::Plus(inner) | ExprKind::Group(inner) => at = inner,
+            _ => return None,
+        }
+    }
+}
+
+/// The letters of a block's plain words with their constant values, as
+/// [`crate::dialect::Control::code`] wants them. Comma words are left out.
+pub fn letters(items: &[Item]) -> Vec<(char, Option<f64>)> {
+    let words = items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Word(word) if !word.comma => Some(word),
+        _ => None,
+    });
+    words.map(|word| (word.letter, word.value.as_ref().and_then(constant))).collect()
+}

@@ -1,0 +1,34 @@
+//! Where a statement comes from, out of the block it stood in.
+
+use crate::ir::{Remark, Site};
+use crate::syntax::{Block, ItemKind};
+use crate::text::Span;
+
+/// The site of a block: its span, sequence number, comments and the block skip
+/// at its head (level 1 where none is written).
+pub fn site_of(block: &Block, source: &[u8]) -> Site {
+    let mut site = Site { span: block.span, ..Site::default() };
+    let mut words = false;
+    for item in &block.items {
+        match &item.kind {
+            // An inserted block has the number of the one before it, so none of its own.
+            ItemKind::Sequence { number, inserted } => site.sequence = (!inserted).then_some(*number),
+            ItemKind::Skip(level) if !words => site.skip = Some(level.unwrap_or(1)),
+            ItemKind::Comment(comment) => {
+                site.remarks.push(Remark { text: remark_text(comment.text, source), leading: !words });
+            }
+            ItemKind::EndOfBlock | ItemKind::MacroMark | ItemKind::Tape => {}
+            _ => words = true,
+        }
+    }
+    site
+}
+
+/// The text of a comment. Bytes that are not UTF-8 are read as Latin-1, so none is lost.
+pub fn remark_text(span: Span, source: &[u8]) -> String {
+    let bytes = span.of(source);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
+    }
+}

@@ -1,0 +1,311 @@
+//! NC blocks: R assignments, codes, words, and what they do to the flow.
+
+use super::motion::{Move, is_arc};
+use super::program::Lowering;
+use super::steps::{FIRST_FIXED, LWord, Step, l_word, steps};
+use super::value::is_zero;
+use super::words::{Codes, is_code, word};
+use crate::canon::{Op, Role};
+use crate::dialect::CodeMeaning;
+use crate::ir::{Argument, Class, Expr, Nc, NcItem, Place, StmtKind, Var};
+use crate::lower::common::{constant, says_something};
+use crate::syntax::{self, Index, Item, ItemKind, VarRef, Word};
+use crate::text::Span;
+
+/// The L of G10 that writes R0.
+const FIRST_WRITTEN: u32 = 100;
+
+/// A block while it is read.
+pub(super) struct Reading<'b, 'c> {
+    /// The codes of the block.
+    pub(super) codes: &'c Codes<'b, 'b>,
+    /// The motion mode that gives letters their roles.
+    modal: Option<&'b CodeMeaning>,
+    /// What the block's own variables were set to.
+    pub(super) assigned: Vec<(Var, Span)>,
+    /// The variables that its words read.
+    pub(super) read: Vec<Var>,
+    pub(super) items: Vec<NcItem>,
+    pub(super) span: Span,
+}
+
+impl<'b> Lowering<'b> {
+    /// An NC block; none where something in it is not understood, which is then reported.
+    pub fn nc(&mut self, items: &'b [Item], codes: &Codes<'b, 'b>) -> Option<()> {
+        let span = items.first()?.span.to(items.last()?.span);
+        let steps = steps(items, codes);
+        if let Some(number) = fixed_call(&steps) {
+            return self.fixed_call(items, codes, number, span);
+        }
+        let mut reading = Reading {
+            codes,
+            modal: self.modal_row(codes),
+            assigned: Vec::new(),
+            read: Vec::new(),
+            items: Vec::new(),
+            span,
+        };
+        let axes = self.has_axes(items, codes);
+        for (at, item) in items.iter().enumerate() {
+            match &item.kind {
+                ItemKind::Word(word) => self.nc_word(item, word, &mut reading)?,
+                ItemKind::Assign { target, value, .. } => {
+                    self.nc_assign(target, value, axes, &mut reading)?;
+                }
+                ItemKind::Skip(_) if items.iter().take(at).any(says_something) => {
+                    let _ = self.rely("skip.midblock", item.span);
+                    return self.refuse(item.span, "a block skip in mid-block");
+                }
+                kind if says_something(item) && !matches!(kind, ItemKind::Program(_)) => {
+                    return self.refuse(item.span, "NC words and macro statements cannot share a block");
+                }
+                _ => {}
+            }
+        }
+        self.motion_words(&mut reading, axes)?;
+        self.block_facts(&mut reading, axes);
+        let Reading { items: mut words, .. } = reading;
+        self.doubled(&mut words, span)?;
+        for op in self.grouped(&mut words, span)? {
+            self.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] }));
+        }
+        if !words.is_empty() {
+            self.push(StmtKind::Nc(Nc { items: words }));
+        }
+        if codes.has(Op::RotateOn) && self.in_cycle() && self.control.is("rotation.runs.cycle") {
+            // The cycle runs at the turned place.
+            self.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::CycleHere)] }));
+        }
+        let by_variable = |step: &Step<'_>| matches!(step, Step::Local(value) if constant(value).is_none());
+        if axes && steps.iter().any(by_variable) {
+            return self
+                .refuse(span, "whether L repeats the move or calls a subroutine depends on its variable");
+        }
+        if axes && steps.iter().any(|step| matches!(step, Step::Local(_))) && !codes.has(Op::CallModal) {
+            let _ = self.rely("call.after.words", span);
+        }
+        for step in steps {
+            self.step(step, items, codes, span)?;
+        }
+        Some(())
+    }
+
+    fn has_axes(&self, items: &[Item], codes: &Codes<'b, 'b>) -> bool {
+        let role = |word: &Word| codes.role(word.letter, word.comma, None).ok().flatten();
+        items.iter().filter_map(word).any(|word| role(word).is_some_and(Role::is_axis))
+    }
+
+    fn nc_word(&mut self, item: &'b Item, word: &'b Word, reading: &mut Reading<'b, '_>) -> Option<()> {
+        let Some(value) = &word.value else {
+            return self.refuse(item.span, format!("{} has no value", word.letter));
+        };
+        if is_code(word.letter) {
+            return self.code(item, word, value, reading);
+        }
+        let calls = word.letter == 'L' && l_word(value, reading.codes) != LWord::Operand;
+        if calls || reading.codes.selects(word.letter) {
+            return Some(());
+        }
+        let Ok(role) = reading.codes.role(word.letter, word.comma, reading.modal) else {
+            return self.refuse(
+                item.span,
+                format!("two codes of the block give {} different meanings", word.letter),
+            );
+        };
+        let Some(role) = role else {
+            let message = format!("the table has no meaning for {} here", word.letter);
+            return self.refuse(item.span, message);
+        };
+        if reading.codes.has(Op::WriteVariable) && word.letter == 'P' {
+            return Some(());
+        }
+        if matches!(role, Role::Program | Role::Sequence | Role::CallCount) {
+            // An operand of a flow code, which takes it.
+            let taken = reading.codes.known().any(|row| matches!(row.op, Op::CallProgram | Op::Return));
+            if !taken {
+                return self
+                    .refuse(item.span, format!("{} stands beside no code that takes it", word.letter));
+            }
+            return Some(());
+        }
+        let meaning = self.control.word(word.letter, word.comma).filter(|row| row.role == role);
+        if let Some(row) = meaning {
+            self.findings.rest_on(row, item.span);
+        }
+        let beside = reading.codes.known().find(|row| row.shift.contains_key(&role));
+        let lowered = self.word_value(value, role, beside)?;
+        note_reads(&lowered, &mut reading.read);
+        match meaning.and_then(|row| row.op) {
+            Some(Op::SelectWork) if is_zero(value) => reading.items.push(NcItem::Op(Op::ShiftCancel)),
+            Some(Op::LengthPlus) if is_zero(value) => reading.items.push(NcItem::Op(Op::LengthOff)),
+            Some(op) => {
+                if !reading.codes.has(op) {
+                    reading.items.push(NcItem::Op(op));
+                }
+                reading.items.push(NcItem::Word(role, lowered));
+            }
+            None => reading.items.push(NcItem::Word(role, lowered)),
+        }
+        Some(())
+    }
+
+    fn code(
+        &mut self,
+        item: &'b Item,
+        word: &Word,
+        value: &'b syntax::Expr,
+        reading: &mut Reading<'b, '_>,
+    ) -> Option<()> {
+        if constant(value).is_none() {
+            let value = self.nc_value(value, None)?;
+            note_reads(&value, &mut reading.read);
+            let message =
+                format!("a computed {} code: what it does is not known before it runs", word.letter);
+            reading.items.push(NcItem::Code(word.letter, value));
+            return self.refuse(item.span, message);
+        }
+        let Some(row) = reading.codes.row(item) else {
+            let number = constant(value).unwrap_or_default();
+            return self.refuse(item.span, format!("the table has no meaning for {}{number}", word.letter));
+        };
+        self.findings.rest_on(row, item.span);
+        match row.op {
+            op if op.is_flow() => return Some(()),
+            Op::WriteVariable => return self.write_variable(item, reading),
+            Op::ReadOffset => {
+                return self.refuse(item.span, "which table is read into which variables is not known");
+            }
+            _ => {}
+        }
+        reading.items.push(NcItem::Op(row.op));
+        reading.items.extend(row.fixed.iter().map(|(role, value)| NcItem::Word(*role, Expr::Number(*value))));
+        Some(())
+    }
+
+    /// `G10 L103 P5.`: R3 becomes 5.
+    fn write_variable(&mut self, item: &'b Item, reading: &mut Reading<'b, '_>) -> Option<()> {
+        let first = f64::from(FIRST_WRITTEN);
+        let row = reading.codes.number('L').filter(|row| (first..first + 10.0).contains(row));
+        let Some(number) = row else {
+            return self.refuse(item.span, "which variable is written is not known");
+        };
+        let Some(value) = reading.codes.value('P') else {
+            return self.refuse(item.span, "the value to write is missing");
+        };
+        let value = self.nc_value(value, None)?;
+        let var = Var { class: Class::Parametric, number: (number - first) as u32 };
+        self.scratches_plane(&Place::Var(var), item.span);
+        self.assign(Place::Var(var), value);
+        Some(())
+    }
+
+    /// `R3+7.5`, which beside a cycle, an arc or an offset write is a word of theirs too.
+    fn nc_assign(
+        &mut self,
+        target: &'b VarRef,
+        value: &'b syntax::Expr,
+        axes: bool,
+        reading: &mut Reading<'b, '_>,
+    ) -> Option<()> {
+        let (Index::Number(number), "R") = (&target.index, target.name.as_str()) else {
+            return self.refuse(target.span, "only R0 to R9 are set on an NC line");
+        };
+        let var = Var { class: Class::Parametric, number: *number };
+        let modal = reading.modal.filter(|_| axes);
+        let Ok(role) = reading.codes.variable_role('R', *number, modal) else {
+            return self
+                .refuse(target.span, format!("two codes of the block give R{number} different meanings"));
+        };
+        let place = self.place(target)?;
+        let lowered = self.nc_value(value, role)?;
+        if reading.read.contains(&var) {
+            return self
+                .refuse(target.span, format!("R{number} is set behind a word of its block that reads it"));
+        }
+        let Some(role) = role else {
+            self.scratches_plane(&place, target.span);
+            reading.assigned.push((var, target.span));
+            self.assign(place, lowered);
+            return Some(());
+        };
+        note_reads(&lowered, &mut reading.read);
+        reading.items.push(NcItem::Word(role, lowered.clone()));
+        reading.assigned.push((var, target.span));
+        if matches!(lowered, Expr::Increments(_)) {
+            let message = format!("what R{number} holds is not known: write a decimal point");
+            return self.refuse(target.span, message);
+        }
+        self.assign(place, lowered);
+        Some(())
+    }
+
+    /// Spells out the motion mode where the block depends on it.
+    fn motion_words(&mut self, reading: &mut Reading<'b, '_>, axes: bool) -> Option<()> {
+        let centre = reading.items.iter().any(|item| {
+            matches!(item, NcItem::Word(Role::ArcI | Role::ArcJ | Role::ArcK | Role::ArcRadius, _))
+        });
+        let axes = axes && !reading.codes.takes_axes();
+        let spelling = self.spell_motion(reading.codes, Move { axes, centre }, reading.span)?;
+        if spelling.drop.is_some() {
+            reading.items.retain(|item| !matches!(item, NcItem::Op(op) if is_arc(*op)));
+        }
+        if let Some(op) = spelling.op {
+            reading.items.insert(0, NcItem::Op(op));
+        }
+        Some(())
+    }
+
+    fn fixed_call(
+        &mut self,
+        items: &'b [Item],
+        codes: &Codes<'b, 'b>,
+        number: f64,
+        span: Span,
+    ) -> Option<()> {
+        let mut arguments = Vec::new();
+        for item in items {
+            match &item.kind {
+                ItemKind::Assign { target, value, .. } => {
+                    let place = self.place(target)?;
+                    let value = self.nc_value(value, None)?;
+                    self.assign(place, value);
+                }
+                ItemKind::Word(word) if word.letter != 'L' => {
+                    let Some(value) = &word.value else {
+                        return self.refuse(item.span, format!("{} has no value", word.letter));
+                    };
+                    if is_code(word.letter) {
+                        return self.refuse(item.span, "a code beside a call of a fixed subroutine");
+                    }
+                    // A letter without a role of its own is a number of the subroutine's.
+                    let role = codes.role(word.letter, word.comma, None).ok().flatten();
+                    let value = self.nc_value(value, role.or(Some(Role::Builder)))?;
+                    let letter = u32::from(word.letter).saturating_sub(u32::from('A')) + 1;
+                    if arguments.iter().any(|other: &Argument| other.local == letter) {
+                        return self.refuse(item.span, format!("{} twice in one call", word.letter));
+                    }
+                    arguments.push(Argument { local: letter, value });
+                }
+                _ => {}
+            }
+        }
+        self.fixed(number, arguments, span)
+    }
+}
+
+/// The number of the fixed subroutine that a block calls and does nothing else.
+fn fixed_call(steps: &[Step<'_>]) -> Option<f64> {
+    match steps {
+        [Step::Local(value)] => constant(value).filter(|number| *number >= f64::from(FIRST_FIXED * 100)),
+        _ => None,
+    }
+}
+
+fn note_reads(value: &Expr, read: &mut Vec<Var>) {
+    match value {
+        Expr::Var(var) => read.push(*var),
+        Expr::Negate(inner) => note_reads(inner, read),
+        Expr::Binary(_, a, _) => note_reads(a, read),
+        _ => {}
+    }
+}

@@ -1,0 +1,265 @@
+//! Calls, returns and ends: L words, M98, G66, M17, M99, M2, M30.
+
+use super::flow::Flow;
+use super::program::Lowering;
+use super::shape::Goal;
+use super::statement::program_number;
+use super::steps::{FIRST_FIXED, Step, operand};
+use super::words::Codes;
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{BinOp, BlockId, Call, Callee, Cond, Expr, Place, Relation, Site, StmtKind, TermKind};
+use crate::syntax::{self, Item, ProgramName};
+use crate::text::Span;
+
+/// Where `M99 P10` goes.
+pub fn return_goal(items: &[Item], codes: &Codes<'_, '_>) -> Option<Goal> {
+    if !codes.has(Op::Return) {
+        return None;
+    }
+    operand(items, codes, Role::Sequence).and_then(program_number).map(Goal::Sequence)
+}
+
+fn call(callee: Callee, count: Option<Expr>) -> Call {
+    Call { callee, level: false, arguments: Vec::new(), count }
+}
+
+impl<'b> Lowering<'b> {
+    /// What a block's words do to the flow, when the rest of the block is done.
+    pub fn step(
+        &mut self,
+        step: Step<'b>,
+        items: &'b [Item],
+        codes: &Codes<'b, 'b>,
+        span: Span,
+    ) -> Option<()> {
+        match step {
+            Step::Define(number) => self.definition(number, span)?,
+            Step::Local(value) => self.local(value, codes, span)?,
+            Step::Program => {
+                let Some(program) = operand(items, codes, Role::Program) else {
+                    return self.refuse(span, "M98 needs the program's number in P");
+                };
+                let callee = match program_number(program) {
+                    Some(number) => Callee::Program(ProgramName::Number(number)),
+                    None => Callee::Computed(self.nc_value(program, Some(Role::Program))?),
+                };
+                let count = match operand(items, codes, Role::CallCount) {
+                    Some(count) => Some(self.nc_value(count, Some(Role::CallCount))?),
+                    None => None,
+                };
+                self.call_then(call(callee, count));
+            }
+            Step::ModalOff => self.push(StmtKind::ModalCallOff),
+            Step::SubEnd => {
+                if self.shape.region(self.at).is_none() {
+                    let message = "M17 outside a subroutine";
+                    self.once(Code::SubroutineLeft, "end", span, message.into());
+                }
+                self.end(TermKind::Return { to: None });
+            }
+            Step::Return => self.back(items, codes, span)?,
+            Step::End => self.end(TermKind::End { rewind: false }),
+            Step::AreaEnd if self.shape.area_end == Some(self.at) => {}
+            Step::AreaEnd => {
+                let _ = self.rely("end.alone", span);
+                self.end(TermKind::End { rewind: true });
+            }
+        }
+        Some(())
+    }
+
+    fn definition(&mut self, number: u32, span: Span) -> Option<()> {
+        let Some(here) = self.shape.begins(self.at) else {
+            let message = format!(
+                "L{number}00 defines a subroutine, and is neither alone in its block nor at the head of the program"
+            );
+            return self.refuse(span, message);
+        };
+        if self.shape.sub(number) != Some(here) {
+            return self.refuse(span, format!("the subroutine L{number}00 is defined twice"));
+        }
+        Some(())
+    }
+
+    fn call_then(&mut self, call: Call) {
+        let mut site = self.take_site();
+        site.skip = None;
+        self.builder.end_then(site, |next| TermKind::Call { call, next });
+    }
+
+    /// `M99`, `M99 P10`.
+    fn back(&mut self, items: &'b [Item], codes: &Codes<'b, 'b>, span: Span) -> Option<()> {
+        if self.shape.region(self.at).is_some() {
+            let message = "M99 inside a subroutine that M17 ends";
+            self.once(Code::SubroutineLeft, "return", span, message.into());
+        }
+        let Some(to) = operand(items, codes, Role::Sequence) else {
+            self.end(TermKind::Return { to: None });
+            return Some(());
+        };
+        let here = self.rely("m99.p.jumps.here", span) != Some("false");
+        if here
+            && let Some(goal) = return_goal(items, codes)
+            && self.shape.goals.contains_key(&goal)
+        {
+            let to = self.block_of(&goal, span)?;
+            self.end(TermKind::Jump(to));
+            return Some(());
+        }
+        let to = self.nc_value(to, Some(Role::Sequence))?;
+        self.end(TermKind::Return { to: Some(to) });
+        Some(())
+    }
+
+    /// The block of a jump goal.
+    pub fn block_of(&mut self, goal: &Goal, span: Span) -> Option<BlockId> {
+        let Some((at, times)) = self.shape.goals.get(goal).copied() else {
+            let name = match goal {
+                Goal::Sequence(number) => format!("N{number}"),
+                Goal::Label(syntax::Label::Name(name)) => format!(":{name}"),
+                Goal::Label(syntax::Label::Number(number)) => format!(":{number}"),
+            };
+            self.findings.add(Diagnostic::new(Code::TargetMissing, span, format!("no block has {name}")));
+            return None;
+        };
+        if times > 1 {
+            match goal {
+                Goal::Sequence(number) => {
+                    let message = format!("N{number} stands {times} times; the first one is taken");
+                    self.once(Code::TargetTwice, &message, span, message.clone());
+                }
+                Goal::Label(_) => {
+                    let _ = self.rely("goto.first.label", span);
+                }
+            }
+        }
+        if self.shape.region(at) != self.shape.region(self.at) {
+            let message = "the jump goes out of a subroutine or into one";
+            self.once(Code::SubroutineLeft, &at.to_string(), span, message.into());
+        }
+        Some(self.entry(at))
+    }
+
+    /// `L101`, `L+R2`, and `L101 G66`.
+    fn local(&mut self, value: &'b syntax::Expr, codes: &Codes<'b, 'b>, span: Span) -> Option<()> {
+        let values = Flow::constants(value, &self.state);
+        let known: Vec<f64> = values.list().iter().map(|bits| f64::from_bits(*bits)).collect();
+        if let [number] = known.as_slice() {
+            let (sub, count) = parts(*number);
+            let callee = self.callee(*number, span)?;
+            debug_assert!(sub < 100);
+            let count = (count != 1).then(|| Expr::Number(f64::from(count)));
+            if codes.has(Op::CallModal) {
+                return self.modal(call(callee, count), span);
+            }
+            self.call_then(call(callee, count));
+            return Some(());
+        }
+        if codes.has(Op::CallModal) {
+            return self.refuse(span, "a modal call of a subroutine with a computed number");
+        }
+        let mut subs: Vec<u32> = known.iter().map(|number| parts(*number).0).collect();
+        if values.is_any() {
+            subs = self.shape.numbers.keys().copied().collect();
+        }
+        subs.sort_unstable();
+        subs.dedup();
+        for number in &known {
+            self.callee(*number, span)?;
+        }
+        self.choose(value, &subs, values.is_any())
+    }
+
+    /// Calls the subroutine that a computed number names, out of those that it can be.
+    fn choose(&mut self, value: &'b syntax::Expr, subs: &[u32], others: bool) -> Option<()> {
+        let value = self.nc_value(value, None)?;
+        let count = |value: Expr, sub: u32| {
+            let base = Box::new(Expr::Number(f64::from(sub * 100)));
+            Some(Expr::Binary(BinOp::Sub, Box::new(value), base))
+        };
+        if let ([number], false) = (subs, others) {
+            let callee = self.callee(f64::from(number * 100 + 1), Span::default())?;
+            self.call_then(call(callee, count(value, *number)));
+            return Some(());
+        }
+        let temp = self.temp();
+        self.assign(Place::Var(temp), value);
+        let after = self.builder.fresh();
+        for (at, number) in subs.iter().enumerate() {
+            let Some(place) = self.shape.sub(*number) else { continue };
+            let entry = self.shape.subs.get(place).map_or(0, |sub| sub.blocks.start);
+            let entry = self.entry(entry);
+            let call = call(Callee::Block(entry), count(Expr::Var(temp), *number));
+            if at + 1 == subs.len() && !others {
+                self.end(TermKind::Call { call, next: after });
+                continue;
+            }
+            let (yes, no) = (self.builder.fresh(), self.builder.fresh());
+            let bound = |relation, bound: u32| {
+                Cond::Compare(relation, Expr::Var(temp), Expr::Number(f64::from(bound)))
+            };
+            let cond = Cond::And(vec![
+                bound(Relation::GreaterEqual, number * 100 + 1),
+                bound(Relation::Less, number * 100 + 100),
+            ]);
+            self.end(TermKind::Branch { cond, yes, no });
+            self.builder.start(yes);
+            self.end(TermKind::Call { call, next: after });
+            self.builder.start(no);
+        }
+        if others {
+            let text = "NO SUCH SUBROUTINE".to_owned();
+            self.push(StmtKind::Alarm { number: Expr::Number(1.0), text });
+            self.builder.end(TermKind::End { rewind: false }, Site::default());
+        }
+        self.builder.start(after);
+        Some(())
+    }
+
+    fn modal(&mut self, call: Call, span: Span) -> Option<()> {
+        let _ = self.rely("call.modal.block.calls", span);
+        self.push(StmtKind::ModalCall(call));
+        Some(())
+    }
+
+    /// What a subroutine call with a known number goes to.
+    fn callee(&mut self, number: f64, span: Span) -> Option<Callee> {
+        let (sub, count) = parts(number);
+        if !(100.0..10_000.0).contains(&number) || number.fract() != 0.0 || count == 0 {
+            return self.refuse(
+                span,
+                format!("L{number} calls nothing: a call is the subroutine's number and two digits of count"),
+            );
+        }
+        if let Some(place) = self.shape.sub(sub) {
+            let start = self.shape.subs.get(place).map_or(0, |sub| sub.blocks.start);
+            return Some(Callee::Block(self.entry(start)));
+        }
+        if sub >= FIRST_FIXED {
+            let name = sub * 100 + 1;
+            let message = format!("L{name} is a subroutine of the maker's, kept in the control");
+            self.once(Code::FixedSubroutine, &name.to_string(), span, message);
+            return Some(Callee::Cycle(name));
+        }
+        let message = format!("the program has no subroutine L{sub}00");
+        self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
+        None
+    }
+
+    /// A call of a subroutine that the control keeps, with the words of its block as
+    /// arguments, numbered by their letters (X is 24).
+    pub fn fixed(&mut self, number: f64, arguments: Vec<crate::ir::Argument>, span: Span) -> Option<()> {
+        let callee = self.callee(number, span)?;
+        let (_, count) = parts(number);
+        let count = (count != 1).then(|| Expr::Number(f64::from(count)));
+        self.call_then(Call { callee, level: !arguments.is_empty(), arguments, count });
+        Some(())
+    }
+}
+
+/// The subroutine and the count that a call's number holds.
+pub fn parts(number: f64) -> (u32, u32) {
+    let whole = if (0.0..10_000.0).contains(&number) { number as u32 } else { 0 };
+    (whole / 100, whole % 100)
+}

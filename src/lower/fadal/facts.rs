@@ -1,0 +1,75 @@
+//! The unconfirmed facts that an NC block as a whole rests on.
+
+use super::block::Reading;
+use super::program::Lowering;
+use crate::canon::{Op, Role};
+use crate::ir::{Class, Expr, NcItem, Var};
+
+impl<'b> Lowering<'b> {
+    /// Reports the unconfirmed facts that the block as a whole rests on.
+    pub(super) fn block_facts(&mut self, reading: &mut Reading<'b, '_>, axes: bool) {
+        let span = reading.span;
+        let mine = |role| reading.items.iter().find_map(|item| word_in(item, role));
+        if mine(Role::ArcI).or(mine(Role::ArcJ)).or(mine(Role::ArcK)).is_some() {
+            let _ = self.rely("arc.centre", span);
+        }
+        if let Some(radius) = mine(Role::ArcRadius) {
+            let negative = matches!(radius, Expr::Negate(_)) || radius.constant().is_some_and(|r| r < 0.0);
+            let _ = self.rely(if negative { "arc.radius.negative" } else { "arc.radius.positive" }, span);
+        }
+        if reading.assigned.iter().any(|(var, _)| reading.read.contains(var)) {
+            let _ = self.rely("block.assigns.first", span);
+        }
+        let codes = reading.codes;
+        if codes.has(Op::RotateOn) {
+            let _ = self.rely("rotation.direction", span);
+            if self.in_cycle() {
+                let _ = self.rely("rotation.runs.cycle", span);
+            }
+        }
+        if codes.has(Op::ReferenceReturn) && !axes {
+            let _ = self.rely("reference.all.axes", span);
+        }
+        self.cycle_facts(reading, axes);
+    }
+
+    fn cycle_facts(&mut self, reading: &mut Reading<'b, '_>, axes: bool) {
+        let span = reading.span;
+        let codes = reading.codes;
+        let plane = reading
+            .items
+            .iter()
+            .any(|item| matches!(item, NcItem::Word(Role::X | Role::Y | Role::A | Role::B | Role::C, _)));
+        let incremental = codes.has(Op::Incremental)
+            || (!codes.has(Op::Absolute) && self.state.incremental.list().contains(&true));
+        match codes.motion() {
+            Some(row) if row.op.is_cycle() => {
+                if plane {
+                    let _ = self.rely("cycle.block.runs", span);
+                } else if !codes.has(Op::CycleHere) {
+                    let _ = self.rely("cycle.runs.without.axes", span);
+                }
+                let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
+                if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
+                    let _ = self.rely("cycle.r0.kept", span);
+                    let r0 = Expr::Var(Var { class: Class::Parametric, number: 0 });
+                    reading.items.push(NcItem::Word(Role::CycleR, r0));
+                }
+                if incremental {
+                    let _ = self.rely("cycle.planes.frozen", span);
+                }
+            }
+            None if axes && incremental && self.in_cycle() => {
+                let _ = self.rely("cycle.planes.frozen", span);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn word_in(item: &NcItem, role: Role) -> Option<&Expr> {
+    match item {
+        NcItem::Word(found, value) if *found == role => Some(value),
+        _ => None,
+    }
+}

@@ -1,0 +1,347 @@
+//! Which modal state holds where: forward over the ways that control can take.
+
+use super::shape::{Goal, Shape, goal};
+use super::state::{DEFAULT_PLACES, State, Values};
+use super::steps::{Step, parametric, steps};
+use super::words::{Codes, word};
+use crate::canon::Op;
+use crate::dialect::Control;
+use crate::lower::common::constant;
+use crate::syntax::{Block, Expr, Index, Item, ItemKind, SetOption, VarRef};
+use std::collections::BTreeSet;
+
+/// The modal state at the head of every run of a program.
+#[derive(Debug)]
+pub struct Flow<'b> {
+    blocks: &'b [Block],
+    control: &'b Control,
+    shape: &'b Shape,
+    at: Vec<Option<State>>,
+    returned: Vec<Option<State>>,
+    modal_subs: Vec<usize>,
+    calling: BTreeSet<usize>,
+    work: BTreeSet<usize>,
+}
+
+impl<'b> Flow<'b> {
+    /// Follows all ways through a program.
+    pub fn new(blocks: &'b [Block], control: &'b Control, shape: &'b Shape) -> Self {
+        let mut flow = Self {
+            blocks,
+            control,
+            shape,
+            at: vec![None; shape.leaders.len()],
+            returned: vec![None; shape.subs.len()],
+            modal_subs: Vec::new(),
+            calling: BTreeSet::new(),
+            work: BTreeSet::new(),
+        };
+        // The definitions at the head are jumped over.
+        let defined = shape.subs.first().is_some_and(|sub| sub.blocks.start == 0);
+        flow.reach(if defined { shape.main } else { 0 }, &State::entry());
+        while let Some(run) = flow.work.pop_first() {
+            flow.run(run);
+        }
+        flow
+    }
+
+    /// The state at the head of the run that begins at this block; none where no run does.
+    /// A run that nothing reaches has a state in which nothing was set.
+    pub fn at(&self, block: usize) -> Option<State> {
+        let run = self.shape.leaders.binary_search(&block).ok()?;
+        Some(self.at.get(run).cloned().flatten().unwrap_or_default())
+    }
+
+    /// The state behind a block that leaves the flow alone.
+    pub fn behind(&mut self, block: &Block, state: State) -> State {
+        let keep = state.clone();
+        self.block(block, None, state).unwrap_or(keep)
+    }
+
+    /// The constants that a subroutine call's value may be.
+    pub fn constants(value: &Expr, state: &State) -> Values<u64> {
+        match (constant(value), parametric(value)) {
+            (Some(value), _) => Values::one(value.to_bits()),
+            (None, Some((number, false))) => {
+                state.r.get(number as usize).cloned().unwrap_or_else(Values::any)
+            }
+            _ => Values::any(),
+        }
+    }
+
+    fn run(&mut self, run: usize) {
+        let Some(mut state) = self.at.get(run).cloned().flatten() else { return };
+        let start = self.shape.leaders.get(run).copied().unwrap_or(0);
+        let end = self.shape.leaders.get(run + 1).copied().unwrap_or(self.blocks.len());
+        for at in start..end {
+            let Some(block) = self.blocks.get(at) else { return };
+            let Some(next) = self.block(block, Some((run, at)), state) else { return };
+            state = next;
+        }
+        match self.shape.region(end.saturating_sub(1)) {
+            // What stands before the subroutines goes on at the main part.
+            None if end < self.shape.main => self.reach(self.shape.main, &state),
+            Some(sub) if self.shape.region(end) != Some(sub) => self.give_back(sub, &state),
+            _ => self.reach(end, &state),
+        }
+    }
+
+    fn reach(&mut self, block: usize, state: &State) {
+        let Ok(run) = self.shape.leaders.binary_search(&block) else { return };
+        let Some(slot) = self.at.get_mut(run) else { return };
+        let changed = match slot {
+            Some(old) => old.join(state),
+            None => {
+                *slot = Some(state.clone());
+                true
+            }
+        };
+        if changed {
+            self.work.insert(run);
+        }
+    }
+
+    fn give_back(&mut self, sub: usize, state: &State) {
+        let Some(slot) = self.returned.get_mut(sub) else { return };
+        let changed = match slot {
+            Some(old) => old.join(state),
+            None => {
+                *slot = Some(state.clone());
+                true
+            }
+        };
+        if changed {
+            self.work.extend(&self.calling);
+        }
+    }
+
+    /// The state behind a block; none where control does not go on there. `run` is
+    /// given while the ways are followed, none when they are known.
+    fn block(&mut self, block: &Block, run: Option<(usize, usize)>, state: State) -> Option<State> {
+        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        let before = skipped.then(|| state.clone());
+        let behind = self.items(&block.items, run, state, 0);
+        match (before, behind) {
+            (Some(mut before), Some(behind)) => {
+                before.join(&behind);
+                Some(before)
+            }
+            (before, behind) => behind.or(before),
+        }
+    }
+
+    fn items(
+        &mut self,
+        items: &[Item],
+        run: Option<(usize, usize)>,
+        mut state: State,
+        depth: u8,
+    ) -> Option<State> {
+        for item in items {
+            match &item.kind {
+                ItemKind::Goto(target) => {
+                    if let (Some(goal), Some(_)) = (goal(target), run) {
+                        self.jump(&goal, &state);
+                    }
+                    return None;
+                }
+                ItemKind::Start(_) => return None,
+                ItemKind::If { body, .. } if depth < 16 => {
+                    if let Some(done) = self.items(body, run, state.clone(), depth + 1) {
+                        state.join(&done);
+                    }
+                }
+                kind => statement(kind, &mut state),
+            }
+        }
+        if items.iter().any(|item| word(item).is_some()) {
+            return self.words(items, run, state);
+        }
+        Some(state)
+    }
+
+    fn jump(&mut self, goal: &Goal, state: &State) {
+        if let Some((at, _)) = self.shape.goals.get(goal).copied() {
+            self.reach(at, state);
+        }
+    }
+
+    fn words(&mut self, items: &[Item], run: Option<(usize, usize)>, mut state: State) -> Option<State> {
+        let codes = Codes::new(items, self.control);
+        state.set_motion(codes.interpolation(), codes.cycle());
+        for row in codes.known() {
+            match row.op {
+                Op::Absolute => state.incremental = Values::one(false),
+                Op::Incremental => state.incremental = Values::one(true),
+                Op::CallModalOff => state.modal = false,
+                _ => {}
+            }
+        }
+        let axis = |letter| self.control.role(letter, false, None).is_some_and(crate::canon::Role::is_axis);
+        let moves = items.iter().filter_map(word).any(|word| axis(word.letter));
+        state.moved |= moves;
+        // A move behind a cycle spells its interpolation out, see `motion`.
+        let spells = moves && codes.motion().is_none() && !codes.takes_axes() && state.cycle.list() == [0];
+        if spells && !state.motion_entry && state.motion.list().len() == 1 {
+            state.after_cycle = false;
+            state.resumed = false;
+        }
+        if state.modal && (moves || codes.has(Op::CycleHere)) {
+            for sub in self.modal_subs.clone() {
+                self.call(sub, false, run, &mut state);
+            }
+        }
+        // A register code: which variable it writes is the table's, not told apart here.
+        if codes.known().any(|row| matches!(row.op, Op::WriteVariable | Op::ReadOffset)) {
+            state.r = std::array::from_fn(|_| Values::any());
+        }
+        let modal = codes.has(Op::CallModal);
+        for step in steps(items, &codes) {
+            match step {
+                Step::Local(value) => {
+                    let subs = self.callees(value, &state);
+                    if modal {
+                        state.modal = true;
+                        subs.iter().for_each(|sub| {
+                            if !self.modal_subs.contains(sub) {
+                                self.modal_subs.push(*sub);
+                            }
+                        });
+                        continue;
+                    }
+                    let again = constant(value).is_none_or(|value| value % 100.0 != 1.0);
+                    state = self.call_any(&subs, again, run, state)?;
+                }
+                Step::Program => state.called(),
+                Step::SubEnd => {
+                    if let Some((sub, _)) = run.and_then(|(_, at)| Some((self.shape.region(at)?, ()))) {
+                        self.give_back(sub, &state);
+                    }
+                    return None;
+                }
+                Step::Return => {
+                    if let (Some(goal), Some(_)) = (super::calls::return_goal(items, &codes), run) {
+                        self.jump(&goal, &state);
+                    }
+                    return None;
+                }
+                Step::AreaEnd | Step::End => return None,
+                Step::Define(_) | Step::ModalOff => {}
+            }
+        }
+        Some(state)
+    }
+
+    fn callees(&self, value: &Expr, state: &State) -> Vec<usize> {
+        let values = Self::constants(value, state);
+        if values.is_any() {
+            return self.shape.numbers.values().copied().collect();
+        }
+        let number = |bits: &u64| (f64::from_bits(*bits) / 100.0).floor();
+        let subs = values.list().iter().map(number).filter(|n| (0.0..100.0).contains(n));
+        let mut subs: Vec<usize> = subs.filter_map(|number| self.shape.sub(number as u32)).collect();
+        subs.dedup();
+        subs
+    }
+
+    fn call_any(
+        &mut self,
+        subs: &[usize],
+        again: bool,
+        run: Option<(usize, usize)>,
+        state: State,
+    ) -> Option<State> {
+        if subs.is_empty() {
+            // A subroutine that the control keeps, or none: refused or reviewed where it is lowered.
+            let mut state = state;
+            state.called();
+            return Some(state);
+        }
+        let mut behind: Option<State> = None;
+        for sub in subs {
+            let mut entered = state.clone();
+            if self.call(*sub, again, run, &mut entered) {
+                match &mut behind {
+                    Some(behind) => drop(behind.join(&entered)),
+                    None => behind = Some(entered),
+                }
+            }
+        }
+        behind
+    }
+
+    /// Runs a subroutine on the state. False where it is not known yet to return.
+    fn call(&mut self, sub: usize, again: bool, run: Option<(usize, usize)>, state: &mut State) -> bool {
+        if let (Some((run, _)), Some(entry)) = (run, self.shape.subs.get(sub)) {
+            let entry = entry.blocks.start;
+            self.calling.insert(run);
+            // A repeat is entered from the one before it.
+            let mut first = state.clone();
+            if again && let Some(Some(returned)) = self.returned.get(sub) {
+                first.join(returned);
+            }
+            self.reach(entry, &first);
+        }
+        match self.returned.get(sub) {
+            Some(Some(returned)) => {
+                *state = returned.clone();
+                true
+            }
+            _ => false,
+        }
+    }
+}
+
+fn statement(kind: &ItemKind, state: &mut State) {
+    match kind {
+        ItemKind::Assign { target, value, .. } => {
+            let constant = constant(value).map(f64::to_bits);
+            let copied = parametric(value).filter(|(_, minus)| !minus);
+            let values = match (constant, copied) {
+                (Some(bits), _) => Values::one(bits),
+                (None, Some((number, _))) => {
+                    state.r.get(number as usize).cloned().unwrap_or_else(Values::any)
+                }
+                _ => Values::any(),
+            };
+            set(target, values, state);
+        }
+        ItemKind::Input { targets, .. } => {
+            targets.iter().for_each(|target| set(target, Values::any(), state));
+            state.moved = false;
+        }
+        ItemKind::Wait => state.moved = false,
+        ItemKind::Set(options) => {
+            if options.is_empty() {
+                state.radians = Values::one(false);
+                state.radians_outside = false;
+                state.places = Values::one(DEFAULT_PLACES);
+            }
+            for option in options {
+                match option {
+                    SetOption::Degrees | SetOption::Radians => {
+                        state.radians = Values::one(*option == SetOption::Radians);
+                        state.radians_outside = false;
+                    }
+                    SetOption::Round(places) => state.places = Values::one(*places),
+                    SetOption::Debug | SetOption::Run => {}
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn set(target: &VarRef, values: Values<u64>, state: &mut State) {
+    if target.name != "R" {
+        return;
+    }
+    match target.index {
+        Index::Number(number) => {
+            if let Some(slot) = state.r.get_mut(number as usize) {
+                *slot = values;
+            }
+        }
+        _ => state.r = std::array::from_fn(|_| Values::any()),
+    }
+}

@@ -1,0 +1,40 @@
+//! Fadal to IR.
+//!
+//! A program is NC blocks and macro lines (`#`). Subroutines stand at its head
+//! (`L100` .. `M17` .. `M30`) and become blocks of the same program; the first
+//! block jumps over them. Angle unit, places of rounding and motion mode are
+//! modal on this control: `flow` follows them over all ways through the program
+//! first, so that each block is lowered knowing what holds there.
+
+mod block;
+mod calls;
+mod condition;
+mod expr;
+mod facts;
+mod flow;
+mod motion;
+mod program;
+mod shape;
+mod state;
+mod statement;
+mod steps;
+#[cfg(test)]
+mod tests;
+mod tidy;
+mod value;
+mod variable;
+mod words;
+
+use super::Lowered;
+use super::common::programs;
+use crate::dialect::Control;
+use crate::syntax::{ItemKind, ParsedFile};
+use std::collections::BTreeMap;
+
+/// Lowers all programs of a file; see [`super::Lower`].
+pub fn lower(parsed: &ParsedFile<'_>, file: usize, _name: &str, control: &Control) -> Lowered {
+    let tape = parsed.blocks.iter().flat_map(|block| &block.items).any(|item| item.kind == ItemKind::Tape);
+    let texts = programs(&parsed.blocks);
+    let programs = texts.iter().map(|text| program::lower(text, parsed.source, file, control)).collect();
+    Lowered { programs, names: BTreeMap::new(), tape }
+}

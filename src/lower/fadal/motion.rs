@@ -1,0 +1,159 @@
+//! How a block moves when it does not say so itself.
+
+use super::program::Lowering;
+use super::words::{Codes, thousandths};
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::CodeMeaning;
+use crate::text::Span;
+
+/// What a block's words show of its kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Move {
+    /// True where an axis word makes it a move of the motion mode.
+    pub axes: bool,
+    /// True where an arc's centre or radius is written.
+    pub centre: bool,
+}
+
+impl<'b> Lowering<'b> {
+    /// The meanings that the motion mode may have before the block.
+    fn modes(&self, codes: &Codes<'b, 'b>) -> Vec<&'b CodeMeaning> {
+        self.state.motion.list().iter().filter_map(|code| codes.modal(*code)).collect()
+    }
+
+    /// The motion mode that gives letters their roles, where the block has no motion
+    /// code: an active cycle, else an arc.
+    pub fn modal_row(&self, codes: &Codes<'b, 'b>) -> Option<&'b CodeMeaning> {
+        if codes.motion().is_some() || codes.takes_axes() {
+            return None;
+        }
+        let cycles = self.state.cycle.list().iter().filter(|code| **code != 0);
+        let cycle = cycles.filter_map(|code| codes.modal(*code)).next();
+        cycle.or_else(|| self.modes(codes).iter().copied().find(|row| is_arc(row.op)))
+    }
+
+    /// True where a drilling cycle may be active before the block.
+    pub fn in_cycle(&self) -> bool {
+        self.state.cycle.list().iter().any(|code| *code != 0)
+    }
+
+    /// The operation to write before the words of a block, and whether the arc code of the
+    /// block itself is dropped for it. A block under an arc mode without centre and radius
+    /// is straight here, so the common form spells out each block under an arc mode.
+    pub fn spell_motion(&mut self, codes: &Codes<'b, 'b>, shown: Move, span: Span) -> Option<Spelling> {
+        if let Some(row) = codes.motion() {
+            if codes.interpolation().is_some() && codes.cycle().is_none() && self.in_cycle() {
+                let _ = self.rely("cycle.ends.by.motion", span);
+            }
+            if !is_arc(row.op) {
+                if shown.centre {
+                    return self.no_arc(span);
+                }
+                return Some(Spelling::default());
+            }
+            if shown.centre {
+                return Some(Spelling::default());
+            }
+            // The mode is set; what it means is spelled out with each block.
+            let op = if shown.axes { Some(self.straight(span)?) } else { None };
+            return Some(Spelling { op, drop: thousandths(row) });
+        }
+        let other = codes.takes_axes() || codes.has(Op::MachineOnce);
+        if other || !(shown.axes || shown.centre) {
+            return if shown.centre { self.no_arc(span) } else { Some(Spelling::default()) };
+        }
+        let cycles = self.state.cycle.list();
+        let mixed = self.in_cycle() && cycles.contains(&0);
+        if self.in_cycle() && !mixed {
+            return if shown.centre { self.no_arc(span) } else { Some(Spelling::default()) };
+        }
+        if self.state.motion.is_any() {
+            return self.conflict(span, "too many motion modes may be in force here");
+        }
+        let modes = self.modes(codes);
+        let arcs: Vec<Op> = modes.iter().map(|row| row.op).filter(|op| is_arc(*op)).collect();
+        if mixed && !arcs.is_empty() {
+            return self.conflict(span, "an arc mode or a drilling cycle may be in force here");
+        }
+        if arcs.is_empty() {
+            if self.state.motion_entry && shown.centre {
+                return self.conflict(span, "the caller's motion mode decides which way this arc goes");
+            }
+            if shown.centre && !modes.is_empty() && !mixed {
+                return self.no_arc(span);
+            }
+            if self.state.motion_entry {
+                let message =
+                    "moves in the motion mode of its caller; under an arc mode it would be straight";
+                self.once(Code::ModalAssumed, "entry", span, message.into());
+            }
+            return Some(self.after_cycle(&modes, span));
+        }
+        if self.state.motion_entry {
+            return self.conflict(span, "an arc mode or the caller's motion mode may be in force here");
+        }
+        if self.state.motion_called {
+            let message = "takes it that the programs called since G2 or G3 leave the motion mode as it was";
+            self.once(Code::ModalAssumed, "called", span, message.into());
+        }
+        if shown.centre {
+            return match (arcs.as_slice(), modes.len()) {
+                ([arc], 1) => Some(Spelling { op: Some(*arc), drop: None }),
+                _ => self.conflict(span, "several motion modes may be in force here"),
+            };
+        }
+        if modes.iter().any(|row| !is_arc(row.op) && row.op != Op::Linear) {
+            return self.conflict(span, "several motion modes may be in force here");
+        }
+        Some(Spelling { op: Some(self.straight(span)?), drop: None })
+    }
+
+    /// Behind the end of a cycle the interpolation from before it is in force again; it is
+    /// spelled out, since a cycle and the interpolation are one group elsewhere.
+    fn after_cycle(&mut self, modes: &[&'b CodeMeaning], span: Span) -> Spelling {
+        if !self.state.after_cycle {
+            return Spelling::default();
+        }
+        if self.state.resumed {
+            let _ = self.rely("motion.after.cycle", span);
+        }
+        match modes {
+            [row] if !self.state.motion_entry => Spelling { op: Some(row.op), drop: None },
+            _ => Spelling::default(),
+        }
+    }
+
+    /// A block under an arc mode without centre and radius.
+    fn straight(&mut self, span: Span) -> Option<Op> {
+        if self.rely("arc.without.centre", span) != Some("straight") {
+            return self.refuse(span, "an arc without centre and radius");
+        }
+        self.spelled_out = true;
+        Some(Op::Linear)
+    }
+
+    fn no_arc<T>(&mut self, span: Span) -> Option<T> {
+        self.refuse(span, "the centre or radius of an arc in a block that is none")
+    }
+
+    fn conflict<T>(&mut self, span: Span, message: &str) -> Option<T> {
+        let help = "write the motion code in the block";
+        self.findings.add(Diagnostic::new(Code::ModalConflict, span, message).with_help(help));
+        None
+    }
+}
+
+/// How a block's motion is written in the common form.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spelling {
+    /// The operation that goes before the block's words.
+    pub op: Option<Op>,
+    /// The code of the block that is left out.
+    pub drop: Option<u32>,
+}
+
+/// True for an arc.
+pub fn is_arc(op: Op) -> bool {
+    matches!(op, Op::ArcCw | Op::ArcCcw | Op::ArcTangent)
+}

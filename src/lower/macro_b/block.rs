@@ -1,0 +1,228 @@
+//! One block: its label, its block skip, its statements in order.
+
+use super::Lowering;
+use super::split::Piece;
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::ir::{Cond, Remark, Site, StmtKind, TermKind};
+use crate::lower::common::{remark_text, site_of};
+use crate::syntax::{Block, Item, ItemKind, Label, Word, for_each_item};
+use crate::text::Span;
+use smallvec::SmallVec;
+
+/// The words of a block, in order.
+pub(super) type Words<'w> = SmallVec<[(&'w Word, Span); 12]>;
+
+/// The site of a block, with the comments behind a THEN.
+pub(super) fn site(block: &Block, source: &[u8]) -> Site {
+    let mut site = site_of(block, source);
+    for item in &block.items {
+        if let ItemKind::If { body, .. } = &item.kind {
+            for_each_item(body, &mut |item| {
+                if let ItemKind::Comment(comment) = &item.kind {
+                    let text = remark_text(comment.text, source);
+                    site.remarks.push(Remark { text, leading: false });
+                }
+            });
+        }
+    }
+    site
+}
+
+/// True for what a block does, as against its number, its comments and its framing.
+pub(super) fn acts(item: &Item) -> bool {
+    !matches!(
+        item.kind,
+        ItemKind::Skip(_)
+            | ItemKind::Tape
+            | ItemKind::EndOfBlock
+            | ItemKind::Program(_)
+            | ItemKind::Sequence { .. }
+            | ItemKind::Comment(_)
+    )
+}
+
+impl<'a> Lowering<'a> {
+    /// All blocks of the program.
+    pub(super) fn body(&mut self, piece: &Piece) {
+        let parsed = self.parsed;
+        if piece.head.is_none() && piece.name.is_none() {
+            for &index in &piece.leading {
+                if let Some(block) = parsed.blocks.get(index).filter(|_| piece.body.is_empty()) {
+                    self.builder.push(StmtKind::Remark, site(block, self.source));
+                }
+            }
+        }
+        let first = parsed.blocks.get(piece.body.start).map_or(0, |block| block.span.start);
+        let mut line = parsed.lines.partition_point(|line| line.end.end <= first);
+        for at in piece.body.clone() {
+            let Some(block) = parsed.blocks.get(at) else { break };
+            while let Some(before) = parsed.lines.get(line).filter(|l| l.end.end <= block.span.start) {
+                // A line with nothing on it has no block; the reader of the program sees it all the same.
+                if before.text.is_empty() && before.text.start >= first {
+                    self.builder.push(StmtKind::Remark, Site { span: before.text, ..Site::default() });
+                }
+                line += 1;
+            }
+            self.at = at;
+            self.block(block, piece.head == Some(at));
+        }
+        self.close_loops();
+    }
+
+    fn block(&mut self, block: &'a Block, is_head: bool) {
+        for error in &block.errors {
+            self.findings.add(Diagnostic::new(error.code, error.span, error.message.clone()));
+        }
+        if let Some((number, id)) = self.labels.of_block(self.at) {
+            self.builder.start(id);
+            self.builder.label(Label::Number(number));
+            self.motion.joined = true;
+        }
+        let mut site = site(block, self.source);
+        if is_head {
+            // They are the program's.
+            site.remarks.clear();
+        }
+        if block.items.iter().any(|item| matches!(item.kind, ItemKind::Sequence { inserted: true, .. })) {
+            self.findings.not_understood(block.span, "'N+' is no sequence number here");
+        }
+        let refused = block.errors.iter().any(|error| error.code.severity() == Severity::Error);
+        let loops = |item: &Item| matches!(item.kind, ItemKind::Do { .. } | ItemKind::End { .. });
+        if refused && !block.items.iter().any(loops) {
+            return self.builder.push(StmtKind::Remark, site);
+        }
+        let Some(first) = block.items.iter().position(acts) else {
+            if !is_head || site.sequence.is_some() {
+                self.builder.push(StmtKind::Remark, site);
+            }
+            return;
+        };
+        let number = block.items.iter().position(|item| matches!(item.kind, ItemKind::Sequence { .. }));
+        if number.is_some_and(|at| at > first) && !self.findings.is("sequence.anywhere", site.span) {
+            self.findings.not_understood(site.span, "the sequence number must stand first in its block");
+        }
+        let skips = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        if skips { self.skipping(block, first, site) } else { self.items(&block.items, &site) }
+    }
+
+    /// A block with a block skip.
+    fn skipping(&mut self, block: &'a Block, first: usize, mut site: Site) {
+        let items = block.items.as_slice();
+        let mut head: SmallVec<[u8; 2]> = SmallVec::new();
+        let mut middle: SmallVec<[(usize, u8); 2]> = SmallVec::new();
+        for (index, item) in items.iter().enumerate() {
+            let ItemKind::Skip(level) = item.kind else { continue };
+            let level = level.unwrap_or(1);
+            if !(1..=9).contains(&level) {
+                self.findings.not_understood(item.span, "the level of a block skip is 1 to 9");
+            }
+            let level = level.clamp(1, 9);
+            if level > 1 && !self.findings.is("skip.levels", item.span) {
+                self.unknown_behaviour("skip.levels", item.span);
+            }
+            if index < first { head.push(level) } else { middle.push((index, level)) }
+        }
+        site.skip = None;
+        let loops = items.iter().any(|i| matches!(i.kind, ItemKind::Do { .. } | ItemKind::End { .. }));
+        if loops || head.len() > 1 || middle.len() > 1 || (!head.is_empty() && !middle.is_empty()) {
+            let message =
+                "this use of the block skip has no one meaning: a loop or a second skip stands with it";
+            self.findings.add(Diagnostic::new(Code::SkipUnclear, block.span, message));
+            return self.builder.push(StmtKind::Remark, site);
+        }
+        if let Some(&(index, level)) = middle.first() {
+            let place = items.get(index).map_or(block.span, |item| item.span);
+            if !self.findings.is("skip.midblock", place) {
+                self.unknown_behaviour("skip.midblock", place);
+            }
+            // Values and switch are read when the block begins: one block with all words, one without
+            // those behind the sign.
+            let before = items.get(..index).unwrap_or_default();
+            return self.on_switch(level, &site, Some(before), items);
+        }
+        let Some(&level) = head.first() else { return };
+        if self.leaves(items) {
+            self.on_switch(level, &site, None, items);
+        } else {
+            site.skip = Some(level);
+            self.items(items, &site);
+        }
+    }
+
+    /// Some items where the switch is on (none: straight on), others where it is off.
+    fn on_switch(&mut self, level: u8, site: &Site, on: Option<&'a [Item]>, off: &'a [Item]) {
+        let (no, next) = (self.builder.fresh(), self.builder.fresh());
+        let yes = if on.is_some() { self.builder.fresh() } else { next };
+        let before = self.motion;
+        self.builder.end(TermKind::Branch { cond: Cond::Switch(level), yes, no }, site.clone());
+        self.builder.start(no);
+        self.items(off, site);
+        let after_off = self.motion;
+        if let Some(on) = on {
+            if self.builder.is_open() {
+                self.builder.end(TermKind::Jump(next), Site::default());
+            }
+            self.motion = before;
+            self.builder.start(yes);
+            self.items(on, site);
+        } else {
+            self.motion = before;
+        }
+        self.motion.joined |= after_off.joined || self.motion.code != after_off.code;
+        self.builder.start(next);
+    }
+
+    /// True where the items do more than statements can that lie in one basic block.
+    fn leaves(&mut self, items: &[Item]) -> bool {
+        items.iter().any(|item| match &item.kind {
+            ItemKind::Goto(_) | ItemKind::If { .. } => true,
+            ItemKind::Word(word) => self.flow_code(word).is_some(),
+            _ => false,
+        })
+    }
+
+    /// The items of a block, or those behind a THEN, in order.
+    pub(super) fn items(&mut self, items: &'a [Item], site: &Site) {
+        let mut words = Words::new();
+        let (mut groups, mut assigns) = (0u32, 0u32);
+        for (index, item) in items.iter().enumerate() {
+            if !acts(item) {
+                continue;
+            }
+            if let ItemKind::Word(word) = &item.kind {
+                groups += u32::from(words.is_empty());
+                words.push((word, item.span));
+                continue;
+            }
+            if !words.is_empty() {
+                self.words(&std::mem::take(&mut words), site);
+            }
+            groups += 1;
+            assigns += u32::from(matches!(item.kind, ItemKind::Assign { .. }));
+            self.statement(item, items.get(index + 1..).unwrap_or_default(), site);
+        }
+        if !words.is_empty() {
+            self.words(&words, site);
+        }
+        if groups > 1 {
+            let question = if groups == assigns { "assign.shares.block" } else { "statement.shares.block" };
+            match self.findings.behaviour(question, site.span) {
+                Some("true") => {}
+                Some(_) if self.control.behaviour(question).is_some_and(|row| row.origin.confirmed) => {
+                    let message = "the control takes one statement in a block, and none beside words";
+                    self.findings.not_understood(site.span, message);
+                }
+                // Real programs do it; that it is so is said already.
+                Some(_) => {}
+                None => self.unknown_behaviour(question, site.span),
+            }
+        }
+    }
+
+    /// Says that the construct rests on a question that the table does not answer.
+    pub(super) fn unknown_behaviour(&mut self, name: &str, span: Span) {
+        let note = self.control.behaviour(name).and_then(|row| row.origin.note.as_deref());
+        let meaning = crate::dialect::behaviours::find(name).map(|question| question.meaning);
+        self.findings.unconfirmed(format!("behaviour:{name}"), note.or(meaning), span);
+    }
+}

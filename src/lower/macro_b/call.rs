@@ -1,0 +1,293 @@
+//! Calls: of programs, of parts of this program, of macros with arguments, and the
+//! codes that a machine profile makes call programs.
+
+use super::Lowering;
+use super::block::Words;
+use super::codes::CodeId;
+use super::expr::At;
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Alias, CodeMeaning};
+use crate::ir::eval::whole;
+use crate::ir::{BinOp, Call, Callee, Expr, Site, StmtKind, TermKind};
+use crate::syntax::{ProgramName, Word};
+use crate::text::Span;
+
+/// A code that leaves the block, and where it stands among the words.
+#[derive(Clone, Copy)]
+pub(super) struct Flow<'a> {
+    pub row: &'a CodeMeaning,
+    pub at: usize,
+}
+
+/// The words of a block with a call: those of the call, and the others.
+pub(super) struct Parts<'a> {
+    own: Vec<(Role, &'a Word, Span)>,
+    /// The words that are not the call's.
+    pub rest: Words<'a>,
+}
+
+impl<'a> Lowering<'a> {
+    /// The words of a block: a call or a jump with the words beside it, or NC words.
+    pub(super) fn words(&mut self, words: &Words<'a>, site: &Site) {
+        let mut found =
+            words.iter().enumerate().filter_map(|(at, (word, _))| Some((at, self.flow_code(word)?)));
+        let (first, second) = (found.next(), found.next());
+        match (first, second) {
+            (None, _) => self.nc(words, site),
+            // Behind a macro call M30. is an argument.
+            (Some((at, id)), second) if second.is_none() || self.takes_arguments(id) => {
+                self.flow_word(id, at, words, site);
+            }
+            _ => {
+                let message = "two codes of this block each leave it, and only one can";
+                self.findings.not_understood(site.span, message);
+            }
+        }
+    }
+
+    /// The code of a word that calls, jumps or ends.
+    pub(super) fn flow_code(&mut self, word: &Word) -> Option<CodeId> {
+        let id = self.constant_code(word)?;
+        let code = self.codes.get(id)?;
+        if code.alias.is_some() {
+            // In a program that a code calls, the codes that call programs are plain ones.
+            return (!self.aliased || self.control.is("call.alias.nested")).then_some(id);
+        }
+        code.row.is_some_and(|row| row.op.is_flow()).then_some(id)
+    }
+
+    fn takes_arguments(&self, id: CodeId) -> bool {
+        self.codes.get(id).is_some_and(|code| match code.alias {
+            Some(alias) => alias.arguments,
+            None => code.row.is_some_and(|row| matches!(row.op, Op::CallMacro | Op::CallModal)),
+        })
+    }
+
+    fn flow_word(&mut self, id: CodeId, at: usize, words: &Words<'a>, site: &Site) {
+        let Some(code) = self.codes.get(id) else { return };
+        if let Some(alias) = code.alias {
+            return self.alias_call(alias, at, words, site);
+        }
+        let Some(row) = self.row_beside(id, words) else { return };
+        self.rest_on_code(id, row, words.get(at).map_or(site.span, |(_, span)| *span));
+        let flow = Flow { row, at };
+        match row.op {
+            Op::CallMacro | Op::CallModal => self.macro_call(flow, words, site),
+            Op::CallModalOff => {
+                self.builder.push(StmtKind::ModalCallOff, site.clone());
+                let mut rest = words.clone();
+                rest.remove(at);
+                if !rest.is_empty() {
+                    let message =
+                        "words stand beside the end of a modal call; they are taken to act after it";
+                    self.findings.add(Diagnostic::new(Code::WordsBesideCall, site.span, message));
+                    self.nc(&rest, site);
+                }
+            }
+            Op::CallProgram | Op::CallLocal => self.program_call(flow, words, site),
+            Op::Return => self.returning(flow, words, site),
+            Op::JumpInputOff => self.jump_on_input(flow, words, site),
+            Op::End | Op::EndRewind => self.ending(flow, words, site),
+            _ => {
+                let message = format!("{} has no counterpart in the common form", row.code);
+                self.findings.not_understood(site.span, message);
+            }
+        }
+    }
+
+    /// Sorts the words of a block with a call: those whose role beside it is one of `roles`, and the rest.
+    pub(super) fn parts(&mut self, flow: Flow<'a>, words: &Words<'a>, roles: &[Role]) -> Parts<'a> {
+        let mut parts = Parts { own: Vec::new(), rest: Words::new() };
+        for (at, &(word, span)) in words.iter().enumerate() {
+            let explicit = (!word.comma)
+                .then(|| flow.row.words.get(word.letter.encode_utf8(&mut [0; 4]) as &str))
+                .flatten()
+                .copied();
+            match explicit.or_else(|| usual(flow.row.op, word.letter)) {
+                _ if at == flow.at => {}
+                Some(role) if roles.contains(&role) => {
+                    if parts.own.iter().any(|(other, _, _)| *other == role) {
+                        self.findings.not_understood(span, format!("{} stands twice", word.letter));
+                    }
+                    parts.own.push((role, word, span));
+                }
+                _ => parts.rest.push((word, span)),
+            }
+        }
+        parts
+    }
+
+    /// The value of a call's word.
+    pub(super) fn part(&mut self, parts: &Parts<'a>, role: Role) -> Option<Expr> {
+        let (_, word, span) = parts.own.iter().find(|(other, _, _)| *other == role)?;
+        match &word.value {
+            Some(value) => Some(self.expr(value, At::Word(role))),
+            None => {
+                self.findings.not_understood(*span, format!("{} has no value", word.letter));
+                None
+            }
+        }
+    }
+
+    fn count(&mut self, parts: &Parts<'a>, site: &Site) -> Option<Expr> {
+        let count = match self.part(parts, Role::CallCount) {
+            Some(count) => count,
+            None => match self.part(parts, Role::CallAgain)? {
+                Expr::Number(again) => Expr::Number(again + 1.0),
+                again => Expr::Binary(BinOp::Add, Box::new(again), Box::new(Expr::Number(1.0))),
+            },
+        };
+        if count.constant() == Some(0.0) {
+            match self.findings.behaviour("repeat.zero", site.span) {
+                Some("once") => return None,
+                Some(_) => {}
+                None => self.unknown_behaviour("repeat.zero", site.span),
+            }
+        }
+        (count != Expr::Number(1.0)).then_some(count)
+    }
+
+    /// `M98`, `M97`: no new level of locals; the words beside it act first.
+    fn program_call(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+        let roles = [Role::Program, Role::Sequence, Role::CallCount, Role::CallAgain];
+        let parts = self.parts(flow, words, &roles);
+        let mut count = self.count(&parts, site);
+        let program = self.part(&parts, Role::Program);
+        let sequence = self.part(&parts, Role::Sequence);
+        let callee = match (program, sequence) {
+            (Some(program), None) => match program.constant() {
+                Some(number) => {
+                    let (number, digits) = self.repeat_digits(number, &parts, site.span);
+                    count = count.or(digits);
+                    self.program(number, site.span)
+                }
+                None => Some(Callee::Computed(program)),
+            },
+            (None, Some(sequence)) => match sequence.constant().and_then(whole) {
+                Some(number) => Some(Callee::Block(self.target(number, site.span))),
+                None => {
+                    self.findings
+                        .not_understood(site.span, "the block that is called is known only at run time");
+                    None
+                }
+            },
+            (Some(_), Some(_)) => {
+                self.findings.not_understood(site.span, "a call into the middle of another program");
+                None
+            }
+            (None, None) => {
+                self.findings
+                    .not_understood(site.span, format!("{} does not say what it calls", flow.row.code));
+                None
+            }
+        };
+        self.run_first(&parts, site);
+        let Some(callee) = callee else { return };
+        self.call(Call { callee, level: false, arguments: Vec::new(), count }, false, site);
+    }
+
+    /// On controls that have it, `M98 P68003` calls O8003 six times: digits before the last four
+    /// are the count, unless L gives one.
+    fn repeat_digits(&mut self, number: f64, parts: &Parts<'a>, span: Span) -> (f64, Option<Expr>) {
+        let counted = parts.own.iter().any(|(role, _, _)| matches!(role, Role::CallCount | Role::CallAgain));
+        let Some(row) = self.control.statement("call.repeat.digits") else { return (number, None) };
+        if number < 10_000.0 || counted || number.fract() != 0.0 {
+            return (number, None);
+        }
+        self.findings.rest_on(row, span);
+        let count = (number / 10_000.0).trunc();
+        (number % 10_000.0, (count != 1.0).then_some(Expr::Number(count)))
+    }
+
+    fn program(&mut self, number: f64, span: Span) -> Option<Callee> {
+        match whole(number).filter(|_| number.fract() == 0.0 && number > 0.0) {
+            Some(number) => Some(Callee::Program(ProgramName::Number(number))),
+            None => {
+                self.findings.not_understood(span, format!("{number} is no program number"));
+                None
+            }
+        }
+    }
+
+    /// `G65`, `G66`: a new level of locals, set by the other words of the block.
+    fn macro_call(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+        let modal = flow.row.op == Op::CallModal;
+        let parts = self.parts(flow, words, &[Role::Program, Role::CallCount, Role::CallAgain]);
+        let before = words.iter().take(flow.at).any(|(word, _)| !matches!(word.letter, 'P' | 'L'));
+        if before {
+            let message = "words stand before the macro call, which must come first and alone";
+            self.findings.add(Diagnostic::new(Code::MacroCallNotAlone, site.span, message));
+        }
+        let count = self.count(&parts, site);
+        let Some(program) = self.part(&parts, Role::Program) else {
+            return self
+                .findings
+                .not_understood(site.span, "the macro call has no P: nothing says what it calls");
+        };
+        let callee = match program.constant() {
+            Some(number) => self.program(number, site.span),
+            None => Some(Callee::Computed(program)),
+        };
+        let arguments = self.arguments(&parts.rest);
+        if count.is_some() && !arguments.is_empty() {
+            match self.findings.behaviour("call.repeat.reloads.arguments", site.span) {
+                Some("true") => {}
+                Some(_) => {
+                    let message = "the repeats of this call do not set the arguments again: they see what the pass before left";
+                    self.findings.add(Diagnostic::new(Code::RepeatKeepsLocals, site.span, message));
+                }
+                None => self.unknown_behaviour("call.repeat.reloads.arguments", site.span),
+            }
+        }
+        let Some(callee) = callee else { return };
+        self.call(Call { callee, level: true, arguments, count }, modal, site);
+    }
+
+    /// A code that the machine profile makes call a program.
+    fn alias_call(&mut self, alias: Alias, at: usize, words: &Words<'a>, site: &Site) {
+        let callee = Callee::Program(ProgramName::Number(alias.program));
+        let mut rest = words.clone();
+        rest.remove(at);
+        if !alias.arguments {
+            if !rest.is_empty() {
+                self.nc(&rest, site);
+            }
+            return self.call(Call { callee, level: false, arguments: Vec::new(), count: None }, false, site);
+        }
+        if at > 0 {
+            let message = "words stand before a code that calls a macro, which must come first and alone";
+            self.findings.add(Diagnostic::new(Code::MacroCallNotAlone, site.span, message));
+        }
+        let repeat = rest.iter().position(|(word, _)| word.letter == 'L' && !word.comma);
+        let count = repeat.map(|at| rest.remove(at)).and_then(|(word, _)| {
+            let value = word.value.as_ref()?;
+            Some(self.expr(value, At::Word(Role::CallCount)))
+        });
+        let arguments = self.arguments(&rest);
+        self.call(Call { callee, level: true, arguments, count }, alias.modal, site);
+    }
+
+    fn call(&mut self, call: Call, modal: bool, site: &Site) {
+        // What is called may leave another motion mode behind.
+        self.motion.joined = true;
+        if modal {
+            if self.findings.is("call.modal.block.calls", site.span) {
+                self.findings.not_understood(site.span, "a modal call that calls in its own block");
+            }
+            return self.builder.push(StmtKind::ModalCall(call), site.clone());
+        }
+        self.builder.end_then(site.clone(), |next| TermKind::Call { call, next });
+    }
+}
+
+/// The roles of a call's own letters where its row does not list them.
+fn usual(op: Op, letter: char) -> Option<Role> {
+    match (op, letter) {
+        (Op::CallMacro | Op::CallModal | Op::CallProgram, 'P') => Some(Role::Program),
+        (Op::CallLocal | Op::Return | Op::JumpInputOff, 'P') => Some(Role::Sequence),
+        (Op::JumpInputOff, 'Q') => Some(Role::Input),
+        (Op::CallMacro | Op::CallModal | Op::CallProgram | Op::CallLocal, 'L') => Some(Role::CallCount),
+        _ => None,
+    }
+}

@@ -1,0 +1,222 @@
+//! Expressions.
+
+use super::Lowering;
+use super::cond::is_condition;
+use crate::canon::{Func, Role};
+use crate::ir::{BinOp, Expr};
+use crate::lower::common::constant;
+use crate::syntax::{self, BinaryOp, ExprKind};
+use crate::text::Span;
+
+/// Where an expression stands: ROUND means another thing in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum At {
+    /// In a statement, a condition, a subscript.
+    Value,
+    /// In a word of this role.
+    Word(Role),
+    /// In an argument of a macro call.
+    Argument,
+}
+
+/// How deep expressions may nest; far more than any control allows.
+pub(super) const MAX_DEPTH: u32 = 256;
+
+impl<'a> Lowering<'a> {
+    /// The value of an expression. What has no meaning is reported, and the value is 0.
+    pub(super) fn expr(&mut self, expr: &'a syntax::Expr, at: At) -> Expr {
+        self.expr_at(expr, at, 0)
+    }
+
+    pub(super) fn expr_at(&mut self, expr: &'a syntax::Expr, at: At, depth: u32) -> Expr {
+        if depth > MAX_DEPTH {
+            self.findings.not_understood(expr.span, "the expression nests too deep");
+            return Expr::Number(0.0);
+        }
+        let depth = depth + 1;
+        match &expr.kind {
+            ExprKind::Number(number) if !number.value.is_finite() => {
+                self.findings.not_understood(expr.span, "the number is too large");
+                Expr::Number(0.0)
+            }
+            ExprKind::Number(number) => Expr::Number(number.value),
+            ExprKind::Variable(variable) => self.read(variable, depth),
+            ExprKind::Negate(inner) => match self.expr_at(inner, at, depth) {
+                Expr::Number(value) => Expr::Number(-value),
+                inner => Expr::Negate(Box::new(inner)),
+            },
+            // Brackets and a plus sign are no arithmetic: what is vacant stays so.
+            ExprKind::Plus(inner) | ExprKind::Group(inner) => self.expr_at(inner, at, depth),
+            ExprKind::Not(_) => self.truth(expr, depth),
+            ExprKind::Binary(op, a, b) => self.binary(*op, a, b, expr, at, depth),
+            ExprKind::Call { function, arguments, .. } => {
+                self.call_function(*function, arguments, expr.span, at, depth)
+            }
+        }
+    }
+
+    fn binary(
+        &mut self,
+        op: BinaryOp,
+        a: &'a syntax::Expr,
+        b: &'a syntax::Expr,
+        whole: &'a syntax::Expr,
+        at: At,
+        depth: u32,
+    ) -> Expr {
+        if is_condition(whole) {
+            return self.truth(whole, depth);
+        }
+        let op = match op {
+            BinaryOp::Add => BinOp::Add,
+            BinaryOp::Subtract => BinOp::Sub,
+            BinaryOp::Multiply => BinOp::Mul,
+            BinaryOp::Divide => BinOp::Div,
+            BinaryOp::Modulo => BinOp::Mod,
+            BinaryOp::And => BinOp::And,
+            BinaryOp::Or => BinOp::Or,
+            BinaryOp::Xor => BinOp::Xor,
+            // The comparisons are conditions.
+            _ => return self.truth(whole, depth),
+        };
+        if op == BinOp::Div && is_open_atan(a) {
+            let message =
+                "ATAN[..]/ takes its second argument in brackets; put the quotient's dividend in brackets";
+            self.findings.not_understood(whole.span, message);
+        }
+        let (x, y) = (self.expr_at(a, at, depth), self.expr_at(b, at, depth));
+        match op {
+            BinOp::Mod => self.remainder(&x, &y, whole.span),
+            BinOp::And | BinOp::Or | BinOp::Xor => return self.bits(op, x, y, whole.span),
+            _ => {}
+        }
+        Expr::Binary(op, Box::new(x), Box::new(y))
+    }
+
+    /// The remainder of the common form rounds its operands; between whole constants nobody can tell.
+    fn remainder(&mut self, a: &Expr, b: &Expr, span: Span) {
+        let known = |e: &Expr| e.constant().is_some_and(|n| n.fract() == 0.0 && n >= 0.0);
+        if known(a) && known(b) {
+            return;
+        }
+        match self.findings.behaviour("mod.rounds.operands", span) {
+            Some("true") => {}
+            Some(_) => self.findings.not_understood(span, "a remainder of fractions"),
+            None => self.unknown_behaviour("mod.rounds.operands", span),
+        }
+        match self.findings.behaviour("mod.sign", span) {
+            Some("dividend") => {}
+            _ => self.unknown_behaviour("mod.sign", span),
+        }
+    }
+
+    /// Bit operations of the common form round their operands.
+    fn bits(&mut self, op: BinOp, a: Expr, b: Expr, span: Span) -> Expr {
+        let fractional = [&a, &b].into_iter().any(|e| !is_whole(e));
+        let rule = if fractional { self.findings.behaviour("bits.of.fraction", span) } else { Some("round") };
+        let cut = |e: Expr| if is_whole(&e) { e } else { Expr::Call(Func::Fix, vec![e]) };
+        let (a, b) = match rule {
+            Some("truncate") => (cut(a), cut(b)),
+            Some(_) => (a, b),
+            None => {
+                self.unknown_behaviour("bits.of.fraction", span);
+                (a, b)
+            }
+        };
+        Expr::Binary(op, Box::new(a), Box::new(b))
+    }
+
+    /// A condition as a value: 1 or 0.
+    fn truth(&mut self, expr: &'a syntax::Expr, depth: u32) -> Expr {
+        match self.findings.behaviour("comparison.is.value", expr.span) {
+            Some("true") => {}
+            Some(_) => self.findings.not_understood(expr.span, "a comparison is no value on this control"),
+            None => self.unknown_behaviour("comparison.is.value", expr.span),
+        }
+        Expr::Truth(Box::new(self.cond_at(expr, depth)))
+    }
+
+    fn call_function(
+        &mut self,
+        function: Func,
+        arguments: &'a [syntax::Expr],
+        span: Span,
+        at: At,
+        depth: u32,
+    ) -> Expr {
+        match self.control.function(function, arguments.len()) {
+            Some(row) => self.findings.rest_on(row, span),
+            None => {
+                let message =
+                    format!("the control has no function '{function}' of {} values", arguments.len());
+                self.findings.not_understood(span, message);
+            }
+        }
+        for question in ranges(function, arguments.len()) {
+            if self.findings.behaviour(question, span).is_none() {
+                self.unknown_behaviour(question, span);
+            }
+        }
+        let values = arguments.iter().map(|argument| self.expr_at(argument, at, depth)).collect();
+        let function = if function == Func::Round { self.rounding(at, span) } else { function };
+        Expr::Call(function, values)
+    }
+
+    /// ROUND rounds to whole numbers, but in a word to the least increment of its address.
+    fn rounding(&mut self, at: At, span: Span) -> Func {
+        let fraction = |role: Role| !role.is_integer();
+        match at {
+            At::Word(role) if fraction(role) => match self.findings.behaviour("round.in.address", span) {
+                Some("increment") => Func::RoundIncrement,
+                Some(_) => Func::Round,
+                None => {
+                    self.unknown_behaviour("round.in.address", span);
+                    Func::RoundIncrement
+                }
+            },
+            At::Argument => {
+                self.unknown_behaviour("round.in.address", span);
+                Func::Round
+            }
+            _ => Func::Round,
+        }
+    }
+}
+
+/// Questions of range that a function's value rests on.
+fn ranges(function: Func, arguments: usize) -> &'static [&'static str] {
+    match (function, arguments) {
+        (Func::Atan, 1) => &["atan.range"],
+        (Func::Atan, _) => &["atan2.range"],
+        (Func::Asin, _) => &["asin.range"],
+        (Func::Acos, _) => &["acos.range"],
+        (Func::Round, _) => &["round.half.away"],
+        (Func::Fix, _) => &["fix.toward.zero"],
+        _ => &[],
+    }
+}
+
+/// True for `ATAN[..]` without brackets round it.
+fn is_open_atan(expr: &syntax::Expr) -> bool {
+    matches!(&expr.kind, ExprKind::Call { function: Func::Atan, arguments, .. } if arguments.len() == 1)
+}
+
+/// True where the value can only be a whole number.
+fn is_whole(expr: &Expr) -> bool {
+    use crate::canon::Sys;
+    match expr {
+        Expr::Number(value) => value.fract() == 0.0,
+        Expr::Truth(_) | Expr::Vacant => true,
+        Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor | BinOp::Mod, _, _) => true,
+        Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd, _) => true,
+        Expr::System(state, _) => {
+            matches!(state, Sys::Input | Sys::InputWord | Sys::Output | Sys::OutputWord)
+        }
+        _ => false,
+    }
+}
+
+/// True for a plain constant.
+pub(super) fn is_constant(expr: &syntax::Expr) -> bool {
+    constant(expr).is_some()
+}

@@ -1,0 +1,166 @@
+//! Jumps and conditions, and the codes that leave a program or jump in it.
+
+use super::Lowering;
+use super::block::{Words, acts};
+use super::call::{Flow, Parts};
+use super::expr::At;
+use crate::canon::{Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Cond, Expr, Relation, Site, TermKind};
+use crate::syntax::{self, Item, ItemKind, Target};
+use crate::text::Span;
+
+impl<'a> Lowering<'a> {
+    /// `GOTO`.
+    pub(super) fn goto(&mut self, target: &'a Target, span: Span, site: &Site) {
+        match target {
+            Target::Sequence(number) => {
+                let to = self.target(*number, span);
+                self.builder.end(TermKind::Jump(to), site.clone());
+            }
+            Target::Computed(value) => {
+                match self.control.statement("goto.computed") {
+                    Some(row) => self.findings.rest_on(row, span),
+                    None if self.findings.is("goto.computed", span) => {}
+                    None => self.unknown_behaviour("goto.computed", span),
+                }
+                let value = self.expr(value, At::Value);
+                self.jump_to(value, span, site);
+            }
+            Target::Label(_) => self.findings.not_understood(span, "this control has no named labels"),
+        }
+    }
+
+    /// A jump to a sequence number that is a value.
+    fn jump_to(&mut self, value: Expr, span: Span, site: &Site) {
+        let kind = match value.constant().and_then(crate::ir::eval::whole) {
+            Some(number) => TermKind::Jump(self.target(number, span)),
+            None => TermKind::Computed { value, targets: self.all_targets(span) },
+        };
+        self.builder.end(kind, site.clone());
+    }
+
+    /// `IF [..]` and what is done when it holds.
+    pub(super) fn if_statement(
+        &mut self,
+        condition: &'a syntax::Expr,
+        then: bool,
+        bare: bool,
+        body: &'a [Item],
+        span: Span,
+        site: &Site,
+    ) {
+        self.check_form(then, bare, body, span);
+        let cond = self.cond(condition);
+        let mut doing = body.iter().filter(|item| acts(item));
+        if let (Some(Item { kind: ItemKind::Goto(Target::Sequence(number)), span }), None) =
+            (doing.next(), doing.next())
+        {
+            let yes = self.target(*number, *span);
+            self.builder.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
+            return;
+        }
+        let (yes, no) = (self.builder.fresh(), self.builder.fresh());
+        self.builder.end(TermKind::Branch { cond, yes, no }, site.clone());
+        self.builder.start(yes);
+        let motion = self.motion;
+        self.items(body, site);
+        // Behind it the mode is either: the words that need it must say which.
+        self.motion.joined |= self.motion.code != motion.code;
+        self.builder.start(no);
+    }
+
+    /// Which forms a control takes: without IF, without THEN, with words behind it.
+    fn check_form(&mut self, then: bool, bare: bool, body: &[Item], span: Span) {
+        let jump = body.iter().filter(|item| acts(item)).all(|item| matches!(item.kind, ItemKind::Goto(_)));
+        let words = body.iter().any(|item| matches!(item.kind, ItemKind::Word(_)));
+        if !body.iter().any(acts) {
+            self.findings.not_understood(span, "nothing stands behind the condition");
+        }
+        if body.iter().any(|i| matches!(i.kind, ItemKind::Do { .. } | ItemKind::End { .. })) {
+            let message = "a loop cannot begin or end behind a condition";
+            self.findings.add(Diagnostic::new(Code::LoopNotPaired, span, message));
+        }
+        if bare {
+            match self.control.statement("if.bare") {
+                Some(row) => self.findings.rest_on(row, span),
+                None => self.findings.not_understood(span, "a condition needs IF before it"),
+            }
+        }
+        if jump {
+            return;
+        }
+        match (self.findings.behaviour("then.words", span), words) {
+            (Some("true"), _) => {}
+            (Some(_), true) => {
+                self.findings.not_understood(span, "behind THEN stands one macro statement, no words");
+            }
+            (None, true) => self.unknown_behaviour("then.words", span),
+            (_, false) if !then => {
+                let message = "THEN is missing before the statement";
+                self.findings.add(Diagnostic::new(Code::ThenMissing, span, message));
+            }
+            _ => {}
+        }
+    }
+
+    /// `M99`, with `P` or without.
+    pub(super) fn returning(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+        let parts = self.parts(flow, words, &[Role::Sequence]);
+        if !parts.rest.is_empty() {
+            match self.findings.behaviour("m99.block.moves.first", site.span) {
+                Some("true") => {}
+                _ => self.unknown_behaviour("m99.block.moves.first", site.span),
+            }
+            self.nc(&parts.rest, site);
+        }
+        let to = self.part(&parts, Role::Sequence);
+        let Some(to) = to else {
+            return self.builder.end(TermKind::Return { to: None }, site.clone());
+        };
+        match self.findings.behaviour("m99.p.jumps.here", site.span) {
+            Some("true") => return self.jump_to(to, site.span, site),
+            Some(_) => {}
+            None => self.unknown_behaviour("m99.p.jumps.here", site.span),
+        }
+        self.builder.end(TermKind::Return { to: Some(to) }, site.clone());
+    }
+
+    /// `M96 P Q`: jumps when an input is off, that is reads 0.
+    pub(super) fn jump_on_input(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+        let parts = self.parts(flow, words, &[Role::Sequence, Role::Input]);
+        self.run_first(&parts, site);
+        let number = self.part(&parts, Role::Sequence);
+        let input = self.part(&parts, Role::Input);
+        let input = input.and_then(|input| self.input(input.constant()?));
+        let number = number.and_then(|number| crate::ir::eval::whole(number.constant()?));
+        let (Some(number), Some(input)) = (number, input) else {
+            return self.findings.not_understood(site.span, "the jump needs constants for block and input");
+        };
+        let yes = self.target(number, site.span);
+        let cond = Cond::Compare(Relation::Equal, input, Expr::Number(0.0));
+        self.builder.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
+    }
+
+    /// The state of the input with this number, counted from 0.
+    fn input(&self, number: f64) -> Option<Expr> {
+        let run = self.control.system_run(Sys::Input)?;
+        let variable = run.first?.checked_add(crate::ir::eval::whole(number)?)?;
+        let subscripts = run.subscripts_of(variable)?;
+        Some(Expr::System(Sys::Input, subscripts.into_iter().map(|n| Expr::Number(f64::from(n))).collect()))
+    }
+
+    /// `M30`, `M02`: the other words of the block act first.
+    pub(super) fn ending(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+        let parts = self.parts(flow, words, &[]);
+        self.run_first(&parts, site);
+        self.builder.end(TermKind::End { rewind: flow.row.op == Op::EndRewind }, site.clone());
+    }
+
+    /// The words beside a call or a jump act before it.
+    pub(super) fn run_first(&mut self, parts: &Parts<'a>, site: &Site) {
+        if !parts.rest.is_empty() {
+            self.nc(&parts.rest, site);
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! The blocks that jumps can reach, and the ranges of loops.
+
+use super::Lowering;
+use super::codes::Codes;
+use super::split::Piece;
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::BlockId;
+use crate::syntax::{Expr, ExprKind, Item, ItemKind, ParsedFile};
+use crate::text::Span;
+use std::collections::HashMap;
+
+/// The sequence numbers of a program that jumps or calls. One that only runs from
+/// its first block to its last has none, and stays one basic block.
+#[derive(Debug, Default)]
+pub(super) struct Labels {
+    list: Vec<Label>,
+    by_number: HashMap<u32, Vec<usize>>,
+    by_block: HashMap<usize, usize>,
+    /// Targets of computed jumps listed so far.
+    listed: usize,
+}
+
+/// Each computed jump lists every number; a program that would list more than this is refused.
+const MAX_LISTED: usize = 4_000_000;
+
+#[derive(Debug)]
+struct Label {
+    number: u32,
+    /// The block of the file that has it.
+    at: usize,
+    span: Span,
+    /// The blocks where the loops begin that it lies in, outermost first.
+    loops: Vec<usize>,
+}
+
+impl Label {
+    /// Block 0 is the entry; the labels' blocks follow it.
+    fn id(index: usize) -> BlockId {
+        BlockId(index as u32 + 1)
+    }
+}
+
+impl Labels {
+    /// Finds the labels of a program.
+    pub fn scan(parsed: &ParsedFile<'_>, piece: &Piece, codes: &mut Codes<'_>) -> Self {
+        let body = || parsed.blocks.get(piece.body.clone()).unwrap_or_default().iter();
+        if !body().any(|block| jumps(&block.items, codes)) {
+            return Self::default();
+        }
+        let mut labels = Self::default();
+        let mut open: Vec<(u32, usize)> = Vec::new();
+        for (offset, block) in body().enumerate() {
+            let at = piece.body.start + offset;
+            for item in &block.items {
+                match &item.kind {
+                    ItemKind::Sequence { number, .. } => labels.add(*number, at, item.span, &open),
+                    ItemKind::Do { number, .. } => open.push((*number, at)),
+                    ItemKind::End { number } => {
+                        if let Some(found) = open.iter().rposition(|(open, _)| open == number) {
+                            open.truncate(found);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        labels
+    }
+
+    fn add(&mut self, number: u32, at: usize, span: Span, open: &[(u32, usize)]) {
+        if self.by_block.contains_key(&at) {
+            return;
+        }
+        let index = self.list.len();
+        self.by_number.entry(number).or_default().push(index);
+        self.by_block.insert(at, index);
+        self.list.push(Label { number, at, span, loops: open.iter().map(|(_, start)| *start).collect() });
+    }
+
+    /// How many there are: their blocks have the ids from 1 on.
+    pub fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// The label of a block of the file: its number and its id.
+    pub fn of_block(&self, at: usize) -> Option<(u32, BlockId)> {
+        let index = *self.by_block.get(&at)?;
+        self.list.get(index).map(|label| (label.number, Label::id(index)))
+    }
+}
+
+/// True where control may leave the straight way: the items jump or call.
+fn jumps(items: &[Item], codes: &mut Codes<'_>) -> bool {
+    items.iter().any(|item| match &item.kind {
+        ItemKind::Goto(_) => true,
+        ItemKind::If { body, .. } => jumps(body, codes),
+        ItemKind::Word(word) if matches!(word.letter, 'G' | 'M') && !word.comma => {
+            let Some(Expr { kind: ExprKind::Number(number), .. }) = &word.value else { return true };
+            codes.find(word.letter, number.value).and_then(|id| codes.get(id)).is_some_and(|code| {
+                code.alias.is_some()
+                    || (code.row)
+                        .is_some_and(|row| row.op.is_flow() && !matches!(row.op, Op::End | Op::EndRewind))
+            })
+        }
+        _ => false,
+    })
+}
+
+impl Lowering<'_> {
+    /// The block that a jump to a sequence number finds. Where none is, the
+    /// program is refused and the id is one of an empty block.
+    pub(super) fn target(&mut self, number: u32, span: Span) -> BlockId {
+        let Some(index) = self.choose(number, span) else {
+            let message = format!("no block of this program has the sequence number {number}");
+            self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
+            return self.builder.fresh();
+        };
+        if self.enters_loop(index) {
+            let message = format!("the jump goes into the loop that N{number} lies in");
+            let help = "a loop is entered at its WHILE or DO only";
+            self.findings.add(Diagnostic::new(Code::JumpIntoLoop, span, message).with_help(help));
+        }
+        Label::id(index)
+    }
+
+    /// Every number and the block that a computed jump to it finds.
+    pub(super) fn all_targets(&mut self, span: Span) -> Vec<(u32, BlockId)> {
+        let mut numbers: Vec<u32> = self.labels.by_number.keys().copied().collect();
+        self.labels.listed = self.labels.listed.saturating_add(numbers.len());
+        if self.labels.listed > MAX_LISTED {
+            self.findings.not_understood(span, "too many computed jumps to too many sequence numbers");
+            return Vec::new();
+        }
+        numbers.sort_unstable();
+        let mut targets = Vec::with_capacity(numbers.len());
+        for number in numbers {
+            if let Some(index) = self.choose(number, span) {
+                targets.push((number, Label::id(index)));
+            }
+        }
+        targets
+    }
+
+    fn enters_loop(&self, index: usize) -> bool {
+        let label = self.labels.list.get(index);
+        let inside = |start: &usize| self.loops.iter().any(|open| open.start == *start);
+        label.is_some_and(|label| !label.loops.iter().all(inside))
+    }
+
+    fn choose(&mut self, number: u32, span: Span) -> Option<usize> {
+        let forward = self.control.behaviour("goto.forward.first").map(|row| row.value.as_str());
+        let candidates = self.labels.by_number.get(&number)?;
+        let &first = candidates.first()?;
+        let count = candidates.len();
+        if count == 1 {
+            return Some(first);
+        }
+        let (chosen, rule) = match forward {
+            Some("true") => {
+                // They stand in the order of their blocks.
+                let is_behind =
+                    |index: &usize| self.labels.list.get(*index).is_some_and(|label| label.at <= self.at);
+                let found = candidates.get(candidates.partition_point(is_behind)).copied().unwrap_or(first);
+                (found, "the control looks ahead first, then from the head of the program")
+            }
+            Some("false") => (first, "the control finds the first one in the program"),
+            _ => (first, "no source says which one the control finds; the first one in the program is taken"),
+        };
+        if let Some(row) = self.control.behaviour("goto.forward.first").filter(|row| row.value != "unknown") {
+            self.findings.rest_on(row, span);
+        }
+        let line = self.labels.list.get(chosen).map_or(0, |label| self.line_of(label.span));
+        let message = format!(
+            "N{number} stands {count} times in this program; {rule}, which is the one in line {line}"
+        );
+        self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
+        Some(chosen)
+    }
+
+    /// The line of a place, from 1.
+    fn line_of(&self, span: Span) -> usize {
+        self.parsed.lines.partition_point(|line| line.text.start <= span.start).max(1)
+    }
+}

@@ -1,0 +1,185 @@
+//! What a letter means beside the codes of its block and the motion code in force.
+
+use super::Lowering;
+use super::block::Words;
+use super::codes::CodeId;
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Axis, CodeMeaning, Machine};
+use crate::syntax::{ExprKind, Word};
+use crate::text::Span;
+use smallvec::SmallVec;
+
+/// The codes of a block.
+pub(super) type BlockCodes<'c> = SmallVec<[(CodeId, &'c CodeMeaning); 6]>;
+
+impl<'a> Lowering<'a> {
+    /// The role of a word and the code that gives it; none, and an error, where it has none.
+    ///
+    /// A code of the block decides first, then the motion code in force, then the table's
+    /// general meaning of the letter.
+    pub(super) fn role(
+        &mut self,
+        word: &Word,
+        span: Span,
+        codes: &BlockCodes<'a>,
+    ) -> Option<(Role, Option<&'a CodeMeaning>)> {
+        let mut found: Option<(Role, &'a CodeMeaning)> = None;
+        for (_, row) in codes {
+            let Some(role) = explicit(row, word) else { continue };
+            match found {
+                Some((other, first)) if other != role => {
+                    let message = format!(
+                        "{} is '{other}' beside {} and '{role}' beside {}",
+                        word.letter, first.code, row.code
+                    );
+                    self.findings.not_understood(span, message);
+                    return None;
+                }
+                _ => found = Some((role, *row)),
+            }
+        }
+        if let Some((role, row)) = found {
+            return Some((role, Some(row)));
+        }
+        let usual = self.codes.letter(word.letter, word.comma);
+        let own = codes.iter().rev().find(|(_, row)| matches!(row.op.group(), Group::Motion | Group::Cycle));
+        let in_force = match own {
+            Some((_, row)) => Some(*row),
+            None => self.motion.code.and_then(|id| self.codes.get(id)?.row),
+        };
+        if let Some(row) = in_force
+            && let Some(role) = explicit(row, word)
+        {
+            if self.motion.joined && usual.is_none_or(|usual| usual.role != role) {
+                self.assumes(word, span, &format!("'{role}' of {}, which stands above", row.code));
+            }
+            return Some((role, Some(row)));
+        }
+        let Some(usual) = usual.filter(|_| !self.foreign_axis(word)) else {
+            self.no_role(word, span, codes);
+            return None;
+        };
+        if !usual.origin.confirmed && self.codes.tell_letter(word.letter, word.comma) {
+            self.findings.rest_on(usual, span);
+        }
+        if is_arc_word(usual.role) && !self.fits_arc(word, span, codes, own.is_some(), in_force) {
+            return None;
+        }
+        let shifting = codes.first().map(|(_, row)| *row).filter(|row| row.shift.contains_key(&usual.role));
+        Some((usual.role, shifting))
+    }
+
+    /// A centre or a radius belongs to an arc. True where one is in force, or may be: then
+    /// the review is told what is assumed.
+    fn fits_arc(
+        &mut self,
+        word: &Word,
+        span: Span,
+        codes: &BlockCodes<'a>,
+        own: bool,
+        in_force: Option<&CodeMeaning>,
+    ) -> bool {
+        use Op::*;
+        // Codes that only this control has take the words they take.
+        let special = |op: Op| matches!(op, Builder | MachineSpecific | CycleOther | ProbeOther | Thread);
+        if codes.iter().any(|(_, row)| special(row.op)) {
+            return true;
+        }
+        match in_force {
+            Some(row) if matches!(row.op, ArcCw | ArcCcw | ArcTangent) || special(row.op) => true,
+            Some(row) if own || !self.motion.joined => {
+                let message = format!("{} has no meaning under {}", word.letter, row.code);
+                self.findings.not_understood(span, message);
+                false
+            }
+            _ => {
+                self.assumes(word, span, "a word of an arc, which no code of this program is sure to begin");
+                true
+            }
+        }
+    }
+
+    fn assumes(&mut self, word: &Word, span: Span, what: &str) {
+        let message = format!("{} is taken as {what}; another code may be in force here", word.letter);
+        self.findings.add(Diagnostic::new(Code::ModalAssumed, span, message));
+    }
+
+    /// U, V and W are the second linear axes of some mills, and on a lathe the incremental
+    /// X, Y and Z: on a mill the profile must list the axis, or the maker's text the letter.
+    fn foreign_axis(&self, word: &Word) -> bool {
+        let axis = match word.letter {
+            'U' => Axis::U,
+            'V' => Axis::V,
+            'W' => Axis::W,
+            _ => return false,
+        };
+        let listed = self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
+        let stated = self.codes.letter(word.letter, word.comma).is_some_and(|row| row.origin.confirmed);
+        self.control.machine() == Machine::Mill && !word.comma && !listed && !stated
+    }
+
+    fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>) {
+        let comma = if word.comma { "," } else { "" };
+        if self.foreign_axis(word) {
+            let message =
+                format!("{} is no axis of this machine: the program looks like a lathe program", word.letter);
+            let help = "name a machine profile with machine = \"lathe\", or one that lists this axis";
+            return self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
+        }
+        let beside = match codes.first() {
+            Some((_, row)) => format!(" beside {}", row.code),
+            None => " in a block without a code".into(),
+        };
+        let message = format!("{comma}{} has no meaning{beside}", word.letter);
+        self.findings.not_understood(span, message);
+    }
+
+    /// Signs of a lathe program that a mill's table would read as something else: `G50 S3000`,
+    /// `G50 X100.`, `G99 G01 F.003` and tool words with an offset in them.
+    pub(super) fn check_machine(&mut self, words: &Words<'a>, codes: &BlockCodes<'a>) {
+        if self.control.machine() != Machine::Mill {
+            return;
+        }
+        let has = |wanted: &[Op]| codes.iter().any(|(_, row)| wanted.contains(&row.op));
+        let feeds = words.iter().any(|(word, _)| word.letter == 'F');
+        let per_turn =
+            feeds && has(&[Op::ReturnR, Op::ReturnInitial]) && has(&[Op::Linear, Op::ArcCw, Op::ArcCcw]);
+        for &(word, span) in words {
+            let what = match word.letter {
+                'S' | 'X' | 'Z' if has(&[Op::ScaleOff]) && codes.len() == 1 => {
+                    "a limit or a position beside G50"
+                }
+                'T' if has_offset(word) => "a tool word with an offset in it",
+                'F' if per_turn => "a feed beside G98 or G99 without a cycle",
+                _ => continue,
+            };
+            let message = format!("{what} is a lathe's: the program looks like a lathe program");
+            let help = "name a machine profile with machine = \"lathe\"";
+            self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
+        }
+    }
+}
+
+fn is_arc_word(role: Role) -> bool {
+    matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK | Role::ArcRadius)
+}
+
+/// `T0303`, `T1414`: tool and offset in four digits. `T0012` and `T1001` are tools.
+fn has_offset(word: &Word) -> bool {
+    let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else { return false };
+    let (tool, offset) = ((number.value / 100.0).trunc(), number.value % 100.0);
+    number.digits == 4 && !number.point && tool > 0.0 && (tool < 10.0 || tool == offset)
+}
+
+/// The role that a row of the table gives a word.
+fn explicit(row: &CodeMeaning, word: &Word) -> Option<Role> {
+    if row.words.is_empty() {
+        return None;
+    }
+    let mut buffer = [b',', 0];
+    let letter = u8::try_from(word.letter).ok()?;
+    buffer[1] = letter;
+    let name = std::str::from_utf8(if word.comma { &buffer } else { &buffer[1..] }).ok()?;
+    row.words.get(name).copied()
+}

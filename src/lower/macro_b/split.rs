@@ -1,0 +1,72 @@
+//! Cuts a file into programs.
+
+use crate::syntax::{Block, Fence, Item, ItemKind, ParsedFile, ProgramName};
+use std::ops::Range;
+
+/// A program's place in its file.
+#[derive(Debug)]
+pub(super) struct Piece {
+    /// Its name; none where no O word begins it.
+    pub name: Option<ProgramName>,
+    /// The block with the O word.
+    pub head: Option<usize>,
+    /// Blocks before the O word that hold its comments.
+    pub leading: Vec<usize>,
+    /// All its blocks, the one with the O word included.
+    pub body: Range<usize>,
+}
+
+/// The programs of a file, in order, and whether a `%` frames it.
+///
+/// A program begins at an O word, or at the first block that does something
+/// where none stands before it, and ends before the next one or at `%`. Comments
+/// between the head of the file and its first O word belong to that program.
+pub(super) fn split(parsed: &ParsedFile<'_>) -> (Vec<Piece>, bool) {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut open = false;
+    let mut tape = false;
+    let mut pending: Vec<usize> = Vec::new();
+    for (index, block) in parsed.blocks.iter().enumerate() {
+        if block.items.first().is_some_and(|item| matches!(item.kind, ItemKind::Tape)) {
+            tape = true;
+            open = false;
+        } else if let Some(name) = program(block) {
+            let leading = std::mem::take(&mut pending);
+            pieces.push(Piece { name: Some(name), head: Some(index), leading, body: index..index + 1 });
+            open = true;
+        } else if open {
+            if let Some(piece) = pieces.last_mut() {
+                piece.body.end = index + 1;
+            }
+        } else if block.items.iter().all(is_quiet) && block.errors.is_empty() {
+            if !block.items.is_empty() {
+                pending.push(index);
+            }
+        } else {
+            let leading = std::mem::take(&mut pending);
+            pieces.push(Piece { name: None, head: None, leading, body: index..index + 1 });
+            open = true;
+        }
+    }
+    let speaks = |&&index: &&usize| parsed.blocks.get(index).is_some_and(|b| b.items.iter().any(is_remark));
+    if pieces.is_empty() && pending.iter().any(|index| speaks(&index)) {
+        pieces.push(Piece { name: None, head: None, leading: pending, body: 0..0 });
+    }
+    (pieces, tape)
+}
+
+fn program(block: &Block) -> Option<ProgramName> {
+    // Only a block skip or a comment can stand before it.
+    block.items.iter().take(3).find_map(|item| match &item.kind {
+        ItemKind::Program(name) => Some(name.clone()),
+        _ => None,
+    })
+}
+
+fn is_quiet(item: &Item) -> bool {
+    matches!(item.kind, ItemKind::Comment(_) | ItemKind::EndOfBlock)
+}
+
+fn is_remark(item: &Item) -> bool {
+    matches!(&item.kind, ItemKind::Comment(comment) if comment.fence != Fence::Outside)
+}

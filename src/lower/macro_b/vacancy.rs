@@ -1,0 +1,155 @@
+//! Where a signed variable in a word may be vacant.
+//!
+//! `X#1` is dropped when #1 is vacant. That `X-#1` is dropped too, no source says; the
+//! common form makes it a word with the value 0. The two differ only where the variable
+//! may be vacant there, so that is what is looked for: forward over the blocks, with
+//! what assignments and tests make sure of.
+
+use crate::ir::{
+    BlockId, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, StmtKind, TermKind, Var,
+};
+use crate::text::Span;
+use std::collections::BTreeSet;
+
+/// Variables that are sure to hold a number.
+type Sure = BTreeSet<Var>;
+
+/// The first block with a signed variable in a word that may be vacant there. With
+/// `returns_anywhere` a called program may return to any label.
+pub(super) fn signed_word(program: &Program, returns_anywhere: bool) -> Option<Span> {
+    // A modal call runs after moves, and what it does to shared variables is not known here.
+    let modal = (program.blocks.iter().flat_map(|block| &block.stmts))
+        .any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
+    let at_entry = solve(program, returns_anywhere, modal);
+    for (block, sure) in program.blocks.iter().zip(at_entry) {
+        let Some(mut sure) = sure else { continue };
+        for stmt in &block.stmts {
+            if signed(&stmt.kind).any(|var| !sure.contains(&var)) {
+                return Some(stmt.site.span);
+            }
+            step(&stmt.kind, &mut sure);
+            if modal {
+                sure.retain(|var| var.class == Class::Local);
+            }
+        }
+    }
+    None
+}
+
+/// The variables that stand in a word with a sign before them.
+fn signed(kind: &StmtKind) -> impl Iterator<Item = Var> + '_ {
+    let items = match kind {
+        StmtKind::Nc(Nc { items }) => items.as_slice(),
+        _ => &[],
+    };
+    items.iter().filter_map(|item| match item {
+        NcItem::Word(_, Expr::Negate(inner)) => match **inner {
+            Expr::Var(var) if var.class.nullable() => Some(var),
+            _ => None,
+        },
+        _ => None,
+    })
+}
+
+/// What is sure at the head of each block; none where control never comes.
+fn solve(program: &Program, returns_anywhere: bool, modal: bool) -> Vec<Option<Sure>> {
+    let mut heads: Vec<Option<Sure>> = vec![None; program.blocks.len()];
+    let mut work: Vec<BlockId> = Vec::new();
+    let flow = |to: BlockId, sure: Sure, work: &mut Vec<BlockId>, heads: &mut Vec<Option<Sure>>| {
+        let Some(head) = heads.get_mut(to.index()) else { return };
+        let merged = match head.as_ref() {
+            None => sure,
+            Some(old) => old.intersection(&sure).copied().collect(),
+        };
+        if head.as_ref() != Some(&merged) {
+            *head = Some(merged);
+            work.push(to);
+        }
+    };
+    flow(BlockId(0), Sure::new(), &mut work, &mut heads);
+    let calls = |block: &&crate::ir::Block| matches!(block.term.kind, TermKind::Call { .. });
+    if returns_anywhere && program.blocks.iter().any(|block| calls(&block)) {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            if !block.labels.is_empty() {
+                flow(id, Sure::new(), &mut work, &mut heads);
+            }
+        }
+    }
+    // Sets only shrink, so this ends.
+    while let Some(id) = work.pop() {
+        let (Some(block), Some(Some(mut sure))) = (program.block(id), heads.get(id.index()).cloned()) else {
+            continue;
+        };
+        block.stmts.iter().for_each(|stmt| step(&stmt.kind, &mut sure));
+        if modal {
+            sure.retain(|var| var.class == Class::Local);
+        }
+        match &block.term.kind {
+            TermKind::Branch { cond, yes, no } => {
+                let mut held = sure.clone();
+                learn(cond, true, &mut held);
+                flow(*yes, held, &mut work, &mut heads);
+                learn(cond, false, &mut sure);
+                flow(*no, sure, &mut work, &mut heads);
+            }
+            TermKind::Call { call, next } => {
+                if let Callee::Block(entry) = call.callee {
+                    flow(entry, Sure::new(), &mut work, &mut heads);
+                }
+                sure.retain(|var| call.level && var.class == Class::Local);
+                flow(*next, sure, &mut work, &mut heads);
+            }
+            kind => {
+                for to in kind.successors() {
+                    flow(to, sure.clone(), &mut work, &mut heads);
+                }
+            }
+        }
+    }
+    heads
+}
+
+fn step(kind: &StmtKind, sure: &mut Sure) {
+    if let StmtKind::Assign { target, value } = kind {
+        let vacant = match value {
+            Expr::Var(var) => var.class.nullable() && !sure.contains(var),
+            other => other.may_be_vacant(),
+        };
+        match target {
+            Place::Var(var) if vacant => {
+                sure.remove(var);
+            }
+            Place::Var(var) => {
+                sure.insert(*var);
+            }
+            Place::Indirect(..) if vacant => sure.clear(),
+            _ => {}
+        }
+    }
+}
+
+/// What a condition makes sure of when it holds, or when it does not.
+fn learn(cond: &Cond, holds: bool, sure: &mut Sure) {
+    match cond {
+        Cond::And(all) if holds => all.iter().for_each(|cond| learn(cond, true, sure)),
+        Cond::Or(any) if !holds => any.iter().for_each(|cond| learn(cond, false, sure)),
+        Cond::Not(inner) => learn(inner, !holds, sure),
+        Cond::Compare(relation, Expr::Var(var), other) => {
+            let relation = if holds { *relation } else { relation.negated() };
+            let bound = other.constant();
+            // Vacant counts as 0 in the four orders.
+            let excluded = match relation {
+                Relation::NotEqual => *other == Expr::Vacant,
+                Relation::Equal => bound.is_some(),
+                Relation::Greater => bound.is_some_and(|bound| bound >= 0.0),
+                Relation::GreaterEqual => bound.is_some_and(|bound| bound > 0.0),
+                Relation::Less => bound.is_some_and(|bound| bound <= 0.0),
+                Relation::LessEqual => bound.is_some_and(|bound| bound < 0.0),
+            };
+            if excluded {
+                sure.insert(*var);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,190 @@
+//! Values of words: decimal points, whole numbers, seconds and milliseconds, vacancy.
+
+use super::Lowering;
+use super::arguments::literal;
+use super::expr::{At, is_constant};
+use crate::canon::Role;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{BareLength, CodeMeaning};
+use crate::ir::{BinOp, Expr};
+use crate::syntax::{self, ExprKind};
+use crate::text::Span;
+
+impl<'a> Lowering<'a> {
+    /// The value of a word in its role; the role too, since a dwell's may be in either unit.
+    pub(super) fn word_value(
+        &mut self,
+        role: Role,
+        letter: char,
+        value: &'a syntax::Expr,
+        code: Option<&'a CodeMeaning>,
+    ) -> Option<(Role, Expr)> {
+        let Some((number, point)) = literal(value) else { return self.computed(role, value, code) };
+        if matches!(role, Role::DwellMs | Role::DwellS | Role::CycleDwell) {
+            return self.dwell(role, letter, number, point, value);
+        }
+        if role.is_integer() {
+            return self.whole_word(role, letter, number, point, value, code);
+        }
+        let counted = role.is_length() || counts_degrees(role);
+        if point || number == 0.0 || !(counted || matches!(role, Role::Feed | Role::Lead)) {
+            return Some((role, Expr::Number(number)));
+        }
+        let bare = if counted { self.control.bare_length() } else { self.control.bare_feed() };
+        self.rest_on_numbers(value.span);
+        Some((
+            role,
+            match bare {
+                BareLength::Increments => Expr::Increments(number),
+                BareLength::Units => Expr::Number(number),
+                BareLength::Unknown => {
+                    let what = if counted { "a length" } else { "a feed" };
+                    let note = format!("what {what} without a decimal point counts; it is taken as written");
+                    self.findings.unconfirmed("numbers".into(), Some(&note), value.span);
+                    Expr::Number(number)
+                }
+            },
+        ))
+    }
+
+    /// The construct rests on what a number without a point counts, unless the profile says it.
+    pub(super) fn rest_on_numbers(&mut self, span: Span) {
+        if self.control.profile().decimal_point.is_none() && self.codes.tell_numbers() {
+            self.findings.rest_on(self.control.numbers(), span);
+        }
+    }
+
+    /// A word for a whole number.
+    fn whole_word(
+        &mut self,
+        role: Role,
+        letter: char,
+        number: f64,
+        point: bool,
+        value: &syntax::Expr,
+        code: Option<&'a CodeMeaning>,
+    ) -> Option<(Role, Expr)> {
+        if number.fract() != 0.0 {
+            self.findings.not_understood(value.span, format!("{letter} takes a whole number"));
+            return None;
+        }
+        if point {
+            let message = format!("{letter} takes a whole number; some controls stop at its decimal point");
+            self.findings.add(Diagnostic::new(Code::WholeWithPoint, value.span, message));
+        }
+        Some((role, Expr::Number(self.control.canonical(code, role, number))))
+    }
+
+    /// A value that is computed, or a number in brackets: it counts whole units.
+    fn computed(
+        &mut self,
+        role: Role,
+        value: &'a syntax::Expr,
+        code: Option<&'a CodeMeaning>,
+    ) -> Option<(Role, Expr)> {
+        let span = value.span;
+        let lowered = self.expr(value, At::Word(role));
+        if role.is_length() || counts_degrees(role) || role == Role::Feed {
+            match self.findings.behaviour("word.bare.expression", span) {
+                Some("value") => {}
+                Some(_) => self.findings.not_understood(span, "a computed value that counts increments"),
+                None => self.unknown_behaviour("word.bare.expression", span),
+            }
+        }
+        self.vacant_word(value, &lowered);
+        if matches!(role, Role::DwellMs | Role::DwellS | Role::CycleDwell) {
+            return self.computed_dwell(role, value, lowered);
+        }
+        if role.is_integer() && !is_constant(value) && !self.findings.is("integer.word.rounds", span) {
+            self.unknown_behaviour("integer.word.rounds", span);
+        }
+        let shift = code.and_then(|row| row.shift.get(&role)).map(Vec::as_slice);
+        let lowered = match (lowered, shift) {
+            (Expr::Number(number), _) if role.is_integer() => {
+                Expr::Number(self.control.canonical(code, role, number.round()))
+            }
+            (lowered, None | Some([])) => lowered,
+            (lowered, Some([one])) => {
+                Expr::Binary(BinOp::Add, Box::new(lowered), Box::new(Expr::Number(one.add as f64)))
+            }
+            (lowered, Some(_)) => {
+                self.findings.not_understood(span, "a computed number in a run with several parts");
+                lowered
+            }
+        };
+        Some((role, lowered))
+    }
+
+    /// What a word does whose value may be vacant: dropped, where it is the plain variable.
+    fn vacant_word(&mut self, value: &syntax::Expr, lowered: &Expr) {
+        let question = match (&value.kind, lowered) {
+            (ExprKind::Variable(_), read) if read.may_be_vacant() => "vacant.word.dropped",
+            (ExprKind::Group(_), read) if read.may_be_vacant() => "bracket.vacant.word",
+            _ => return,
+        };
+        match self.findings.behaviour(question, value.span) {
+            Some("true" | "dropped") => {}
+            _ => self.unknown_behaviour(question, value.span),
+        }
+    }
+
+    /// A dwell's literal: the table says what it counts with a point and without.
+    fn dwell(
+        &mut self,
+        role: Role,
+        letter: char,
+        number: f64,
+        point: bool,
+        value: &syntax::Expr,
+    ) -> Option<(Role, Expr)> {
+        if number == 0.0 || (role == Role::DwellS && letter != 'P' && point) {
+            return Some((role, Expr::Number(number)));
+        }
+        if letter != 'P' {
+            // X2 of a dwell: two thousandths of a second where X counts increments, as far as is known.
+            self.unknown_behaviour("dwell.bare", value.span);
+            let ms = self.control.bare_length() == BareLength::Increments;
+            return Some((if ms { Role::DwellMs } else { role }, Expr::Number(number)));
+        }
+        let question = if point { "dwell.point" } else { "dwell.bare" };
+        let answer = self.findings.behaviour(question, value.span);
+        match (answer, role) {
+            (Some("ms"), Role::DwellS) => Some((Role::DwellMs, Expr::Number(number))),
+            (Some("seconds"), Role::DwellMs) => Some((Role::DwellS, Expr::Number(number))),
+            (Some("seconds"), Role::CycleDwell) => Some((role, Expr::Number(number * 1000.0))),
+            (Some("error"), _) => {
+                self.findings
+                    .not_understood(value.span, "P of a dwell takes no decimal point on this control");
+                None
+            }
+            (None, _) => {
+                self.unknown_behaviour(question, value.span);
+                Some((role, Expr::Number(number)))
+            }
+            _ => Some((role, Expr::Number(number))),
+        }
+    }
+
+    fn computed_dwell(&mut self, role: Role, value: &syntax::Expr, lowered: Expr) -> Option<(Role, Expr)> {
+        if role == Role::DwellS {
+            return Some((role, lowered));
+        }
+        match self.findings.behaviour("dwell.expression", value.span) {
+            Some("seconds") if role == Role::DwellMs => Some((Role::DwellS, lowered)),
+            Some("seconds") => {
+                let thousand = Box::new(Expr::Number(1000.0));
+                Some((role, Expr::Binary(BinOp::Mul, Box::new(lowered), thousand)))
+            }
+            Some(_) => Some((role, lowered)),
+            None => {
+                self.unknown_behaviour("dwell.expression", value.span);
+                Some((role, lowered))
+            }
+        }
+    }
+}
+
+/// True for an angle, whose least increment a number without a point counts.
+fn counts_degrees(role: Role) -> bool {
+    matches!(role, Role::A | Role::B | Role::C | Role::Angle | Role::PolarAngle)
+}

@@ -1,0 +1,220 @@
+//! Variables: by number, by name, by a computed number.
+
+use super::expr::At;
+use super::statement::behind;
+use super::{Family, Lowering};
+use crate::canon::Sys;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, SystemVariable};
+use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
+use crate::lower::common::constant;
+use crate::syntax::{Index, ItemKind, ParsedFile, VarRef};
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// The names that the programs of a file give to variables.
+pub(super) fn names(parsed: &ParsedFile<'_>, control: &Control, family: Family) -> BTreeMap<String, Var> {
+    let mut found = BTreeMap::new();
+    for item in parsed.blocks.iter().flat_map(|block| &block.items) {
+        let ItemKind::SetNames { first, names } = &item.kind else { continue };
+        let Some(first) = user_variable(control, family, *first) else { continue };
+        for (count, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
+            found.insert(name.to_ascii_uppercase(), behind(first, count));
+        }
+    }
+    found
+}
+
+fn user_variable(control: &Control, family: Family, number: u32) -> Option<Var> {
+    let Some(row) = control.variable_class("#", number) else {
+        // The second numbering is not numbered again.
+        return user_variable(control, Family { twin: |_| None }, (family.twin)(number)?);
+    };
+    let class = match row.class.as_str() {
+        "local" => Class::Local,
+        "common" => Class::Common,
+        "retained" => Class::Retained,
+        "global" => Class::Global,
+        _ => return None,
+    };
+    Some(Var { class, number })
+}
+
+impl<'a> Lowering<'a> {
+    /// What a variable reads.
+    pub(super) fn read(&mut self, variable: &'a VarRef, depth: u32) -> Expr {
+        if let Index::Bit(number, bit) = variable.index {
+            return self.bit(number, bit, variable.span);
+        }
+        let Some(read) = self.variable(variable, depth) else { return Expr::Number(0.0) };
+        if let Expr::System(state, _) = &read {
+            let state = *state;
+            self.early(state, variable.span);
+        }
+        read
+    }
+
+    /// The place that an assignment writes.
+    pub(super) fn target_place(&mut self, variable: &'a VarRef) -> Option<Place> {
+        let span = variable.span;
+        if let Index::Bit(..) = variable.index {
+            self.findings.not_understood(span, "a single bit cannot be assigned");
+            return None;
+        }
+        match self.variable(variable, 0)? {
+            Expr::Vacant => {
+                self.findings.add(Diagnostic::new(
+                    Code::NotWritable,
+                    span,
+                    "#0 is always vacant; nothing can be assigned to it",
+                ));
+                None
+            }
+            Expr::System(state, subscripts) => {
+                let row = self.number_of(variable).and_then(|n| self.control.read_system("#", Some(n)));
+                if row.is_some_and(|(_, _, row)| !row.access.contains('w')) {
+                    let message = format!("'{state}' can be read, not written");
+                    self.findings.add(Diagnostic::new(Code::NotWritable, span, message));
+                }
+                self.early(state, span);
+                Some(Place::System(state, subscripts))
+            }
+            other => other.place(),
+        }
+    }
+
+    fn number_of(&self, variable: &VarRef) -> Option<u32> {
+        match &variable.index {
+            Index::Number(number) => Some(*number),
+            Index::Computed(index) => constant(index).and_then(crate::ir::eval::whole),
+            _ => None,
+        }
+    }
+
+    fn variable(&mut self, variable: &'a VarRef, depth: u32) -> Option<Expr> {
+        let span = variable.span;
+        match &variable.index {
+            _ if variable.name != "#" => {
+                self.findings
+                    .not_understood(span, format!("'{}' is no variable of this control", variable.name));
+                None
+            }
+            Index::Number(number) => self.numbered(*number, span),
+            Index::Computed(index) => match constant(index).filter(|n| n.fract() == 0.0 && *n >= 0.0) {
+                Some(number) => self.numbered(crate::ir::eval::whole(number)?, span),
+                None => {
+                    Some(Expr::Indirect(Bank::Numbered, Box::new(self.expr_at(index, At::Value, depth + 1))))
+                }
+            },
+            Index::Name(name) => self.named(name, span),
+            Index::None | Index::Letter(_) | Index::Bit(..) => {
+                self.findings.not_understood(span, "the variable has no number");
+                None
+            }
+        }
+    }
+
+    /// The variable with a number.
+    pub(super) fn numbered(&mut self, number: u32, span: Span) -> Option<Expr> {
+        if number == 0 {
+            return Some(Expr::Vacant);
+        }
+        if let Some(class) = self.control.variable_class("#", number) {
+            self.findings.rest_on(class, span);
+        }
+        if let Some(var) = user_variable(self.control, self.family, number) {
+            if var.number != number {
+                let note = format!("#{number} is taken for #{}, by the newer control's numbers", var.number);
+                self.findings.unconfirmed(format!("variable:#{number}"), Some(&note), span);
+            }
+            return Some(Expr::Var(var));
+        }
+        let Some((state, subscripts, row)) = self.control.read_system("#", Some(number)) else {
+            let message = format!("the table of this control has no variable #{number}");
+            let help = "if the machine has it as a variable of its own, list it in the machine profile";
+            self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+            return None;
+        };
+        self.findings.rest_on(row, span);
+        if state == Sys::Empty {
+            return Some(Expr::Vacant);
+        }
+        Some(Expr::System(state, subscripts.into_iter().map(|n| Expr::Number(f64::from(n))).collect()))
+    }
+
+    /// The variable with a name: one of this file's SETVN, or the control's own.
+    fn named(&mut self, name: &str, span: Span) -> Option<Expr> {
+        let name = name.to_ascii_uppercase();
+        if let Some(var) = self.names.get(&name) {
+            return Some(Expr::Var(*var));
+        }
+        if let Some((state, subscripts, row)) = self.system_name(&name) {
+            self.findings.rest_on(row, span);
+            if state == Sys::Empty {
+                return Some(Expr::Vacant);
+            }
+            return Some(Expr::System(
+                state,
+                subscripts.into_iter().map(|n| Expr::Number(f64::from(n))).collect(),
+            ));
+        }
+        let message = format!("no program of this file gives the name '{name}' to a variable");
+        let help = "write the variable's number, or its SETVN into this file";
+        self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+        None
+    }
+
+    /// A variable that the control itself names.
+    fn system_name(&self, name: &str) -> Option<(Sys, Vec<u32>, &'a SystemVariable)> {
+        let row = self.control.system_named(name)?;
+        let subscripts = match row.first {
+            Some(first) => row.subscripts_of(first)?,
+            None => [row.fixed.as_slice(), &row.after].concat(),
+        };
+        row.subscripts.is_empty().then_some((row.state, subscripts, row))
+    }
+
+    /// One bit of a system variable: 1 or 0.
+    fn bit(&mut self, number: u32, bit: u32, span: Span) -> Expr {
+        let whole = match self.numbered(number, span) {
+            Some(whole @ Expr::System(..)) if bit < 32 => whole,
+            Some(_) => {
+                self.findings.not_understood(span, format!("no source says what bit {bit} of #{number} is"));
+                return Expr::Number(0.0);
+            }
+            None => return Expr::Number(0.0),
+        };
+        let note = format!("the fraction in #{number}.{bit} is taken for the number of a bit");
+        self.findings.unconfirmed("statement:read.bit".into(), Some(&note), span);
+        let mask = Expr::Number(2f64.powi(bit as i32));
+        let masked = Expr::Binary(BinOp::And, Box::new(whole), Box::new(mask));
+        Expr::Truth(Box::new(Cond::Compare(Relation::NotEqual, masked, Expr::Number(0.0))))
+    }
+
+    /// A control that reads ahead may see a state before the moves ahead of it are done.
+    fn early(&mut self, state: Sys, span: Span) {
+        let moving = matches!(
+            state,
+            Sys::MachinePosition
+                | Sys::WorkPosition
+                | Sys::SkipPosition
+                | Sys::Input
+                | Sys::InputWord
+                | Sys::Analog
+                | Sys::TimerMs
+                | Sys::TimerHours
+                | Sys::CycleSeconds
+                | Sys::SpindleActual
+                | Sys::Output
+                | Sys::OutputWord
+        );
+        let early = moving && !self.lookahead_limited && self.control.is("lookahead.runs.early");
+        if !early || !self.codes.tell_early() {
+            return;
+        }
+        if self.findings.behaviour("system.read.waits", span) != Some("true") {
+            let message = format!("'{state}' may be reached before the moves ahead of this block are done");
+            self.findings.add(Diagnostic::new(Code::EarlyRead, span, message));
+        }
+    }
+}

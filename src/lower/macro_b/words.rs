@@ -1,0 +1,267 @@
+//! Blocks of NC words.
+
+use super::Lowering;
+use super::block::Words;
+use super::codes::CodeId;
+use super::expr::At;
+use super::roles::BlockCodes;
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::CodeMeaning;
+use crate::ir::{Expr, Nc, NcItem, Site, StmtKind};
+use crate::lower::common::constant;
+use crate::syntax::{ExprKind, Word};
+use crate::text::Span;
+
+impl<'a> Lowering<'a> {
+    /// The code of a G or M word with a constant for its number.
+    pub(super) fn constant_code(&mut self, word: &Word) -> Option<CodeId> {
+        if !matches!(word.letter, 'G' | 'M') || word.comma {
+            return None;
+        }
+        match &word.value.as_ref()?.kind {
+            ExprKind::Number(number) => self.codes.find(word.letter, number.value),
+            _ => None,
+        }
+    }
+
+    /// What a code means among the words of its block.
+    pub(super) fn row_beside(&mut self, id: CodeId, words: &Words<'a>) -> Option<&'a CodeMeaning> {
+        let code = self.codes.get(id)?;
+        if !code.depends {
+            return code.row;
+        }
+        let plain = words.iter().filter(|(word, _)| !word.comma);
+        let letters: Vec<(char, Option<f64>)> =
+            plain.map(|(word, _)| (word.letter, word.value.as_ref().and_then(constant))).collect();
+        self.control.code(code.head.letter, code.head.number(), &letters)
+    }
+
+    /// The construct rests on a code's row; said once a program.
+    pub(super) fn rest_on_code(&mut self, id: CodeId, row: &CodeMeaning, span: Span) {
+        if !row.origin.confirmed && (self.codes.tell(id) || self.codes.get(id).is_some_and(|c| c.depends)) {
+            self.findings.rest_on(row, span);
+        }
+    }
+
+    /// A block of NC words.
+    pub(super) fn nc(&mut self, words: &Words<'a>, site: &Site) {
+        let Some(codes) = self.block_codes(words) else {
+            return self.builder.push(StmtKind::Remark, site.clone());
+        };
+        self.check_machine(words, &codes);
+        let mut nc = Nc { items: Vec::with_capacity(words.len() + 1) };
+        let mut seen = Seen::default();
+        let mut next = codes.iter();
+        for &(word, span) in words {
+            if matches!(word.letter, 'G' | 'M') && !word.comma {
+                match self.constant_code(word) {
+                    Some(id) => {
+                        if let Some(&(_, row)) = next.as_slice().first().filter(|(found, _)| *found == id) {
+                            next.next();
+                            self.operation(id, row, word, span, &mut nc, &mut seen);
+                        }
+                    }
+                    None => self.computed_code(word, span, &mut nc, &mut seen),
+                }
+            } else if !belongs_to_code(word, &codes) {
+                self.word(word, span, &codes, &mut nc, &mut seen);
+            }
+        }
+        self.check_m_codes(&seen, site.span);
+        self.push_nc(nc, site);
+    }
+
+    /// A lookahead limit is a statement of its own, whatever stands beside it.
+    fn push_nc(&mut self, mut nc: Nc, site: &Site) {
+        if nc.has(Op::LimitLookahead) {
+            let limit = nc.word(Role::Lookahead).cloned().unwrap_or(Expr::Number(0.0));
+            self.lookahead_limited = limit.constant() != Some(0.0);
+            self.builder.push(StmtKind::LimitLookahead(limit), site.clone());
+            nc.items.retain(|item| {
+                !matches!(item, NcItem::Op(Op::LimitLookahead) | NcItem::Word(Role::Lookahead, _))
+            });
+            if nc.items.is_empty() {
+                return;
+            }
+        }
+        self.builder.push(StmtKind::Nc(nc), site.clone());
+    }
+
+    /// The codes of a block; none where one has no meaning: then that of its words is not known either.
+    fn block_codes(&mut self, words: &Words<'a>) -> Option<BlockCodes<'a>> {
+        let mut codes = BlockCodes::new();
+        let mut known = true;
+        for (word, span) in words {
+            let Some(id) = self.constant_code(word) else { continue };
+            match self.row_beside(id, words) {
+                Some(row) => {
+                    self.rest_on_code(id, row, *span);
+                    codes.push((id, row));
+                }
+                None => {
+                    known = false;
+                    self.unknown_code(id, *span);
+                }
+            }
+        }
+        known.then_some(codes)
+    }
+
+    fn unknown_code(&mut self, id: CodeId, span: Span) {
+        let Some(code) = self.codes.get(id) else { return };
+        let name = format!("{}{}", code.head.letter, code.head.number());
+        let message = if code.alias.is_some() {
+            format!(
+                "{name} calls a program elsewhere; in a program that a code calls it is a plain code, and the table has none"
+            )
+        } else if code.depends {
+            format!("{name} has no meaning beside the words of this block")
+        } else {
+            format!("the table of this control has no code {name}")
+        };
+        let help = "a code that calls a program or that the machine's builder defined belongs in the machine profile";
+        self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+    }
+
+    fn operation(
+        &mut self,
+        id: CodeId,
+        row: &'a CodeMeaning,
+        word: &Word,
+        span: Span,
+        nc: &mut Nc,
+        seen: &mut Seen,
+    ) {
+        let group = row.op.group();
+        seen.m_codes += u32::from(word.letter == 'M');
+        if group != Group::OneShot && seen.group(group) && drop_clashing(nc, row.op) {
+            let message = format!(
+                "{} is the second code of its group in this block; it is the one that counts",
+                row.code
+            );
+            self.findings.add(Diagnostic::new(Code::GroupTwice, span, message));
+        }
+        if matches!(group, Group::Motion | Group::Cycle) {
+            self.motion = super::Motion { code: Some(id), joined: false };
+        }
+        // Many codes share these operations: which one it is, only its number says.
+        if matches!(
+            row.op,
+            Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther
+        ) {
+            if let Some(code) = self.codes.get(id) {
+                nc.items.push(NcItem::Code(code.head.letter, Expr::Number(code.head.number())));
+            }
+        } else {
+            nc.items.push(NcItem::Op(row.op));
+        }
+        for (role, value) in &row.fixed {
+            if seen.role(*role) {
+                nc.items.retain(|item| !matches!(item, NcItem::Word(other, _) if other == role));
+            }
+            nc.items.push(NcItem::Word(*role, Expr::Number(*value)));
+        }
+    }
+
+    fn computed_code(&mut self, word: &'a Word, span: Span, nc: &mut Nc, seen: &mut Seen) {
+        let Some(value) = &word.value else {
+            return self.findings.not_understood(span, format!("{} has no number", word.letter));
+        };
+        if constant(value).is_some_and(|number| crate::dialect::CodeHead::new(word.letter, number).is_none())
+        {
+            return self
+                .findings
+                .not_understood(span, format!("this is no number of a {} code", word.letter));
+        }
+        seen.m_codes += u32::from(word.letter == 'M');
+        let message = format!("which {} code this is, is known only when the program runs", word.letter);
+        self.findings.add(Diagnostic::new(Code::ComputedCode, span, message));
+        let value = self.expr(value, At::Word(Role::Tool));
+        nc.items.push(NcItem::Code(word.letter, value));
+    }
+
+    fn word(&mut self, word: &'a Word, span: Span, codes: &BlockCodes<'a>, nc: &mut Nc, seen: &mut Seen) {
+        let Some((role, code)) = self.role(word, span, codes) else { return };
+        let Some(value) = word.value.as_ref().filter(|_| !word.equals) else {
+            return self.findings.not_understood(span, format!("{} has no value", word.letter));
+        };
+        let Some((role, value)) = self.word_value(role, word.letter, value, code) else { return };
+        if seen.role(role) && role != Role::Builder {
+            nc.items.retain(|item| !matches!(item, NcItem::Word(other, _) if *other == role));
+            let message = format!("{} stands twice in this block; the later one is taken", word.letter);
+            self.findings.add(Diagnostic::new(Code::WordTwice, span, message));
+        }
+        if code.is_none()
+            && let Some(op) = self.codes.letter(word.letter, word.comma).and_then(|row| row.op)
+        {
+            nc.items.push(NcItem::Op(op));
+        }
+        self.signed |= matches!(value, Expr::Negate(_));
+        nc.items.push(NcItem::Word(role, value));
+    }
+
+    fn check_m_codes(&mut self, seen: &Seen, span: Span) {
+        if seen.m_codes < 2 {
+            return;
+        }
+        match self.findings.behaviour("m.codes.per.block", span) {
+            Some("any") => {}
+            Some(most) if most.parse().is_ok_and(|most: u32| seen.m_codes <= most) => {}
+            Some(most) => {
+                let message = format!("{} M codes in a block of a control that takes {most}", seen.m_codes);
+                self.findings.add(Diagnostic::new(Code::MCodes, span, message));
+            }
+            None => self.unknown_behaviour("m.codes.per.block", span),
+        }
+    }
+}
+
+/// True for a word that is part of a code of the block: the L2 of `G10 L2`.
+fn belongs_to_code(word: &Word, codes: &BlockCodes<'_>) -> bool {
+    codes.iter().any(|(_, row)| {
+        row.code.contains(' ')
+            && row.beside().is_some_and(|beside| {
+                beside.iter().any(|b| b.letter == word.letter && b.thousandths.is_some()) && !word.comma
+            })
+    })
+}
+
+/// Drops the operations that exclude `op`; true where there was one. Ending a cycle
+/// goes with any motion, and the two ways of cooling with one another.
+fn drop_clashing(nc: &mut Nc, op: Op) -> bool {
+    let before = nc.items.len();
+    nc.items.retain(|item| {
+        let NcItem::Op(other) = item else { return true };
+        let cancel = *other != op && (*other == Op::CycleOff || op == Op::CycleOff);
+        let cooling = matches!((*other, op), (Op::Mist, Op::Flood) | (Op::Flood, Op::Mist));
+        other.group() != op.group() || cancel || cooling
+    });
+    before != nc.items.len()
+}
+
+/// What a block has said already.
+#[derive(Default)]
+struct Seen {
+    groups: u32,
+    roles: u128,
+    m_codes: u32,
+}
+
+impl Seen {
+    /// Notes a group; true where it was there.
+    fn group(&mut self, group: Group) -> bool {
+        let bit = 1u32.checked_shl(group as u32).unwrap_or(0);
+        let there = self.groups & bit != 0;
+        self.groups |= bit;
+        there
+    }
+
+    /// Notes a role; true where it was there.
+    fn role(&mut self, role: Role) -> bool {
+        let bit = 1u128.checked_shl(role as u32).unwrap_or(0);
+        let there = self.roles & bit != 0;
+        self.roles |= bit;
+        there
+    }
+}

@@ -1,0 +1,102 @@
+//! Copy propagation.
+//!
+//! **Law.** Behind `t = s` and before the next write of either, reading `t` is reading `s`.
+//!
+//! **Side condition.** `t` is a temporary; at `-O2` it may be any variable without a name whose
+//! assignment has no comment, where `s` is a number. `s` is a number or a variable that is never
+//! vacant. Reads in words of an NC block and in arguments are left alone. Assignments stay.
+//!
+//! **Counter-examples.** `tmp.1 = #2` with `#2` vacant: `tmp.1` is 0, and `#3 = tmp.1` must not
+//! make `#3` vacant. A word that becomes a constant may no longer stand in one block with
+//! words that are variables, and one that becomes a variable may not be one that words take: hence the words, and hence not after legalization.
+
+use super::pass::{Level, Pass};
+use super::retarget::has_temps;
+use crate::ir::analysis::{Summaries, Vars};
+use crate::ir::{Class, Expr, Module, Place, Stmt, StmtKind, TermKind, Var};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The pass.
+pub(super) struct Copies;
+
+impl Pass for Copies {
+    fn name(&self) -> &'static str {
+        "copies"
+    }
+
+    fn keeps_legal(&self) -> bool {
+        false
+    }
+
+    fn run(&self, module: &mut Module, level: Level) {
+        if level < Level::O2 && !module.programs.iter().any(has_temps) {
+            return;
+        }
+        let summaries = Summaries::of(module);
+        let named: BTreeSet<Var> = module.names.keys().copied().collect();
+        for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+            let mut copies = Known { sources: BTreeMap::new(), named: &named, level };
+            for stmt in &mut block.stmts {
+                if !matches!(stmt.kind, StmtKind::Nc(_) | StmtKind::ModalCall(_)) {
+                    stmt.kind.exprs_mut(&mut |e| copies.replace(e));
+                }
+                copies.step(stmt, &summaries);
+            }
+            if !matches!(block.term.kind, TermKind::Call { .. }) {
+                block.term.kind.exprs_mut(&mut |e| copies.replace(e));
+            }
+        }
+    }
+}
+
+/// What is known at a place of a block.
+struct Known<'k> {
+    sources: BTreeMap<Var, Expr>,
+    named: &'k BTreeSet<Var>,
+    level: Level,
+}
+
+impl Known<'_> {
+    fn replace(&self, e: &mut Expr) {
+        match e {
+            Expr::Var(var) => {
+                if let Some(source) = self.sources.get(var) {
+                    *e = source.clone();
+                }
+            }
+            e => e.exprs_mut(&mut |operand| self.replace(operand)),
+        }
+    }
+
+    fn step(&mut self, stmt: &Stmt, summaries: &Summaries) {
+        let mut written = Vars::default();
+        stmt.kind.target().iter().for_each(|place| written.write(place));
+        match &stmt.kind {
+            StmtKind::ClearAll(class) => {
+                written.classes.insert(*class);
+            }
+            StmtKind::Nc(nc) => {
+                written.join(&summaries.of_nc(nc).writes);
+            }
+            _ => {}
+        }
+        self.sources.retain(|copy, source| {
+            let stale = matches!(source, Expr::Var(var) if written.contains(*var));
+            !written.contains(*copy) && !stale
+        });
+        if stmt.site.skip.is_none()
+            && let StmtKind::Assign { target: Place::Var(copy), value } = &stmt.kind
+            && self.is_copy(stmt, *copy, value)
+        {
+            self.sources.insert(*copy, value.clone());
+        }
+    }
+
+    fn is_copy(&self, stmt: &Stmt, copy: Var, value: &Expr) -> bool {
+        let number = matches!(value, Expr::Number(_));
+        if copy.class == Class::Temp {
+            return number || matches!(value, Expr::Var(var) if !var.class.nullable() && *var != copy);
+        }
+        self.level >= Level::O2 && number && !self.named.contains(&copy) && stmt.site.remarks.is_empty()
+    }
+}

@@ -1,0 +1,24 @@
+//! IR to IR, tidier: one pass per file, in one ordered list.
+//!
+//! What operators read stays: a literal assigned at a program's head is an input, and an input
+//! stays an input. [`Level::O1`], the default, only tidies what lowering and legalization put in:
+//! temporaries, and statements and blocks that no source block stands behind (their site is the
+//! default). [`Level::O2`] may change what people wrote, never what it does.
+//!
+//! Each pass states its law, its side condition and a counter-example to leaving that out.
+
+mod branches;
+mod copies;
+mod dead_temps;
+mod fold;
+mod pass;
+#[cfg(test)]
+mod random;
+mod retarget;
+mod unreachable;
+
+pub use fold::fold;
+pub use pass::{Dump, Level, OptError, Options, PASSES, Pass, When, find, run};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,154 @@
+use super::*;
+use crate::canon::Func;
+use crate::ir::eval::{AtanRange, Memory, eval, holds};
+use crate::ir::text::{parse, print};
+use crate::ir::{BinOp, Cond, Expr, Module, Relation};
+
+/// The operands that tell rewritings apart.
+const DOMAIN: [f64; 12] = [0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 1.5, 2.5, 0.4999999, 359.9, 1e-9, 99_999_999.0];
+
+fn operands() -> Vec<Expr> {
+    DOMAIN.iter().map(|v| Expr::Number(*v)).chain([Expr::Vacant]).collect()
+}
+
+/// Folded or not, the value is the same to the last bit, and an alarm stays one.
+fn folds_alike(e: Expr) {
+    let mut folded = e.clone();
+    fold(&mut folded);
+    for atan in [AtanRange::Full, AtanRange::Signed] {
+        let env = Memory { atan, ..Memory::new() };
+        let [before, after] = [&e, &folded].map(|e| eval(e, &env).map(|v| v.map(f64::to_bits)));
+        assert_eq!(after, before, "{e} became {folded}");
+    }
+}
+
+#[test]
+fn folding_keeps_every_value() {
+    let ops = [BinOp::Add, BinOp::Sub, BinOp::Mul, BinOp::Div, BinOp::Mod, BinOp::And, BinOp::Or, BinOp::Xor];
+    for a in operands() {
+        folds_alike(Expr::Negate(Box::new(a.clone())));
+        Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, vec![a.clone()])));
+        for b in operands() {
+            for op in ops {
+                folds_alike(Expr::Binary(op, Box::new(a.clone()), Box::new(b.clone())));
+            }
+            Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, vec![a.clone(), b.clone()])));
+            let cond = Cond::Compare(Relation::Equal, a.clone(), b.clone());
+            folds_alike(Expr::Truth(Box::new(cond)));
+        }
+    }
+}
+
+#[test]
+fn folding_stops_short_of_what_no_literal_says() {
+    let folded = |text: &str| {
+        let mut module = parse(&format!("program O1 {{\nblock0:\n tmp.1 = {text}\n end\n}}")).unwrap();
+        find("fold").unwrap().run(&mut module, Level::O1);
+        let text = print(&module);
+        text.lines().nth(2).and_then(|line| line.split(" = ").nth(1)).unwrap_or_default().to_owned()
+    };
+    for (from, to) in [
+        ("2 + 3 * 4", "14"),
+        ("1 / 3", "1 / 3"),
+        ("1 / 0", "1 / 0"),
+        ("sqrt(-1)", "sqrt(-1)"),
+        ("-(0)", "-(0)"),
+        ("sin(30)", "0.5"),
+        ("sin(20)", "sin(20)"),
+        ("atan(1, 1)", "45"),
+        ("atan(-1, -1)", "atan(-1, -1)"),
+        ("local.1 + 0", "local.1 + 0"),
+        ("local.1 * 1", "local.1 * 1"),
+        ("vacant + 1", "vacant + 1"),
+        ("truth(1 lt 2)", "1"),
+        ("truth(switch 1)", "truth(switch 1)"),
+        ("1000 * 1000 * 1000", "1000000 * 1000"),
+        ("1 / 1000000000", "1 / 1000000000"),
+        ("99999999 + 0.5", "99999999 + 0.5"),
+    ] {
+        assert_eq!(folded(from), to, "{from}");
+    }
+}
+
+#[test]
+fn constant_conditions_settle_as_they_hold() {
+    let relations = [
+        Relation::Equal,
+        Relation::NotEqual,
+        Relation::Less,
+        Relation::LessEqual,
+        Relation::Greater,
+        Relation::GreaterEqual,
+    ];
+    for a in operands() {
+        for b in operands() {
+            for relation in relations {
+                let cond = Cond::Compare(relation, a.clone(), b.clone());
+                let way = if holds(&cond, &Memory::new()).unwrap() { 1 } else { 2 };
+                let text = format!(
+                    "program O1 {{\nblock0:\n branch {cond} ? block1 : block2\nblock1:\n end\nblock2:\n stray\n}}"
+                );
+                let mut module = parse(&text).unwrap();
+                find("branches").unwrap().run(&mut module, Level::O1);
+                assert!(print(&module).contains(&format!("jump block{way}")), "{cond}");
+            }
+        }
+    }
+}
+
+fn sample() -> Module {
+    let text = "program O1 file 0 {\nblock0:\n    tmp.1 = 2 + 3\n    global.5 = tmp.1\n    end\nblock1:\n    stray\n}\n";
+    parse(text).unwrap()
+}
+
+#[test]
+fn the_manager_runs_what_it_is_told() {
+    let ran = |options| {
+        let mut module = sample();
+        let ran = run(&mut module, options).unwrap();
+        (ran, print(&module))
+    };
+    assert_eq!(ran(Options { level: Level::O0, ..Options::default() }), (vec![], print(&sample())));
+    let (names, text) = ran(Options::default());
+    assert_eq!(names, PASSES.iter().map(|pass| pass.name()).collect::<Vec<_>>());
+    assert_eq!(text, "program O1 file 0 {\nblock0:\n    global.5 = 5\n    end\n}\n");
+    assert_eq!(ran(Options { first: Some(2), ..Options::default() }).0, ["copies", "fold"]);
+    assert_eq!(ran(Options { stop_after: Some("retarget"), ..Options::default() }).0.len(), 3);
+    let (names, _) = ran(Options { legalized: true, ..Options::default() });
+    assert!(!names.contains(&"copies") && names.contains(&"fold"));
+}
+
+#[test]
+fn the_manager_dumps_before_and_after() {
+    let mut seen = Vec::new();
+    let mut dump = |pass: &str, when: When, module: &Module| {
+        seen.push((pass.to_owned(), when, module.programs[0].blocks.len()));
+    };
+    let options = Options { dump: Some(&mut dump), stop_after: Some("unreachable"), ..Options::default() };
+    run(&mut sample(), options).unwrap();
+    let last: Vec<_> = seen.iter().rev().take(2).map(|(p, w, n)| (p.as_str(), *w, *n)).collect();
+    assert_eq!(last, [("unreachable", When::After, 1), ("unreachable", When::Before, 2)]);
+}
+
+#[test]
+fn an_unknown_pass_is_an_error_that_lists_the_known() {
+    let error = run(&mut sample(), Options { stop_after: Some("foldd"), ..Options::default() }).unwrap_err();
+    let known = "copies, fold, retarget, branches, unreachable, dead.temps";
+    assert_eq!(error.to_string(), format!("no pass is named 'foldd'; there are {known}"));
+}
+
+#[test]
+fn large_programs_take_no_long() {
+    let mut text = String::from("program O1 file 0 {\n");
+    for id in 0..50_000 {
+        text.push_str(&format!(
+            "block{id}:\n tmp.1 = global.1 + {id}\n global.2 = tmp.1\n tmp.2 = 3\n branch global.1 lt {id} ? block0 : block{}\n",
+            id + 1
+        ));
+    }
+    let mut module = parse(&format!("{text}block50000:\n end\n}}")).unwrap();
+    let started = std::time::Instant::now();
+    run(&mut module, Options { level: Level::O2, ..Options::default() }).unwrap();
+    assert!(module.programs[0].blocks.iter().all(|block| block.stmts.len() <= 1));
+    assert!(started.elapsed().as_secs() < 90, "{:?}", started.elapsed());
+}

@@ -1,0 +1,108 @@
+//! Removes blocks that control never reaches.
+//!
+//! **Law.** A block that no way from where control enters leads to does nothing.
+//!
+//! **Side condition.** At `-O1` only blocks that lowering or legalization put in are removed, and
+//! none that a label finds. At `-O2` a label keeps a block only where something may jump to it:
+//! every label, when a callee may come back at one.
+//!
+//! **Counter-example.** A subroutine behind `M30` that only `M97 P1000` of another line, a computed
+//! jump or `M99 P1000` of a callee reaches: nothing falls into it.
+
+use super::pass::{Level, Pass};
+use crate::ir::analysis::may_come_back;
+use crate::ir::{Block, BlockId, Callee, Module, Program, Site, StmtKind, TermKind};
+use crate::syntax::Label;
+
+/// The pass.
+pub(super) struct Unreachable;
+
+impl Pass for Unreachable {
+    fn name(&self) -> &'static str {
+        "unreachable"
+    }
+
+    fn run(&self, module: &mut Module, level: Level) {
+        let come_back = may_come_back(module);
+        for program in &mut module.programs {
+            let keep = kept(program, level, come_back);
+            if keep.contains(&false) {
+                remove(program, &keep);
+            }
+        }
+    }
+}
+
+fn kept(program: &Program, level: Level, come_back: bool) -> Vec<bool> {
+    let mut keep = vec![false; program.blocks.len()];
+    let mut work: Vec<BlockId> = Vec::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        let numbered = block.labels.iter().any(|label| matches!(label, Label::Number(_)));
+        let root = match level {
+            Level::O2 => numbered && (come_back || returns_here(program)),
+            _ => !is_introduced(block),
+        };
+        if id == BlockId(0) || root {
+            work.push(id);
+        }
+    }
+    while let Some(id) = work.pop() {
+        let Some(block) = program.block(id) else { continue };
+        if std::mem::replace(&mut keep[id.index()], true) {
+            continue;
+        }
+        block.term.kind.clone().for_each_target(&mut |to| work.push(*to));
+        work.extend(modal_entries(block));
+    }
+    keep
+}
+
+/// True where a subroutine of the program returns to a label of it.
+fn returns_here(program: &Program) -> bool {
+    program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Return { to: Some(_) }))
+}
+
+fn is_introduced(block: &Block) -> bool {
+    let sites = block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]);
+    block.labels.is_empty() && sites.into_iter().all(|site| *site == Site::default())
+}
+
+fn modal_entries(block: &Block) -> impl Iterator<Item = BlockId> + '_ {
+    block.stmts.iter().filter_map(|stmt| match &stmt.kind {
+        StmtKind::ModalCall(call) => match call.callee {
+            Callee::Block(entry) => Some(entry),
+            _ => None,
+        },
+        _ => None,
+    })
+}
+
+/// Leaves the other blocks out and numbers those kept anew, in their order.
+fn remove(program: &mut Program, keep: &[bool]) {
+    let mut next = 0;
+    let place: Vec<BlockId> = keep
+        .iter()
+        .map(|kept| {
+            let id = BlockId(next);
+            next += u32::from(*kept);
+            id
+        })
+        .collect();
+    let renumber = |id: &mut BlockId| {
+        if let Some(to) = place.get(id.index()) {
+            *id = *to;
+        }
+    };
+    let mut flags = keep.iter();
+    program.blocks.retain(|_| flags.next().copied().unwrap_or(true));
+    for block in &mut program.blocks {
+        block.term.kind.for_each_target(&mut |id| renumber(id));
+        for stmt in &mut block.stmts {
+            if let StmtKind::ModalCall(call) = &mut stmt.kind
+                && let Callee::Block(entry) = &mut call.callee
+            {
+                renumber(entry);
+            }
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! What people and programs are told: one renderer a format, one file each.
+
+mod html;
+mod json;
+mod markdown;
+mod part;
+mod plot;
+mod sarif;
+mod text;
+mod totals;
+mod trace;
+
+pub use html::conversion as html;
+pub use json::conversion as json;
+pub use markdown::conversion as markdown;
+pub use part::{Part, Place};
+pub use plot::backplot;
+pub use sarif::conversion as sarif;
+pub use text::{Sheet, explain, summary};
+pub use totals::Totals;
+pub use trace::{trace_json, trace_text};
+
+use crate::diag::Severity;
+use crate::library::Outcome;
+
+/// An outcome, in the words of reports.
+fn words(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Converted => "converted",
+        Outcome::Review => "for review",
+        Outcome::Refused => "refused",
+    }
+}
+
+/// A severity, in the words of reports.
+fn grade(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Review => "review",
+        Severity::Note => "note",
+    }
+}

@@ -1,0 +1,212 @@
+//! The backplot: the tool's path from above and from the side, as SVG.
+
+mod view;
+
+use crate::control::trace::{Event, Happening};
+use std::fmt::Write;
+use view::{Bounds, View};
+
+/// A point of the path, millimetres.
+type Point = [f64; 3];
+
+/// A stretch of the path.
+struct Stroke {
+    kind: Kind,
+    points: Vec<Point>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Rapid,
+    Cut,
+}
+
+/// What is drawn.
+#[derive(Default)]
+struct Path {
+    strokes: Vec<Stroke>,
+    holes: Vec<Point>,
+    touches: Vec<Point>,
+}
+
+/// Side of a drawing, in pixels.
+const SIZE: f64 = 560.0;
+/// Room round a drawing.
+const MARGIN: f64 = 60.0;
+
+/// The path as an SVG with two drawings: XY from above, and isometric.
+pub fn backplot(events: &[Event], title: &str) -> String {
+    let path = Path::of(events);
+    let mut out = String::new();
+    let (width, height) = (2.0 * SIZE + 3.0 * MARGIN, SIZE + 2.5 * MARGIN);
+    let _ = writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"12\">"
+    );
+    let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>");
+    let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", escape(title));
+    let above: fn(Point) -> (f64, f64) = |point| (point[0], point[1]);
+    // Thirty degrees to either side, Z up.
+    let isometric: fn(Point) -> (f64, f64) = |[x, y, z]| {
+        let (sin, cos) = (0.5, 0.866_025_403_784_438_6);
+        ((x - y) * cos, (x + y) * sin + z)
+    };
+    for (column, (name, project)) in [("XY, mm", above), ("isometric, mm", isometric)].into_iter().enumerate()
+    {
+        let left = MARGIN + column as f64 * (SIZE + MARGIN);
+        draw(&path, name, project, (left, 1.25 * MARGIN), &mut out);
+    }
+    legend(height, &mut out);
+    out.push_str("</svg>\n");
+    out
+}
+
+fn draw(path: &Path, name: &str, project: fn(Point) -> (f64, f64), corner: (f64, f64), out: &mut String) {
+    let bounds = Bounds::of(path.points().map(project));
+    let view = View::new(bounds, corner, SIZE);
+    let flat = name.starts_with("XY");
+    let _ = writeln!(
+        out,
+        "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{SIZE}\" height=\"{SIZE}\" fill=\"none\" stroke=\"#ccc\"/>",
+        corner.0, corner.1
+    );
+    let _ =
+        writeln!(out, "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#555\">{name}</text>", corner.0, corner.1 - 6.0);
+    if flat {
+        view.axes(out);
+    } else {
+        let zero = [0.0; 3];
+        let arm = view.span() * 0.12;
+        for (label, end) in [("X", [arm, 0.0, 0.0]), ("Y", [0.0, arm, 0.0]), ("Z", [0.0, 0.0, arm])] {
+            view.arrow(project(zero), project(end), label, out);
+        }
+    }
+    for stroke in &path.strokes {
+        let style = match stroke.kind {
+            Kind::Rapid => "stroke=\"#c60\" stroke-width=\"0.8\" stroke-dasharray=\"5 3\"",
+            Kind::Cut => "stroke=\"#036\" stroke-width=\"1.4\"",
+        };
+        let points: Vec<String> = stroke
+            .points
+            .iter()
+            .map(|point| {
+                let (x, y) = view.place(project(*point));
+                format!("{x:.2},{y:.2}")
+            })
+            .collect();
+        let _ = writeln!(out, "<polyline fill=\"none\" {style} points=\"{}\"/>", points.join(" "));
+    }
+    for hole in &path.holes {
+        let (x, y) = view.place(project(*hole));
+        let _ = writeln!(
+            out,
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" fill=\"none\" stroke=\"#080\" stroke-width=\"1.5\"/>"
+        );
+    }
+    for touch in &path.touches {
+        let (x, y) = view.place(project(*touch));
+        let _ = writeln!(
+            out,
+            "<path d=\"M{:.2} {y:.2}h8m-4 -4v8\" stroke=\"#b00\" stroke-width=\"1.5\"/>",
+            x - 4.0
+        );
+    }
+    view.scale(out);
+}
+
+fn legend(height: f64, out: &mut String) {
+    let y = height - 14.0;
+    let entries = [
+        ("stroke=\"#c60\" stroke-dasharray=\"5 3\"", "rapid"),
+        ("stroke=\"#036\" stroke-width=\"1.4\"", "feed"),
+    ];
+    for (at, (style, name)) in entries.into_iter().enumerate() {
+        let x = MARGIN + 110.0 * at as f64;
+        let _ = writeln!(
+            out,
+            "<line x1=\"{x}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" {style}/><text x=\"{:.1}\" y=\"{y}\">{name}</text>",
+            y - 4.0,
+            x + 40.0,
+            y - 4.0,
+            x + 46.0
+        );
+    }
+    let x = MARGIN + 230.0;
+    let _ = writeln!(
+        out,
+        "<circle cx=\"{x}\" cy=\"{:.1}\" r=\"4\" fill=\"none\" stroke=\"#080\" stroke-width=\"1.5\"/><text x=\"{:.1}\" y=\"{y}\">hole</text>",
+        y - 4.0,
+        x + 10.0
+    );
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+impl Path {
+    fn of(events: &[Event]) -> Self {
+        let mut path = Path::default();
+        for event in events {
+            match &event.what {
+                Happening::Rapid { from, to } => path.line(Kind::Rapid, point(&from.0), point(&to.0)),
+                Happening::Feed { from, to, .. } | Happening::Thread { from, to, .. } => {
+                    path.line(Kind::Cut, point(&from.0), point(&to.0));
+                }
+                Happening::Probe { from, to, hit, .. } => {
+                    path.line(Kind::Cut, point(&from.0), point(&to.0));
+                    path.touches.extend(hit.then(|| point(&to.0)));
+                }
+                Happening::Arc { from, to, centre, plane, sweep, .. } => {
+                    let axes = match plane {
+                        crate::control::trace::Plane::Xy => (0, 1, 2),
+                        crate::control::trace::Plane::Zx => (2, 0, 1),
+                        crate::control::trace::Plane::Yz => (1, 2, 0),
+                    };
+                    path.arc((point(&from.0), point(&to.0)), point(&centre.0), axes, *sweep);
+                }
+                Happening::Hole { at, .. } => path.holes.push(point(&at.0)),
+                _ => {}
+            }
+        }
+        path
+    }
+
+    fn points(&self) -> impl Iterator<Item = Point> + '_ {
+        self.strokes.iter().flat_map(|stroke| stroke.points.iter().copied())
+    }
+
+    fn line(&mut self, kind: Kind, from: Point, to: Point) {
+        match self
+            .strokes
+            .last_mut()
+            .filter(|stroke| stroke.kind == kind && stroke.points.last() == Some(&from))
+        {
+            Some(stroke) => stroke.points.push(to),
+            None => self.strokes.push(Stroke { kind, points: vec![from, to] }),
+        }
+    }
+
+    /// An arc in pieces of at most three degrees.
+    fn arc(&mut self, (from, to): (Point, Point), centre: Point, axes: (usize, usize, usize), sweep: f64) {
+        let (first, second, along) = axes;
+        let (a, b) = (from[first] - centre[first], from[second] - centre[second]);
+        let pieces = ((sweep.abs() / 3.0).ceil() as usize).clamp(1, 400);
+        let mut before = from;
+        for piece in 1..=pieces {
+            let part = piece as f64 / pieces as f64;
+            let (sin, cos) = (sweep * part).to_radians().sin_cos();
+            let mut next = from;
+            next[first] = centre[first] + a * cos - b * sin;
+            next[second] = centre[second] + a * sin + b * cos;
+            next[along] = from[along] + (to[along] - from[along]) * part;
+            let next = if piece == pieces { to } else { next };
+            self.line(Kind::Cut, before, next);
+            before = next;
+        }
+    }
+}
+
+fn point(axes: &crate::control::scenario::Axes) -> Point {
+    [axes[0], axes[1], axes[2]]
+}

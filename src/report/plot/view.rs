@@ -1,0 +1,140 @@
+//! From millimetres to pixels.
+
+use std::fmt::Write;
+
+/// The extent of a drawing, millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    low: (f64, f64),
+    high: (f64, f64),
+}
+
+impl Bounds {
+    /// Round all points; the zero point alone where there is none.
+    pub fn of(points: impl Iterator<Item = (f64, f64)>) -> Self {
+        let finite = points.filter(|(x, y)| x.is_finite() && y.is_finite());
+        let all = finite.fold(None, |bounds: Option<Bounds>, (x, y)| {
+            let old = bounds.unwrap_or(Bounds { low: (x, y), high: (x, y) });
+            Some(Bounds {
+                low: (old.low.0.min(x), old.low.1.min(y)),
+                high: (old.high.0.max(x), old.high.1.max(y)),
+            })
+        });
+        all.unwrap_or(Bounds { low: (0.0, 0.0), high: (0.0, 0.0) })
+    }
+}
+
+/// A drawing's place on the sheet.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    bounds: Bounds,
+    corner: (f64, f64),
+    size: f64,
+    scale: f64,
+    shift: (f64, f64),
+}
+
+impl View {
+    /// Fits an extent into a square at a corner of the sheet.
+    pub fn new(bounds: Bounds, corner: (f64, f64), size: f64) -> Self {
+        let (wide, high) = (bounds.high.0 - bounds.low.0, bounds.high.1 - bounds.low.1);
+        let span = wide.max(high);
+        let span = if span > 0.0 { span } else { 1.0 };
+        let scale = size * 0.86 / span;
+        let shift = (corner.0 + (size - wide * scale) / 2.0, corner.1 + (size + high * scale) / 2.0);
+        Self { bounds, corner, size, scale, shift }
+    }
+
+    /// The larger side of the extent, millimetres.
+    pub fn span(&self) -> f64 {
+        self.size * 0.86 / self.scale
+    }
+
+    /// Pixels of a point.
+    pub fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        (
+            self.shift.0 + (x - self.bounds.low.0) * self.scale,
+            self.shift.1 - (y - self.bounds.low.1) * self.scale,
+        )
+    }
+
+    /// A length of 1, 2 or 5 times a power of ten that is about a fifth of the drawing.
+    fn step(&self) -> f64 {
+        let about = self.span() / 5.0;
+        let ten = 10f64.powf(about.log10().floor());
+        [5.0, 2.0, 1.0].into_iter().map(|unit| unit * ten).find(|step| *step <= about).unwrap_or(ten)
+    }
+
+    /// Ticks with their coordinates along both sides, and lines through zero.
+    pub fn axes(&self, out: &mut String) {
+        let step = self.step();
+        let (left, bottom) = (self.corner.0, self.corner.1 + self.size);
+        let room = self.size * 0.07 / self.scale;
+        let ticks = |low: f64, high: f64| {
+            let first = ((low - room) / step).ceil() as i64;
+            let last = ((high + room) / step).floor() as i64;
+            (first..=last.min(first.saturating_add(40))).map(move |at| at as f64 * step)
+        };
+        for at in ticks(self.bounds.low.0, self.bounds.high.0) {
+            let x = self.place((at, 0.0)).0;
+            if x < left || x > left + self.size {
+                continue;
+            }
+            let colour = if at == 0.0 { "#999" } else { "#eee" };
+            let top = self.corner.1;
+            let _ = writeln!(
+                out,
+                "<line x1=\"{x:.1}\" y1=\"{top:.1}\" x2=\"{x:.1}\" y2=\"{bottom:.1}\" stroke=\"{colour}\"/>"
+            );
+            let _ = writeln!(
+                out,
+                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"10\">{at}</text>",
+                bottom + 12.0
+            );
+        }
+        for at in ticks(self.bounds.low.1, self.bounds.high.1) {
+            let y = self.place((0.0, at)).1;
+            if y < self.corner.1 || y > bottom {
+                continue;
+            }
+            let colour = if at == 0.0 { "#999" } else { "#eee" };
+            let right = left + self.size;
+            let _ = writeln!(
+                out,
+                "<line x1=\"{left:.1}\" y1=\"{y:.1}\" x2=\"{right:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\"/>"
+            );
+            let _ = writeln!(
+                out,
+                "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{at}</text>",
+                left - 4.0,
+                y + 4.0
+            );
+        }
+    }
+
+    /// A labelled line, for an axis.
+    pub fn arrow(&self, from: (f64, f64), to: (f64, f64), label: &str, out: &mut String) {
+        let corner = (self.corner.0 + 75.0, self.corner.1 + self.size - 30.0);
+        let (dx, dy) = ((to.0 - from.0) * self.scale, (to.1 - from.1) * self.scale);
+        let (x, y) = (corner.0 + dx, corner.1 - dy);
+        let _ = writeln!(
+            out,
+            "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{x:.1}\" y2=\"{y:.1}\" stroke=\"#999\"/><text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"10\" fill=\"#555\">{label}</text>",
+            corner.0, corner.1
+        );
+    }
+
+    /// A bar with its length.
+    pub fn scale(&self, out: &mut String) {
+        let step = self.step();
+        let (x, y) = (self.corner.0 + self.size - 12.0, self.corner.1 + 16.0);
+        let from = x - step * self.scale;
+        let _ = writeln!(
+            out,
+            "<path d=\"M{from:.1} {:.1}v4h{:.1}v-4\" fill=\"none\" stroke=\"#333\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{step} mm</text>",
+            y - 4.0,
+            x - from,
+            y + 14.0
+        );
+    }
+}

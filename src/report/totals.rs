@@ -1,0 +1,56 @@
+//! How many programs came out how.
+
+use super::Part;
+use crate::library::Outcome;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How many programs came out how.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Totals {
+    /// Files read.
+    pub files: usize,
+    /// Programs in them.
+    pub programs: usize,
+    /// Programs that do the same by all that is known.
+    pub converted: usize,
+    /// Programs that a person must look at.
+    pub review: usize,
+    /// Programs without a conversion.
+    pub refused: usize,
+    /// How many programs have each code.
+    pub codes: BTreeMap<&'static str, usize>,
+}
+
+impl Totals {
+    /// Counts conversions.
+    pub fn of(parts: &[Part<'_>]) -> Self {
+        let mut totals = Self::default();
+        for part in parts {
+            totals.files += part.inputs.len();
+            for program in &part.conversion.programs {
+                totals.programs += 1;
+                *match program.outcome {
+                    Outcome::Converted => &mut totals.converted,
+                    Outcome::Review => &mut totals.review,
+                    Outcome::Refused => &mut totals.refused,
+                } += 1;
+                let codes: BTreeSet<_> = program.diagnostics.iter().map(|d| d.code).collect();
+                codes.into_iter().for_each(|code| *totals.codes.entry(code.number()).or_default() += 1);
+            }
+        }
+        totals
+    }
+}
+
+impl std::fmt::Display for Totals {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { files, programs, converted, review, refused, .. } = self;
+        let (program, file) = (plural(*programs, "program"), plural(*files, "file"));
+        write!(f, "{program} in {file}: {converted} converted, {review} for review, {refused} refused")
+    }
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}

@@ -1,0 +1,58 @@
+//! Bosch CC100: plain blocks and parametric blocks. One line is one block.
+
+mod build;
+mod check;
+mod diagnose;
+mod lexemes;
+
+pub use check::check_blocks;
+
+use super::Block;
+use super::plain::plain_block;
+use super::support::{readable, tile, unparsed};
+use crate::text::Span;
+use pest::Parser as _;
+
+/// The grammar. Its rules do not leave this module.
+mod grammar {
+    #![allow(missing_docs)]
+
+    #[derive(pest_derive::Parser)]
+    #[grammar = "grammar/cc100.pest"]
+    pub(super) struct Grammar;
+}
+use grammar::{Grammar, Rule};
+
+/// Reads the one block of a line. Nothing nests in this language, so no line is
+/// too deep.
+pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    if line.is_empty() {
+        return;
+    }
+    match plain_block(source, line) {
+        Some(block) => out.push(block),
+        None => by_grammar(source, line, out),
+    }
+}
+
+/// Reads a line by the grammar, which defines what [`plain_block`] may take over.
+fn by_grammar(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    let text = readable(line.of(source));
+    match Grammar::parse(Rule::block, &text) {
+        Ok(pairs) => {
+            let lexemes = pairs.clone().flatten().filter_map(|pair| {
+                let span = pair.as_span();
+                let at = |offset: usize| line.start + offset as u32;
+                Some((lexemes::kind(pair.as_rule())?, Span::new(at(span.start()), at(span.end()))))
+            });
+            let tokens = tile(source, line, lexemes);
+            let (items, mut errors) = build::items(line, pairs);
+            errors.extend(check::mixture(&items));
+            out.push(Block { span: line, tokens, items, errors });
+        }
+        Err(error) => out.push(unparsed(line, diagnose::diagnose(&text, line, &error))),
+    }
+}
+
+#[cfg(test)]
+mod tests;

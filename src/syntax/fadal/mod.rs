@@ -1,0 +1,101 @@
+//! Fadal: NC lines, and macro lines behind `#`. One line is one block.
+
+mod build;
+mod check;
+mod diagnose;
+mod expr;
+mod lexemes;
+
+pub use check::check_blocks;
+
+use super::plain::plain_block;
+use super::support::{depth, fault, readable, tile, unparsed};
+use super::{Block, SyntaxError};
+use crate::diag::Code;
+use crate::text::Span;
+use pest::Parser as _;
+
+/// The grammar. Its rules do not leave this module.
+mod grammar {
+    #![allow(missing_docs)]
+
+    #[derive(pest_derive::Parser)]
+    #[grammar = "grammar/fadal.pest"]
+    pub(super) struct Grammar;
+}
+use grammar::{Grammar, Rule};
+
+/// Longest macro line that is read, and deepest brackets: far above the 63
+/// characters the control takes, so that only damage is refused, and low enough
+/// that no tree is too deep to walk.
+const MOST_BYTES: usize = 1024;
+const MOST_BRACKETS: usize = 32;
+
+/// Reads the one block of a line.
+pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    if line.is_empty() {
+        return;
+    }
+    match plain_block(source, line) {
+        Some(block) => out.push(block),
+        None => by_grammar(source, line, out),
+    }
+}
+
+/// Reads a line by the grammar, which defines what [`plain_block`] may take over.
+fn by_grammar(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    let text = readable(line.of(source));
+    if let Some(error) = too_complex(&text, line) {
+        out.push(unparsed(line, error));
+        return;
+    }
+    match Grammar::parse(Rule::block, &text) {
+        Ok(pairs) => {
+            let lexemes = pairs.clone().flatten().filter_map(|pair| {
+                let span = pair.as_span();
+                let at = |offset: usize| line.start + offset as u32;
+                Some((lexemes::kind(pair.as_rule())?, Span::new(at(span.start()), at(span.end()))))
+            });
+            let tokens = tile(source, line, lexemes);
+            let (items, errors) = build::items(source, line, pairs);
+            out.push(Block { span: line, tokens, items, errors });
+        }
+        Err(error) => out.push(unparsed(line, diagnose::diagnose(&text, line, &error))),
+    }
+}
+
+/// Where the macro statement of a line begins: the offset of its `#`.
+fn mark_of(text: &str) -> Option<usize> {
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    let skip = |at: &mut usize, test: fn(&u8) -> bool| {
+        *at += bytes.iter().skip(*at).take_while(|byte| test(byte)).count();
+    };
+    let blank: fn(&u8) -> bool = |byte| matches!(byte, b' ' | b'\t');
+    for sign in [b'/', b'N', b'/'] {
+        skip(&mut at, blank);
+        if bytes.get(at).is_some_and(|byte| byte.eq_ignore_ascii_case(&sign)) {
+            at += 1;
+            skip(&mut at, blank);
+            skip(&mut at, u8::is_ascii_digit);
+        }
+    }
+    skip(&mut at, blank);
+    (bytes.get(at) == Some(&b'#')).then_some(at)
+}
+
+fn too_complex(text: &str, line: Span) -> Option<SyntaxError> {
+    let mark = mark_of(text)?;
+    let statement = text.get(mark..).unwrap_or("");
+    let message = if statement.len() > MOST_BYTES {
+        format!("macro line of {} characters: it is not read beyond {MOST_BYTES}", statement.len())
+    } else if depth(statement, b'(', b')') > MOST_BRACKETS {
+        format!("brackets nest deeper than {MOST_BRACKETS}")
+    } else {
+        return None;
+    };
+    Some(fault(Code::TooComplex, Span::new(line.start + mark as u32, line.end), message))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,136 @@
+//! Reads a whole file, line by line and in parallel.
+
+use super::Block;
+use crate::text::{Line, Lines, Span};
+use rayon::prelude::*;
+
+/// Reads the blocks of one line of a dialect.
+///
+/// `source` is the whole file; every span is an offset into it. A parser
+/// appends at least one block for any line but an empty one, and their tokens
+/// tile the line.
+pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
+
+/// A file with its blocks.
+#[derive(Clone, Debug)]
+pub struct ParsedFile<'s> {
+    /// The bytes it was read from.
+    pub source: &'s [u8],
+    /// Its lines.
+    pub lines: Vec<Line>,
+    /// Its blocks, in order; an empty line has none.
+    pub blocks: Vec<Block>,
+}
+
+impl ParsedFile<'_> {
+    /// The file's bytes, with rewritten tokens in their places.
+    pub fn print(&self) -> Vec<u8> {
+        let mut out = Vec::with_capacity(self.source.len());
+        let mut blocks = self.blocks.iter().peekable();
+        for line in &self.lines {
+            while let Some(block) = blocks.next_if(|block| block.span.start < line.end.end.max(line.text.end))
+            {
+                block.print(self.source, &mut out);
+            }
+            out.extend_from_slice(line.end.of(self.source));
+        }
+        out
+    }
+}
+
+/// What a file amounts to, without keeping its blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ParseTotals {
+    /// Blocks read.
+    pub blocks: usize,
+    /// Blocks that the grammar could not read.
+    pub unparsed: usize,
+    /// Blocks with any error, those included.
+    pub faulty: usize,
+    /// True when every block's tokens tile its line.
+    pub lossless: bool,
+}
+
+/// Bytes of whole lines that one task reads.
+const CHUNK: usize = 256 * 1024;
+
+/// Reads all blocks of `source`.
+pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
+    let parts: Vec<(Vec<Line>, Vec<Block>)> = chunks(source)
+        .into_par_iter()
+        .map(|chunk| {
+            let lines: Vec<Line> = chunk_lines(source, chunk).collect();
+            let mut blocks = Vec::new();
+            lines.iter().for_each(|line| parser(source, line.text, &mut blocks));
+            (lines, blocks)
+        })
+        .collect();
+    let mut file = ParsedFile { source, lines: Vec::new(), blocks: Vec::new() };
+    for (lines, blocks) in parts {
+        file.lines.extend(lines);
+        file.blocks.extend(blocks);
+    }
+    file
+}
+
+/// Reads all blocks of `source` and keeps only their count: memory stays flat.
+pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
+    chunks(source)
+        .into_par_iter()
+        .map(|chunk| {
+            let mut totals = ParseTotals { lossless: true, ..ParseTotals::default() };
+            let mut blocks = Vec::new();
+            for line in chunk_lines(source, chunk) {
+                blocks.clear();
+                parser(source, line.text, &mut blocks);
+                totals.add_line(line, &blocks);
+            }
+            totals
+        })
+        .reduce(|| ParseTotals { lossless: true, ..ParseTotals::default() }, ParseTotals::plus)
+}
+
+impl ParseTotals {
+    fn add_line(&mut self, line: Line, blocks: &[Block]) {
+        let mut at = line.text.start;
+        for block in blocks {
+            self.blocks += 1;
+            self.unparsed += usize::from(block.items.iter().any(|i| i.kind == super::ItemKind::Unparsed));
+            self.faulty += usize::from(!block.errors.is_empty());
+            self.lossless &= block.span.start == at && block.is_tiled();
+            at = block.span.end;
+        }
+        self.lossless &= at == line.text.end;
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            blocks: self.blocks + other.blocks,
+            unparsed: self.unparsed + other.unparsed,
+            faulty: self.faulty + other.faulty,
+            lossless: self.lossless && other.lossless,
+        }
+    }
+}
+
+fn chunk_lines(source: &[u8], chunk: Span) -> impl Iterator<Item = Line> + '_ {
+    let shift = move |span: Span| Span::new(span.start + chunk.start, span.end + chunk.start);
+    Lines::new(chunk.of(source)).map(move |line| Line { text: shift(line.text), end: shift(line.end) })
+}
+
+/// Cuts `source` behind line ends into pieces of about [`CHUNK`] bytes.
+fn chunks(source: &[u8]) -> Vec<Span> {
+    let mut out = Vec::new();
+    let mut start = 0;
+    while start < source.len() {
+        let from = (start + CHUNK).min(source.len());
+        let end = memchr::memchr2(b'\n', b'\r', &source[from..]).map_or(source.len(), |i| {
+            let at = from + i;
+            // A CRLF is one line end.
+            at + 1 + usize::from(source[at] == b'\r' && source.get(at + 1) == Some(&b'\n'))
+        });
+        out.push(Span::new(start as u32, end as u32));
+        start = end;
+    }
+    out
+}

@@ -1,0 +1,42 @@
+//! Haas macros, legacy and NGC controls.
+
+use super::macro_b::{self, Reading, Row, Rules, lexemes_of_rules};
+use super::{Block, SyntaxError};
+use crate::text::Span;
+
+/// What pest makes of the grammar; it stays in here.
+#[allow(missing_docs)]
+mod grammar {
+    #[derive(pest_derive::Parser)]
+    #[grammar = "grammar/macro_b.pest"]
+    #[grammar = "grammar/haas.pest"]
+    pub struct Grammar;
+}
+use grammar::{Grammar, Rule};
+
+lexemes_of_rules!(Rule);
+
+pub(super) const RULES: Rules = Rules {
+    read,
+    bracket_depth: None,
+    constant_digits: None,
+    comments_do_not_nest: true,
+    whole_letters: &['M'],
+    point_is_fraction: false,
+    atan_slash_needs_bracket: false,
+    call_stands_first: false,
+};
+
+/// Reads the blocks of one line.
+pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    macro_b::parse_line(&RULES, source, line, out);
+}
+
+/// What is wrong between the blocks of a file: loops, jumps and modal calls that do not match.
+pub fn check_blocks(blocks: &[Block], source: &[u8]) -> Vec<SyntaxError> {
+    macro_b::check_blocks(blocks, source)
+}
+
+fn read(text: &str, start: u32, row: &mut Row) -> Result<(), Reading> {
+    macro_b::read::<Grammar, Rule>(Rule::block, text, start, row)
+}

@@ -1,0 +1,238 @@
+//! Expressions, conditions and variables of a block.
+
+use super::lexeme::Lex;
+use super::tree::{Builder, MOST_OPERATORS};
+use crate::canon::Func;
+use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, SyntaxError, VarRef};
+use crate::text::Span;
+
+/// Levels of operators, weakest first: relations, sums (and OR, XOR), products (and AND, MOD).
+const PRODUCTS: u8 = 2;
+
+impl Builder<'_> {
+    /// `#1+#2*3`
+    pub fn expression(&mut self) -> Result<Expr, SyntaxError> {
+        self.level(0)
+    }
+
+    /// Operators of at least this level, from left to right.
+    fn level(&mut self, level: u8) -> Result<Expr, SyntaxError> {
+        if level > PRODUCTS {
+            return self.signed();
+        }
+        let mut left = self.level(level + 1)?;
+        while let Some(op) = self.operator_of(level) {
+            self.operators += 1;
+            if self.operators > MOST_OPERATORS {
+                return Err(self.too_deep());
+            }
+            self.pass_space();
+            self.take();
+            self.pass_space();
+            left = binary(op, left, self.level(level + 1)?);
+        }
+        Ok(left)
+    }
+
+    fn operator_of(&self, level: u8) -> Option<BinaryOp> {
+        let by = usize::from(self.kind() == Lex::Space);
+        if self.ahead(by) != Lex::Operator {
+            return None;
+        }
+        operator(self.span_ahead(by).of(self.source)).filter(|op| level_of(*op) == level)
+    }
+
+    /// An operand with the sign before it.
+    pub fn signed(&mut self) -> Result<Expr, SyntaxError> {
+        let Some(sign) = self.take_if(Lex::Sign) else { return self.operand() };
+        self.pass_space();
+        let operand = Box::new(self.operand()?);
+        let span = sign.to(operand.span);
+        let minus = sign.of(self.source) == b"-";
+        Ok(Expr { kind: if minus { ExprKind::Negate(operand) } else { ExprKind::Plus(operand) }, span })
+    }
+
+    /// A number, variable, bracket or function call.
+    pub fn operand(&mut self) -> Result<Expr, SyntaxError> {
+        match self.kind() {
+            Lex::Number => {
+                let span = self.take();
+                Ok(Expr { kind: ExprKind::Number(self.number(span)), span })
+            }
+            Lex::Hash => self.variable_operand(),
+            Lex::Open if self.at_named_variable() => self.variable_operand(),
+            Lex::Open => self.group(),
+            Lex::Function => self.call(),
+            _ => Err(self.misfit()),
+        }
+    }
+
+    fn variable_operand(&mut self) -> Result<Expr, SyntaxError> {
+        let variable = self.variable()?;
+        let span = variable.span;
+        Ok(Expr { kind: ExprKind::Variable(Box::new(variable)), span })
+    }
+
+    /// `[#1+2]`
+    fn group(&mut self) -> Result<Expr, SyntaxError> {
+        let (inner, span) = self.bracketed()?;
+        Ok(Expr { kind: ExprKind::Group(Box::new(inner)), span })
+    }
+
+    /// What stands in a pair of brackets, and the span of both.
+    fn bracketed(&mut self) -> Result<(Expr, Span), SyntaxError> {
+        let open = self.need(Lex::Open)?;
+        self.pass_space();
+        let inner = self.expression()?;
+        Ok((inner, open.to(self.need(Lex::Close)?)))
+    }
+
+    /// `[#1 EQ #2]`, and several joined: `[#1 EQ #2] AND [#3 EQ #4]`.
+    pub fn condition(&mut self) -> Result<Expr, SyntaxError> {
+        self.pass_space();
+        let mut left = self.group()?;
+        while self.meets(Lex::Join) {
+            let span = self.take();
+            let op = operator(span.of(self.source)).ok_or_else(|| self.misfit())?;
+            self.operators += 1;
+            if self.operators > MOST_OPERATORS {
+                return Err(self.too_deep());
+            }
+            self.pass_space();
+            left = binary(op, left, self.group()?);
+        }
+        Ok(left)
+    }
+
+    fn call(&mut self) -> Result<Expr, SyntaxError> {
+        let word = self.take();
+        let function = function(word.of(self.source)).ok_or_else(|| self.misfit())?;
+        self.need(Lex::Open)?;
+        self.pass_space();
+        let mut arguments = vec![self.expression()?];
+        let mut form = CallForm::Plain;
+        if self.meets(Lex::Comma) {
+            self.take();
+            self.pass_space();
+            arguments.push(self.expression()?);
+            form = CallForm::Comma;
+        }
+        let mut span = word.to(self.need(Lex::Close)?);
+        if self.meets(Lex::Slash) {
+            self.take();
+            self.pass_space();
+            let (argument, brackets) = self.bracketed()?;
+            arguments.push(argument);
+            form = CallForm::Slash;
+            span = span.to(brackets);
+        }
+        Ok(Expr { kind: ExprKind::Call { function, arguments, form }, span })
+    }
+
+    /// True at `[#NAME`.
+    pub fn at_named_variable(&self) -> bool {
+        let mut ahead = (1..5).map(|by| self.ahead(by)).filter(|kind| *kind != Lex::Space);
+        ahead.next() == Some(Lex::Hash) && ahead.next() == Some(Lex::Name)
+    }
+
+    /// `#1`, `#[#1+2]`, `#30057.21`, `[#NAME]`
+    pub fn variable(&mut self) -> Result<VarRef, SyntaxError> {
+        if self.kind() == Lex::Open {
+            return self.named_variable();
+        }
+        let hash = self.need(Lex::Hash)?;
+        self.pass_space();
+        if self.kind() == Lex::Open {
+            let (inner, brackets) = self.bracketed()?;
+            let index = Index::Computed(Box::new(inner));
+            return Ok(VarRef { name: "#".to_owned(), index, span: hash.to(brackets) });
+        }
+        let number = self.integer()?;
+        let index = match self.take_if(Lex::Bit) {
+            Some(bit) => Index::Bit(number, self.digits(bit, &bit.of(self.source)[1..])),
+            None => Index::Number(number),
+        };
+        Ok(VarRef { name: "#".to_owned(), index, span: Span::new(hash.start, self.end()) })
+    }
+
+    /// `[#NAME]`; a name with a subscript, `[#_ABSIO[1]]`, is a family of variables called `#_ABSIO`.
+    fn named_variable(&mut self) -> Result<VarRef, SyntaxError> {
+        let open = self.need(Lex::Open)?;
+        self.need(Lex::Hash)?;
+        let span = self.need(Lex::Name)?;
+        let name = upper(span.of(self.source));
+        let (name, index) = if self.kind() == Lex::Open {
+            (format!("#{name}"), Index::Computed(Box::new(self.bracketed()?.0)))
+        } else {
+            ("#".to_owned(), Index::Name(name))
+        };
+        Ok(VarRef { name, index, span: open.to(self.need(Lex::Close)?) })
+    }
+}
+
+fn binary(op: BinaryOp, left: Expr, right: Expr) -> Expr {
+    let span = left.span.to(right.span);
+    Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span }
+}
+
+fn level_of(op: BinaryOp) -> u8 {
+    match op {
+        BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Modulo | BinaryOp::And => 2,
+        BinaryOp::Add | BinaryOp::Subtract | BinaryOp::Or | BinaryOp::Xor => 1,
+        _ => 0,
+    }
+}
+
+fn operator(text: &[u8]) -> Option<BinaryOp> {
+    let second = text.get(1).map(u8::to_ascii_uppercase);
+    Some(match (text.first()?.to_ascii_uppercase(), second) {
+        (b'+', _) => BinaryOp::Add,
+        (b'-', _) => BinaryOp::Subtract,
+        (b'*', _) => BinaryOp::Multiply,
+        (b'/', _) => BinaryOp::Divide,
+        (b'M', _) => BinaryOp::Modulo,
+        (b'A', _) => BinaryOp::And,
+        (b'O', _) => BinaryOp::Or,
+        (b'X', _) => BinaryOp::Xor,
+        (b'E', _) => BinaryOp::Equal,
+        (b'N', _) => BinaryOp::NotEqual,
+        (b'L', Some(b'T')) => BinaryOp::Less,
+        (b'L', _) => BinaryOp::LessEqual,
+        (b'G', Some(b'T')) => BinaryOp::Greater,
+        (b'G', _) => BinaryOp::GreaterEqual,
+        _ => return None,
+    })
+}
+
+fn function(text: &[u8]) -> Option<Func> {
+    let mut name = [0; 5];
+    for (to, from) in name.iter_mut().zip(text) {
+        *to = from.to_ascii_uppercase();
+    }
+    Some(match name.get(..text.len())? {
+        b"SIN" => Func::Sin,
+        b"COS" => Func::Cos,
+        b"TAN" => Func::Tan,
+        b"ASIN" => Func::Asin,
+        b"ACOS" => Func::Acos,
+        b"ATAN" | b"ATN" => Func::Atan,
+        b"SQRT" | b"SQR" => Func::Sqrt,
+        b"ABS" => Func::Abs,
+        b"ROUND" | b"RND" => Func::Round,
+        b"FIX" => Func::Fix,
+        b"FUP" => Func::Fup,
+        b"LN" => Func::Ln,
+        b"EXP" => Func::Exp,
+        b"POW" => Func::Pow,
+        b"BIN" => Func::Bin,
+        b"BCD" => Func::Bcd,
+        b"ADP" => Func::AddPoint,
+        b"PRM" => Func::Parameter,
+        _ => return None,
+    })
+}
+
+/// A name in upper case.
+pub fn upper(text: &[u8]) -> String {
+    String::from_utf8_lossy(text).to_ascii_uppercase()
+}

@@ -1,0 +1,29 @@
+//! What the Macro B family (Fanuc and Haas) has in common.
+//!
+//! A line goes through four steps. [`blocks`] cuts it at its end-of-block signs;
+//! [`scanner`] reads blocks of plain words (built by [`plain`]), and the dialect's pest grammar
+//! (`grammar/macro_b.pest` and its own file) all others, both into one row of
+//! [`lexeme`]s that tiles the block; [`tree`] builds the items from that row;
+//! [`checks`] finds what the grammar lets pass but the control does not.
+//! [`faults`] says in a programmer's words why a block could not be read.
+
+mod blocks;
+mod checks;
+mod expressions;
+mod faults;
+mod file_checks;
+mod lexeme;
+mod plain;
+mod rules;
+mod scanner;
+mod shape;
+mod statements;
+mod tree;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use blocks::parse_line;
+pub use file_checks::check_blocks;
+pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
+pub(super) use rules::{Reading, Rules, read};

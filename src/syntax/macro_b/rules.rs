@@ -1,0 +1,61 @@
+//! What a dialect of the family fills in, and how its grammar is run.
+
+use super::lexeme::{self, Lex, Row};
+use crate::syntax::support::stopped_at;
+use crate::text::Span;
+use pest::error::ErrorVariant;
+use pest::{Parser, RuleType};
+
+/// The differences between the dialects that reading a block meets.
+///
+/// A grammar allows more than a control does, so that the fault can be named. The
+/// limits are facts of the controls; see `dialects/` for their sources.
+pub struct Rules {
+    /// Runs the dialect's grammar over the text of one block.
+    pub read: fn(text: &str, start: u32, row: &mut Row) -> Result<(), Reading>,
+    /// How deep brackets may nest, function brackets included; none for freely.
+    pub bracket_depth: Option<u32>,
+    /// Digits that an assigned constant may have, leading zeros included.
+    pub constant_digits: Option<u16>,
+    /// True where a comment must not hold another `(`.
+    pub comments_do_not_nest: bool,
+    /// Letters of words whose plain numbers must have no fraction.
+    pub whole_letters: &'static [char],
+    /// True where a decimal point alone makes such a number wrong.
+    pub point_is_fraction: bool,
+    /// True where `ATAN[a]/b` without brackets round `b` is an alarm.
+    pub atan_slash_needs_bracket: bool,
+    /// True where a macro call allows no words before it.
+    pub call_stands_first: bool,
+}
+
+/// Where a grammar gave up, and what would have let it go on.
+pub struct Reading {
+    /// Offset in the file.
+    pub at: u32,
+    /// What may stand there.
+    pub expected: Vec<Lex>,
+}
+
+/// Runs a grammar over a block's text, which starts at `start` of its file.
+pub fn read<P: Parser<R>, R: RuleType + Into<Lex>>(
+    rule: R,
+    text: &str,
+    start: u32,
+    row: &mut Row,
+) -> Result<(), Reading> {
+    let pairs = P::parse(rule, text).map_err(|error| {
+        let at = stopped_at(&error);
+        let expected = match error.variant {
+            ErrorVariant::ParsingError { positives, .. } => positives.into_iter().map(Into::into).collect(),
+            ErrorVariant::CustomError { .. } => Vec::new(),
+        };
+        Reading { at: start + at as u32, expected }
+    })?;
+    for pair in pairs {
+        let span = pair.as_span();
+        let place = Span::new(start + span.start() as u32, start + span.end() as u32);
+        lexeme::push(row, pair.as_rule().into(), place, span.as_str().as_bytes());
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! The branches of a source program, and which ways they went.
+
+use super::names::Side;
+use crate::control::{ProgramRef, Run};
+use crate::syntax::{ItemKind, Target, for_each_item};
+use crate::text::{LineIndex, Span};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A way that a branch never went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NotReached {
+    /// The line of the branch.
+    pub line: u32,
+    /// Its column.
+    pub column: u32,
+    /// What it says.
+    pub text: String,
+    /// The way: `true`, `false`, or `taken` for a computed jump.
+    pub way: &'static str,
+}
+
+/// The branches of one program.
+pub struct Coverage {
+    branches: BTreeMap<Span, (bool, BTreeSet<i64>)>,
+    /// All ways that were seen anywhere, those of called programs too.
+    seen: BTreeSet<(usize, Span, i64)>,
+    file: usize,
+}
+
+impl Coverage {
+    /// The branches that stand in a program.
+    pub fn new(side: &Side<'_>, program: ProgramRef) -> Self {
+        let mut branches = BTreeMap::new();
+        let file = side.files.get(program.file);
+        let blocks = file.and_then(|file| file.parsed.blocks.get(side.blocks(program)));
+        for block in blocks.unwrap_or_default() {
+            for_each_item(&block.items, &mut |item| {
+                let (span, computed) = match &item.kind {
+                    ItemKind::If { condition, .. } => (condition.span, false),
+                    ItemKind::Do { condition: Some(condition), .. } => (condition.span, false),
+                    ItemKind::Branch { .. } => (item.span, false),
+                    ItemKind::Goto(Target::Computed(target)) => (target.span, true),
+                    _ => return,
+                };
+                branches.insert(span, (computed, BTreeSet::new()));
+            });
+        }
+        Self { branches, seen: BTreeSet::new(), file: program.file }
+    }
+
+    /// Notes where a run went. True where that was new.
+    pub fn add(&mut self, run: &Run) -> bool {
+        let before = self.seen.len();
+        for (branch, ways) in run.branches.iter() {
+            let Some(program) = run.programs.get(branch.at.program as usize) else { continue };
+            let span = branch.at.span;
+            for way in ways {
+                self.seen.insert((program.file, span, *way));
+            }
+            if program.file != self.file {
+                continue;
+            }
+            let touches = |other: &Span| other.start < span.end && span.start < other.end;
+            for (_, (_, seen)) in self.branches.iter_mut().filter(|(at, _)| touches(at)) {
+                seen.extend(ways);
+            }
+        }
+        self.seen.len() > before
+    }
+
+    /// How many ways there are, and how many of them were gone.
+    pub fn totals(&self) -> (usize, usize) {
+        let ways = |computed: bool| if computed { 1 } else { 2 };
+        let total = self.branches.values().map(|(computed, _)| ways(*computed)).sum();
+        (total, total - self.missing().count())
+    }
+
+    /// True where nothing is left to be reached.
+    pub fn is_complete(&self) -> bool {
+        self.missing().next().is_none()
+    }
+
+    fn missing(&self) -> impl Iterator<Item = (Span, &'static str)> + '_ {
+        self.branches.iter().flat_map(|(span, (computed, seen))| {
+            let none = (*computed && seen.is_empty()).then_some((*span, "taken"));
+            let no = (!computed && !seen.contains(&0)).then_some((*span, "false"));
+            let yes = (!computed && !seen.contains(&1)).then_some((*span, "true"));
+            none.into_iter().chain(no).chain(yes)
+        })
+    }
+
+    /// The ways that were never gone.
+    pub fn not_reached(&self, source: &[u8]) -> Vec<NotReached> {
+        let lines = LineIndex::new(source);
+        let report = |(span, way): (Span, &'static str)| {
+            let (line, column) = lines.place(span.start);
+            let text = source.get(span.range()).map(String::from_utf8_lossy).unwrap_or_default();
+            NotReached { line, column, text: text.into_owned(), way }
+        };
+        self.missing().map(report).collect()
+    }
+}

@@ -1,0 +1,178 @@
+//! The certificate: what was run, and what came of it. `docs/certificate.md` explains its keys.
+
+use super::{Effort, NotReached, Outcome};
+use crate::control::Scenario;
+use crate::dialect::Control;
+use serde::Serialize;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+/// Version of the certificate's shape.
+pub const FORMAT: u32 = 1;
+
+/// What a verification found, for a file or a library.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Certificate {
+    /// Version of the shape of this object.
+    pub format: u32,
+    /// Version of macroglot.
+    pub macroglot: &'static str,
+    /// The worst outcome of any program.
+    pub outcome: Outcome,
+    /// The control of the source.
+    pub from: Identity,
+    /// The control of the target.
+    pub to: Identity,
+    /// Seed of the scenarios that were drawn.
+    pub seed: u64,
+    /// Most blocks that a run executed.
+    pub steps: u64,
+    /// The programs of the source.
+    pub programs: Vec<ProgramCertificate>,
+}
+
+/// Which control a side ran on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Identity {
+    /// The dialect.
+    pub control: String,
+    /// Hash of its table and of the machine profile over it.
+    pub sha256: String,
+}
+
+/// What was found of one program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProgramCertificate {
+    /// The source's file.
+    pub source: String,
+    /// Hash of that file.
+    pub source_sha256: String,
+    /// The program's name there; none for one without.
+    pub program: Option<String>,
+    /// The target's file.
+    pub target: Option<String>,
+    /// Hash of that file.
+    pub target_sha256: Option<String>,
+    /// What it amounts to.
+    pub outcome: Outcome,
+    /// Why it is undecided.
+    pub reasons: Vec<Reason>,
+    /// Scenarios that the source was tried in.
+    pub scenarios_tried: usize,
+    /// Scenarios in which both sides were compared.
+    pub scenarios_compared: usize,
+    /// Ways of the source's branches that were gone.
+    pub branches_covered: usize,
+    /// Ways that there are.
+    pub branches_total: usize,
+    /// Ways that were never gone.
+    pub not_reached: Vec<NotReached>,
+    /// Positions count as the same up to here where words round, millimetres.
+    pub tolerance_mm: f64,
+    /// The largest distance between positions that counted as the same, millimetres.
+    pub largest_difference_mm: f64,
+    /// True where the path of the target changes when its arithmetic keeps fewer digits; none where that was not tried.
+    pub rounding_sensitive: Option<bool>,
+    /// Facts that mattered in a run and that no source confirms.
+    pub unconfirmed: Vec<String>,
+    /// Messages, outputs and alarm numbers that read differently: source, target.
+    pub texts: Vec<(String, String)>,
+    /// Where they differ.
+    pub witness: Option<Witness>,
+}
+
+/// Why a program is undecided.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reason {
+    /// The kind of reason.
+    pub why: Why,
+    /// In words.
+    pub text: String,
+}
+
+/// Kinds of reasons for being undecided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Why {
+    /// The target has no such program.
+    NoTarget,
+    /// No scenario could be compared to its end.
+    NothingCompared,
+    /// A control could not run it.
+    CannotRun,
+    /// A run did not come to its end.
+    Endless,
+    /// The source stops with an alarm of its control where the target goes on, or stops elsewhere.
+    SourceAlarms,
+    /// A branch went one way only.
+    NotReached,
+    /// Something rests on a fact that no source confirms.
+    Unconfirmed,
+}
+
+/// Where two programs differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Witness {
+    /// What differs.
+    pub what: String,
+    /// The circumstances, as the source's names have them.
+    pub scenario: Scenario,
+    /// Where the source was; none where it did nothing more.
+    pub source: Option<Moment>,
+    /// Where the target was.
+    pub target: Option<Moment>,
+}
+
+/// A moment of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Moment {
+    /// The file.
+    pub file: String,
+    /// The line.
+    pub line: u32,
+    /// The block.
+    pub block: String,
+    /// What happened.
+    pub event: Value,
+}
+
+impl Certificate {
+    /// A certificate of programs.
+    pub fn new(from: &Control, to: &Control, effort: Effort, programs: Vec<ProgramCertificate>) -> Self {
+        Self {
+            format: FORMAT,
+            macroglot: env!("CARGO_PKG_VERSION"),
+            // Of nothing nothing was shown.
+            outcome: programs.iter().map(|program| program.outcome).max().unwrap_or(Outcome::Undecided),
+            from: Identity::of(from),
+            to: Identity::of(to),
+            seed: effort.seed,
+            steps: effort.steps,
+            programs,
+        }
+    }
+
+    /// As JSON text.
+    pub fn print(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+}
+
+impl Identity {
+    /// Of a control.
+    pub fn of(control: &Control) -> Self {
+        let mut hash = Sha256::new();
+        hash.update(control.entry().table.as_bytes());
+        hash.update(format!("{:?}", control.profile()).as_bytes());
+        Self { control: control.name().into(), sha256: hex(&hash.finalize()) }
+    }
+}
+
+/// The hash of a file's bytes.
+pub(super) fn sha256(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,121 @@
+//! The two sides, and what is called what on each.
+
+use crate::control::{Execute, LoadedFile, ProgramRef, library::Sections};
+use crate::dialect::{Control, VariableClass};
+use crate::syntax::ProgramName;
+use std::collections::BTreeMap;
+
+/// One side of a comparison: a library and the control that runs it.
+pub struct Side<'a> {
+    /// The control.
+    pub control: &'a Control,
+    /// Its interpreter.
+    pub execute: Execute,
+    /// The files.
+    pub files: &'a [LoadedFile<'a>],
+    sections: Sections,
+}
+
+impl<'a> Side<'a> {
+    /// A library on a control.
+    pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
+        Self { control, execute, files, sections: Sections::new(files) }
+    }
+
+    /// Its programs, in the order of files and places.
+    pub fn programs(&self) -> Vec<ProgramRef> {
+        let of = |file| {
+            let all = (0..).map(move |program| ProgramRef { file, program });
+            all.take_while(|program| self.sections.place(*program).is_some())
+        };
+        (0..self.files.len()).flat_map(of).collect()
+    }
+
+    /// The name of a program, as written; none for one without.
+    pub fn name(&self, program: ProgramRef) -> Option<&ProgramName> {
+        self.sections.all().get(self.sections.place(program)?)?.name.as_ref()
+    }
+
+    /// The blocks of a program, as a range of its file's.
+    pub fn blocks(&self, program: ProgramRef) -> std::ops::Range<usize> {
+        let section = self.sections.place(program).and_then(|at| self.sections.all().get(at));
+        section.map_or(0..0, |section| section.blocks.clone())
+    }
+}
+
+/// What a conversion named: registers and program numbers of the target, by their names on the source.
+///
+/// A variable that is not here has its own name on the target, if the target has that.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Names {
+    /// Register numbers: `V12` to 512; `V(..)` to what is added to every number.
+    pub variables: BTreeMap<String, u32>,
+    /// Program numbers, by `O1234` or the program's name.
+    pub programs: BTreeMap<String, u32>,
+}
+
+/// The class of a variable by its whole name, `#100` or `VX`.
+pub(super) fn class_of<'c>(control: &'c Control, variable: &str) -> Option<&'c VariableClass> {
+    let digits = variable.find(|sign: char| sign.is_ascii_digit());
+    match digits {
+        Some(at) => {
+            let (name, number) = variable.split_at_checked(at)?;
+            control.variable_class(name, number.parse().ok()?)
+        }
+        None => {
+            let letter = variable.chars().last()?;
+            control.letter_class(variable.strip_suffix(letter)?, letter)
+        }
+    }
+}
+
+impl Names {
+    /// The name on the target of a variable of the source; none where it has no place there.
+    pub(super) fn variable(&self, name: &str, source: &Control, target: &Control) -> Option<String> {
+        let prefix = target.classes().iter().find(|row| row.class != "letter")?.name.clone();
+        if let Some(number) = self.variables.get(name) {
+            return Some(format!("{prefix}{number}"));
+        }
+        let digits = name.find(|sign: char| sign.is_ascii_digit());
+        if let Some((letter, number)) = digits.and_then(|at| name.split_at_checked(at))
+            && let Some(base) = self.variables.get(&format!("{letter}(..)"))
+            && let Ok(number) = number.parse::<u32>()
+        {
+            return Some(format!("{prefix}{}", base.checked_add(number)?));
+        }
+        let (from, to) = (class_of(source, name)?, class_of(target, name)?);
+        let taken = self.variables.values().any(|number| name == format!("{prefix}{number}"));
+        ((from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
+    }
+
+    /// The program of the target that a program of the source became.
+    pub(super) fn program(&self, source: &Side<'_>, of: ProgramRef, target: &Side<'_>) -> Option<ProgramRef> {
+        // The file of the same name; of two single files the other one, whatever its name.
+        let name = source.files.get(of.file)?.name;
+        let same = target.files.iter().position(|file| file.name == name);
+        let single = (source.files.len() == 1 && target.files.len() == 1).then_some(0);
+        let file = same.or(single);
+        let all = target.programs();
+        let here = |program: &&ProgramRef| Some(program.file) == file;
+        let Some(name) = source.name(of) else {
+            // A program without a name is known by its file.
+            let number = self.programs.get(name).map(|number| ProgramName::Number(*number));
+            let is = |program: &&ProgramRef| target.name(**program) == number.as_ref();
+            let mut found = all.iter().filter(here);
+            return found.clone().find(is).or_else(|| found.next()).copied();
+        };
+        let written = match name {
+            ProgramName::Number(number) => format!("O{number:04}"),
+            ProgramName::Name(name) => name.clone(),
+        };
+        let wanted = match (self.programs.get(&written), name) {
+            (Some(number), _) | (None, ProgramName::Number(number)) => ProgramName::Number(*number),
+            (None, name) => name.clone(),
+        };
+        let is = |program: &&ProgramRef| target.name(**program) == Some(&wanted);
+        let found = all.iter().filter(here).find(is).or_else(|| all.iter().find(is)).copied();
+        // A program whose number both sides leave out of the file is alone in it.
+        let alone = || all.iter().filter(here).find(|program| target.name(**program).is_none()).copied();
+        found.or_else(alone)
+    }
+}

@@ -1,0 +1,264 @@
+//! The verification of one program.
+
+use super::branches::Coverage;
+use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
+use super::compare::{Difference, Tolerance, compare, is_cut};
+use super::inputs::inputs;
+use super::names::{Names, Side};
+use super::observe::observe;
+use super::scenarios::{Proposals, on_target};
+use super::{Certificate, Effort, Outcome};
+use crate::control::trace::{Event, Happening};
+use crate::control::{End, ProgramRef, Run, Scenario};
+use crate::syntax::ProgramName;
+use crate::text::LineIndex;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is to be compared.
+pub struct Job<'j> {
+    /// The source.
+    pub source: &'j Side<'j>,
+    /// The target.
+    pub target: &'j Side<'j>,
+    /// What is called what.
+    pub names: &'j Names,
+    /// How much may be done.
+    pub effort: Effort,
+}
+
+/// Significant digits that the second run of the target keeps: three fewer than a double has.
+const FEWER_DIGITS: u32 = 13;
+
+/// Scenarios that are compared even where nothing is left to be reached.
+const FEWEST: usize = 16;
+
+/// Runs that come to no end before a program is given up.
+const ENDLESS: usize = 2;
+
+/// Verifies programs of the source; all of them where none is named.
+pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
+    let all = if programs.is_empty() { job.source.programs() } else { programs.to_vec() };
+    let found = all.into_iter().map(|program| Verifier::new(job, program).run()).collect();
+    Certificate::new(job.source.control, job.target.control, job.effort, found)
+}
+
+struct Verifier<'v, 'j> {
+    job: &'v Job<'j>,
+    program: ProgramRef,
+    coverage: Coverage,
+    reasons: BTreeMap<Why, BTreeSet<String>>,
+    unconfirmed: BTreeSet<String>,
+    texts: BTreeSet<(String, String)>,
+    tolerance: Tolerance,
+    largest: f64,
+    compared: usize,
+    tried: usize,
+    steps: u64,
+    sensitive: Option<bool>,
+    witness: Option<Witness>,
+}
+
+impl<'v, 'j> Verifier<'v, 'j> {
+    fn new(job: &'v Job<'j>, program: ProgramRef) -> Self {
+        Self {
+            job,
+            program,
+            coverage: Coverage::new(job.source, program),
+            reasons: BTreeMap::new(),
+            unconfirmed: BTreeSet::new(),
+            texts: BTreeSet::new(),
+            tolerance: Tolerance::of(job.source, job.target),
+            largest: 0.0,
+            compared: 0,
+            tried: 0,
+            steps: 0,
+            sensitive: None,
+            witness: None,
+        }
+    }
+
+    fn run(mut self) -> ProgramCertificate {
+        let Job { source, target, names, .. } = self.job;
+        let there = names.program(source, self.program, target);
+        match there {
+            Some(there) => self.search(there),
+            None => self.because(Why::NoTarget, "the target has no such program"),
+        }
+        self.certificate(there)
+    }
+
+    /// Tries the source in scenario after scenario, and compares in those that reach anything new.
+    fn search(&mut self, there: ProgramRef) {
+        let found = inputs(self.job.source, self.program);
+        let mut proposals = Proposals::new(&found, self.job.effort);
+        let mut endless = 0;
+        while let Some(scenario) = proposals.next() {
+            let run = (self.job.source.execute)(
+                self.job.source.files,
+                self.program,
+                self.job.source.control,
+                &scenario,
+            );
+            self.tried += 1;
+            self.steps += run.steps;
+            let new = self.coverage.add(&run);
+            if matches!(run.end, End::StepBudget | End::TimeBudget) {
+                endless += 1;
+            }
+            let telling = proposals.are_telling();
+            let spare = self.compared < FEWEST && self.tried.is_multiple_of(2);
+            if new || telling || spare {
+                self.compare(&scenario, &run, there);
+            }
+            let done = self.coverage.is_complete() && !telling && self.compared >= FEWEST;
+            if self.witness.is_some()
+                || done
+                || endless >= ENDLESS
+                || self.compared >= self.job.effort.scenarios
+                || self.steps >= self.job.effort.all_steps
+            {
+                break;
+            }
+        }
+        if self.compared == 0 {
+            self.because(Why::NothingCompared, "no scenario could be run on both sides");
+        }
+    }
+
+    fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
+        let Job { source, target, names, .. } = self.job;
+        let circumstances = on_target(scenario, names, source, target);
+        let other = (target.execute)(target.files, there, target.control, &circumstances);
+        for (side, run) in [("source", run), ("target", &other)] {
+            match &run.end {
+                End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
+                End::StepBudget | End::TimeBudget => {
+                    self.because(Why::Endless, &format!("the {side} came to no end in {} blocks", run.steps));
+                }
+                End::Ended | End::Alarm { .. } => {}
+            }
+            for event in &run.events {
+                if let Happening::Unsure { fact } = &event.what {
+                    self.unconfirmed.insert(fact.clone());
+                }
+            }
+        }
+        let found = compare((source, run), (target, &other), names, self.tolerance);
+        self.largest = self.largest.max(found.largest);
+        self.texts.extend(found.texts);
+        self.compared += usize::from(!is_cut(run) && !is_cut(&other));
+        match found.difference {
+            // Where the source's control itself stops the program, the program says nothing.
+            Some(difference) if faults(run) && at_the_end(run, &difference) => {
+                let text = match &run.end {
+                    End::Alarm { stop, .. } => format!("{} {}", stop.number, stop.text),
+                    _ => String::new(),
+                };
+                let text = format!("the source stops with an alarm of the control ({})", text.trim());
+                self.because(Why::SourceAlarms, &text);
+            }
+            Some(difference) => {
+                self.witness = Some(Witness {
+                    what: difference.what.clone(),
+                    scenario: scenario.clone(),
+                    source: difference.source.map(|event| moment(source, run, event)),
+                    target: difference.target.map(|event| moment(target, &other, event)),
+                });
+            }
+            None if self.sensitive != Some(true) && !is_cut(&other) => {
+                let nudged = Scenario { digits: Some(FEWER_DIGITS), ..circumstances };
+                let nudged = (target.execute)(target.files, there, target.control, &nudged);
+                let apart = compare((target, &other), (target, &nudged), &Names::default(), self.tolerance);
+                self.sensitive = Some(apart.difference.is_some());
+            }
+            None => {}
+        }
+    }
+
+    fn because(&mut self, why: Why, text: &str) {
+        let texts = self.reasons.entry(why).or_default();
+        if texts.len() < 4 {
+            texts.insert(text.to_owned());
+        }
+    }
+
+    fn certificate(mut self, there: Option<ProgramRef>) -> ProgramCertificate {
+        let source_file = self.job.source.files.get(self.program.file);
+        let target_file = there.and_then(|there| self.job.target.files.get(there.file));
+        let not_reached = match (there, source_file) {
+            (Some(_), Some(file)) => self.coverage.not_reached(file.parsed.source),
+            _ => Vec::new(),
+        };
+        if !not_reached.is_empty() {
+            let text = format!("{} ways of branches were not gone", not_reached.len());
+            self.because(Why::NotReached, &text);
+        }
+        for fact in self.unconfirmed.clone() {
+            self.because(Why::Unconfirmed, &format!("{fact} is not confirmed"));
+        }
+        let outcome = match (&self.witness, self.reasons.is_empty()) {
+            (Some(_), _) => Outcome::Different,
+            (None, false) => Outcome::Undecided,
+            (None, true) => Outcome::Same,
+        };
+        let (branches_total, branches_covered) = self.coverage.totals();
+        let reasons = self
+            .reasons
+            .into_iter()
+            .flat_map(|(why, texts)| texts.into_iter().map(move |text| Reason { why, text }));
+        ProgramCertificate {
+            source: source_file.map_or_else(String::new, |file| file.name.to_owned()),
+            source_sha256: source_file.map_or_else(String::new, |file| sha256(file.parsed.source)),
+            program: self.job.source.name(self.program).map(|name| match name {
+                ProgramName::Number(number) => format!("O{number:04}"),
+                ProgramName::Name(name) => name.clone(),
+            }),
+            target: target_file.map(|file| file.name.to_owned()),
+            target_sha256: target_file.map(|file| sha256(file.parsed.source)),
+            outcome,
+            reasons: reasons.collect(),
+            scenarios_tried: self.tried,
+            scenarios_compared: self.compared,
+            branches_covered,
+            branches_total,
+            not_reached,
+            tolerance_mm: self.tolerance.rounded,
+            largest_difference_mm: self.largest,
+            rounding_sensitive: self.sensitive,
+            unconfirmed: self.unconfirmed.into_iter().collect(),
+            texts: self.texts.into_iter().take(20).collect(),
+            witness: self.witness,
+        }
+    }
+}
+
+/// True where the control stopped the run, not the program.
+fn faults(run: &Run) -> bool {
+    matches!(&run.end, End::Alarm { stop, .. } if stop.program_number.is_none())
+}
+
+/// True where the difference lies at the alarm that ended the source, not before it.
+fn at_the_end(run: &Run, difference: &Difference<'_>) -> bool {
+    match (difference.source, observe(run).last()) {
+        (Some(event), Some(last)) => std::ptr::eq(event, *last),
+        (None, _) => true,
+        _ => false,
+    }
+}
+
+fn moment(side: &Side<'_>, run: &Run, event: &Event) -> Moment {
+    let file = run.programs.get(event.at.program as usize).and_then(|program| side.files.get(program.file));
+    let Some(file) = file else {
+        let event = serde_json::to_value(&event.what).unwrap_or_default();
+        return Moment { file: String::new(), line: 0, block: String::new(), event };
+    };
+    let source = file.parsed.source;
+    let (line, _) = LineIndex::new(source).place(event.at.span.start);
+    let block = source.split(|byte| *byte == b'\n').nth(line.saturating_sub(1) as usize).unwrap_or_default();
+    Moment {
+        file: file.name.to_owned(),
+        line,
+        block: String::from_utf8_lossy(block).trim_end().to_owned(),
+        event: serde_json::to_value(&event.what).unwrap_or_default(),
+    }
+}

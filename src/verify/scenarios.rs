@@ -1,0 +1,192 @@
+//! The circumstances that a program is tried in.
+
+use super::inputs::{Input, Inputs};
+use super::random::Random;
+use super::{Effort, Names, Side};
+use crate::canon::Sys;
+use crate::control::Scenario;
+use crate::control::scenario::{AXES, Axes, Probe, StateValue, Tool};
+use std::collections::BTreeMap;
+
+/// Proposes scenarios, the telling ones first.
+pub struct Proposals<'i> {
+    inputs: &'i Inputs,
+    random: Random,
+    effort: Effort,
+    count: usize,
+    /// Single values that are still to be tried, by variable and by which of the two ground states.
+    singles: Vec<(usize, Option<f64>, bool)>,
+}
+
+/// The ground states that come before anything is drawn.
+const GROUNDS: usize = 6;
+
+impl<'i> Proposals<'i> {
+    /// Proposals for a program.
+    pub fn new(inputs: &'i Inputs, effort: Effort) -> Self {
+        // Each variable's first value, then each one's second: what there is no time for tells least.
+        let mut ranked = Vec::new();
+        for (at, input) in inputs.variables.iter().enumerate() {
+            let vacant = input.nullable.then_some(None);
+            let values = vacant.into_iter().chain(input.values.iter().copied().map(Some));
+            ranked.extend(values.enumerate().map(|(rank, value)| (rank, at, value)));
+        }
+        ranked.sort_by_key(|(rank, at, _)| (*rank, *at));
+        let singles = ranked.into_iter().map(|(rank, at, value)| (at, value, rank % 2 == 1)).rev().collect();
+        Self { inputs, random: Random::new(effort.seed), effort, count: 0, singles }
+    }
+
+    /// True while those come that every program is compared in, whether they reach anything new or not.
+    pub fn are_telling(&self) -> bool {
+        self.count <= GROUNDS || !self.singles.is_empty()
+    }
+
+    /// The next scenario, for the source.
+    pub fn next(&mut self) -> Option<Scenario> {
+        if self.count >= self.effort.tries {
+            return None;
+        }
+        let count = self.count;
+        self.count += 1;
+        let mut variables = BTreeMap::new();
+        let drawn = count >= GROUNDS && (count % 4 == 1 || self.singles.is_empty());
+        let single = if count < GROUNDS || drawn { None } else { self.singles.pop() };
+        for (at, input) in self.inputs.variables.iter().enumerate() {
+            let ordinal = at as f64 + 1.0;
+            let ground = match single {
+                Some((_, _, true)) => 2,
+                Some((_, _, false)) => 1,
+                None => count,
+            };
+            let value = match (single, ground) {
+                (Some((which, value, _)), _) if which == at => value,
+                (_, 0) => None,
+                (_, 1) => Some(ordinal),
+                (_, 2) => Some(ordinal * 1.375 + 0.123),
+                (_, 3) => Some(0.0),
+                (_, 4) => Some(-ordinal * 2.0 - 0.25),
+                (_, 5) => Some(101.0 + ordinal * 7.5),
+                _ => self.draw(input),
+            };
+            if let Some(value) = value {
+                variables.insert(input.name.clone(), value);
+            }
+        }
+        Some(self.around(variables, count))
+    }
+
+    fn draw(&mut self, input: &Input) -> Option<f64> {
+        let value = match self.random.below(8) {
+            0 if input.nullable => return None,
+            0 | 1 => self.random.between(-50, 50),
+            2 => self.random.below(10) as f64,
+            3 => self.random.pick(&self.inputs.numbers).copied().unwrap_or(0.0),
+            4 => self.random.between(0, 10),
+            _ => {
+                let near = self.random.pick(&input.values).copied();
+                near.unwrap_or_else(|| self.random.below(6) as f64)
+            }
+        };
+        Some(value)
+    }
+
+    /// A machine around start values.
+    fn around(&mut self, variables: BTreeMap<String, f64>, count: usize) -> Scenario {
+        let mut scenario = machine(&mut self.random);
+        scenario.variables = variables;
+        if self.inputs.skips && count % 3 == 1 {
+            scenario.block_skip = 0x3fe;
+        }
+        let near =
+            if self.inputs.numbers.is_empty() { vec![0.0, 1.0, 2.5] } else { self.inputs.numbers.clone() };
+        scenario.answers = (0..16)
+            .map(|at| match count {
+                0 => 0.0,
+                1 => f64::from(at) + 1.0,
+                _ if self.random.one_in(2) => self.random.between(-20, 20),
+                _ => self.random.pick(&near).copied().unwrap_or(1.0),
+            })
+            .collect();
+        scenario.probes =
+            match count % 3 {
+                0 => Vec::new(),
+                1 => (0..32).map(|at| Probe::Part(0.25 + 0.5 * f64::from(at % 7) / 7.0)).collect(),
+                _ => (0..32)
+                    .map(|_| {
+                        if self.random.one_in(3) {
+                            Probe::Miss
+                        } else {
+                            Probe::Part(self.random.between(0, 1))
+                        }
+                    })
+                    .collect(),
+            };
+        if count > 0 {
+            scenario.state = self.cells();
+        }
+        scenario.optional_stop = count.is_multiple_of(2);
+        scenario.steps = self.effort.steps;
+        scenario.events = usize::try_from(self.effort.steps).unwrap_or(usize::MAX);
+        scenario
+    }
+
+    /// Inputs, counters and the like, one way or the other.
+    fn cells(&mut self) -> Vec<StateValue> {
+        let mut out = Vec::new();
+        for (state, subscripts) in &self.inputs.cells {
+            let value = match state {
+                Sys::Input | Sys::InputInverted | Sys::Output => f64::from(u8::from(self.random.one_in(2))),
+                Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds | Sys::Date | Sys::Time => continue,
+                _ => self.random.pick(&self.inputs.numbers).copied().unwrap_or(1.0).round().abs(),
+            };
+            out.push(StateValue { state: *state, subscripts: subscripts.clone(), value });
+        }
+        out
+    }
+}
+
+/// A machine whose every number is its own, so that no two offsets can be mistaken for each other.
+fn machine(random: &mut Random) -> Scenario {
+    // A program that returns is one that others call, and a main one that returns would never end.
+    let mut scenario = Scenario { called: true, ..Scenario::default() };
+    let axes = |base: f64, step: f64| -> Axes {
+        let mut out = [0.0; AXES];
+        for (axis, value) in out.iter_mut().take(6).enumerate() {
+            *value = base + step * (axis as f64 + 1.0);
+        }
+        out
+    };
+    // Work offsets far below the reference position, as on real machines.
+    for number in (1..=6).chain(101..=148) {
+        let n = f64::from(number);
+        scenario.work_offsets.insert(number, axes(-300.0 - 3.217 * n, -17.031 - 0.113 * n));
+    }
+    for number in 1..=99 {
+        let n = f64::from(number);
+        let tool = Tool {
+            length: 80.0 + 1.733 * n,
+            length_wear: 0.011 * n,
+            radius: 2.0 + 0.257 * n,
+            radius_wear: 0.003 * n,
+        };
+        scenario.tools.insert(number, tool);
+    }
+    scenario.references[1] = axes(-50.0, -11.5);
+    scenario.start = axes(-10.0 - random.between(0, 5), -3.25);
+    scenario.tool = 1 + random.below(9) as u32;
+    scenario
+}
+
+/// The same circumstances on the target: variables by their names there. One that has none is left out.
+pub fn on_target(scenario: &Scenario, names: &Names, source: &Side<'_>, target: &Side<'_>) -> Scenario {
+    let mut out = scenario.clone();
+    out.variables.clear();
+    for (name, value) in &scenario.variables {
+        if let Some(name) = names.variable(name, source.control, target.control) {
+            out.variables.insert(name, *value);
+        }
+    }
+    // Emulations take more blocks than what they stand for.
+    out.steps = scenario.steps.saturating_mul(20);
+    out
+}

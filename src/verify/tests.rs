@@ -1,0 +1,229 @@
+//! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
+
+use super::{Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
+use crate::control::LoadedFile;
+use crate::dialect::{Control, registry};
+use crate::syntax::parse_file;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Verifies a pair of single programs, registers by their own names or by `variables`.
+fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32)]) -> ProgramCertificate {
+    let controls = [from, to].map(|name| Control::plain(name).unwrap());
+    let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
+    let parsed: Vec<_> = [source, target]
+        .iter()
+        .zip(&controls)
+        .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse))
+        .collect();
+    let ours = [LoadedFile { name: "a.nc", parsed: &parsed[0] }];
+    let theirs = [LoadedFile { name: "b.nc", parsed: &parsed[1] }];
+    let source = Side::new(&controls[0], execute[0], &ours);
+    let target = Side::new(&controls[1], execute[1], &theirs);
+    let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
+    let names = Names { variables, programs: BTreeMap::new() };
+    let job = Job { source: &source, target: &target, names: &names, effort: Effort::default() };
+    let mut certificate = verify(&job, &[]);
+    assert_eq!(certificate.programs.len(), 1, "one program");
+    certificate.programs.remove(0)
+}
+
+/// Within one dialect.
+fn within(dialect: &str, source: &str, target: &str) -> ProgramCertificate {
+    run(dialect, source, dialect, target, &[])
+}
+
+#[track_caller]
+fn differs(dialect: &str, source: &str, target: &str, what: &str) {
+    let unchanged = within(dialect, source, source);
+    assert_ne!(unchanged.outcome, Outcome::Different, "{:?}", unchanged.witness);
+    let found = within(dialect, source, target);
+    assert_eq!(found.outcome, Outcome::Different, "{source}\nagainst\n{target}\n{found:#?}");
+    let witness = found.witness.unwrap();
+    assert!(witness.what.contains(what), "{}", witness.what);
+}
+
+/// A macro that drills a row of holes, with most of what macros do.
+const ROW: &str = "\
+O9100
+IF[#24EQ#0]GOTO90
+IF[#11LE0]GOTO90
+#1=#24
+#2=0
+G90G98G81Z-5.R2.F100.L0
+WHILE[#2LT#11]DO1
+#3=ROUND[#1*10.]/10.
+G90X#3Y#25
+#1=#1+#9
+#2=#2+1
+END1
+G80
+IF[#7EQ#0]GOTO80
+G4P1500
+N80G0Z50.
+#500=#2
+M99
+N90#3000=1(ARGUMENT)
+";
+
+/// [`ROW`] with one place written otherwise.
+#[track_caller]
+fn row_differs(from: &str, to: &str, what: &str) {
+    assert_eq!(ROW.matches(from).count(), 1, "{from} stands once");
+    differs("fanuc", ROW, &ROW.replace(from, to), what);
+}
+
+#[test]
+fn what_is_unchanged_is_the_same() {
+    for dialect in ["fanuc", "haas"] {
+        let found = within(dialect, ROW, ROW);
+        let undecided: Vec<Why> = found.reasons.iter().map(|reason| reason.why).collect();
+        assert!(undecided.iter().all(|why| *why == Why::Unconfirmed), "{found:#?}");
+        assert_eq!(found.branches_covered, found.branches_total, "{:#?}", found.not_reached);
+        // Four conditions, each with two ways.
+        assert_eq!(found.branches_total, 8);
+        assert_eq!(found.largest_difference_mm, 0.0);
+        assert!(found.scenarios_compared >= 8);
+    }
+    let plain = "O1\nG90G17G54\nS800M3\nG0X1.Y1.\nIF[#101GT5.]GOTO1\nG1X5.F100.\nN1M5\nM30\n";
+    let found = within("fanuc", plain, plain);
+    assert_eq!(found.outcome, Outcome::Same, "{found:#?}");
+}
+
+#[test]
+fn one_sign() {
+    row_differs("Z-5.", "Z5.", "");
+    row_differs("#1=#1+#9", "#1=#1-#9", "elsewhere");
+}
+
+#[test]
+fn one_rounding() {
+    row_differs("ROUND[#1*10.]", "FIX[#1*10.]", "elsewhere");
+    row_differs("ROUND[#1*10.]", "FUP[#1*10.]", "elsewhere");
+}
+
+#[test]
+fn one_comparison() {
+    row_differs("#2LT#11", "#2LE#11", "");
+    row_differs("#11LE0", "#11LT0", "");
+    row_differs("#7EQ#0", "#7NE#0", "");
+}
+
+#[test]
+fn one_vacancy() {
+    row_differs("#24EQ#0", "#24EQ0", "");
+    row_differs("#7EQ#0", "#7EQ0", "");
+}
+
+#[test]
+fn one_plane() {
+    row_differs("G98", "G99", "");
+    // The R plane from where the tool is, not from the zero of the work.
+    row_differs("G90G98G81Z-5.R2.", "G91G98G81Z-5.R2.", "");
+    let arc = "O1\nG90G17G0X0Y0Z0\nG2X10.Z#101I5.F100.\nM30\n";
+    differs("fanuc", arc, &arc.replace("G17", "G18").replace("I5.", "I5.K0"), "");
+    differs("fanuc", arc, &arc.replace("G2X", "G3X"), "the other way");
+}
+
+#[test]
+fn one_end() {
+    row_differs("M99", "M30", "returns");
+    differs("fanuc", "O1\nG0X1.\nM30\n", "O1\nG0X1.\nM99\n", "returns");
+}
+
+#[test]
+fn one_dwell() {
+    row_differs("P1500", "P1.5", "");
+    row_differs("P1500", "X1500.", "wait");
+}
+
+#[test]
+fn one_offset() {
+    let program = "O1\nG90G54G0X1.\nG43H2Z5.\nG1G41D3X10.F100.\nG40\nG49\nM30\n";
+    for (from, to) in [("H2", "H3"), ("D3", "D4"), ("G54", "G55"), ("G41", "G42")] {
+        differs("fanuc", program, &program.replace(from, to), "");
+    }
+}
+
+#[test]
+fn one_final_value() {
+    row_differs("#500=#2", "#500=#2+0.5", "#500");
+    row_differs("#500=#2", "#501=#2", "#50");
+}
+
+#[test]
+fn machine_functions() {
+    let program = "O1\nS500M3\nM8\nG90G0X1.\nG1X2.F100.\nT2M6\nM9\nM5\nM1\nM0\nM30\n";
+    let others = [
+        ("S500", "S600"),
+        ("M3", "M4"),
+        ("M8", "M7"),
+        ("F100.", "F200."),
+        ("T2", "T3"),
+        ("M0\n", ""),
+        ("G0X", "G1X"),
+        ("X2.", "Y2."),
+        ("M9\n", ""),
+    ];
+    for (from, to) in others {
+        differs("fanuc", program, &program.replace(from, to), "");
+    }
+}
+
+#[test]
+fn an_endless_loop_is_undecided_and_quickly() {
+    let start = Instant::now();
+    let program = "O1\nN1G91G1X1.F100.\nX-1.\nGOTO1\nM30\n";
+    let found = within("fanuc", program, program);
+    assert_eq!(found.outcome, Outcome::Undecided);
+    assert!(found.reasons.iter().any(|reason| reason.why == Why::Endless), "{found:#?}");
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    // What differs before that is a difference all the same.
+    differs("fanuc", program, &program.replace("X-1.", "X-2."), "elsewhere");
+}
+
+#[test]
+fn what_was_not_seen_is_said() {
+    // No start value makes a square negative.
+    let program = "O1\nIF[#101*#101LT-1]GOTO5\nG0X1.\nN5M30\n";
+    let found = within("fanuc", program, program);
+    assert_eq!(found.outcome, Outcome::Undecided);
+    assert_eq!((found.branches_covered, found.branches_total), (1, 2));
+    assert_eq!((found.not_reached[0].line, found.not_reached[0].way), (2, "true"));
+    let calls = "O1\nG0X1.\nG65P9999\nM30\n";
+    let found = within("fanuc", calls, calls);
+    assert_eq!(found.outcome, Outcome::Undecided);
+    assert!(found.reasons.iter().any(|reason| reason.why == Why::CannotRun), "{found:#?}");
+}
+
+#[test]
+fn registers_have_the_names_that_the_lock_gives_them() {
+    let source = "O1\nG0X#101\n#101=#101+1\nM30\n";
+    let target = "O1\nG0X#117\n#117=#117+1\nM30\n";
+    let found = run("fanuc", source, "fanuc", target, &[("#101", 117)]);
+    assert_ne!(found.outcome, Outcome::Different, "{found:#?}");
+    let found = run("fanuc", source, "fanuc", target, &[("#101", 118)]);
+    assert_eq!(found.outcome, Outcome::Different);
+}
+
+#[test]
+fn what_hangs_on_the_last_digit_is_marked() {
+    // In binary ten times 0.1 is a little less than 1, so the loop runs once more or not.
+    let program = "O1\n#1=0\nWHILE[#1LT1.]DO1\n#1=#1+0.1\nG91G1X1.F100.\nEND1\nM30\n";
+    assert_eq!(within("fanuc", program, program).rounding_sensitive, Some(true));
+    assert_eq!(within("fanuc", ROW, ROW).rounding_sensitive, Some(false));
+}
+
+#[test]
+fn certificates_are_the_same_each_time() {
+    let again = || serde_json::to_string(&within("fanuc", ROW, ROW)).unwrap();
+    assert_eq!(again(), again());
+}
+
+#[test]
+fn fadal_programs() {
+    let program = "%\nO1\nG90 G80 G40 G17\nS1000 M3\nG0 X1. Y1.\n#V1=3\n#IF V2 GT 2 THEN GOTO :A\n\
+        #V1=V1+1\n#:A\n#R1=V1\nG1 X+R1 F10.\nM5\nM30\n%\n";
+    differs("fadal", program, &program.replace("G1 X+R1", "G1 X-R1"), "elsewhere");
+    differs("fadal", program, &program.replace("GT 2", "GE 2"), "elsewhere");
+}
