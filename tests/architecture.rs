@@ -1,0 +1,188 @@
+//! The rules of the house, as `docs/ARCHITECTURE.md` states them.
+
+mod support;
+
+use macroglot::dialect::registry;
+use std::sync::OnceLock;
+use support::{rust_files, text};
+
+/// The rooms from left to right: none imports from one further right. `dialect::registry` stands
+/// outside, because it is the list of what each dialect has in every room.
+const ROOMS: &[&str] = &[
+    "text", "diag", "canon", "dialect", "syntax", "ir", "lower", "opt", "legalize", "emit", "control",
+    "verify", "library", "report", "cli",
+];
+
+const REGISTRY: &str = "src/dialect/registry.rs";
+
+/// The files that may be over the limit: catalogues, which are data.
+const LONG: &[&str] = &["src/diag/codes.rs"];
+const LIMIT: usize = 400;
+
+/// Where a dialect, or a family of them, may be named: its own module of a room that has one.
+fn may_name_dialects(path: &str) -> bool {
+    let own = registry::all().iter().map(|entry| entry.name).chain(["macro_b"]);
+    let mut rooms = ["syntax", "lower", "emit", "control"].iter();
+    let names: Vec<&str> = own.collect();
+    path == REGISTRY
+        || rooms.any(|room| {
+            let Some(rest) = path.strip_prefix(&format!("src/{room}/")) else { return false };
+            names.iter().any(|name| rest == format!("{name}.rs") || rest.starts_with(&format!("{name}/")))
+        })
+}
+
+/// A module's declaration in its room names the dialect, and nothing else in that line does.
+fn declares(line: &str, name: &str) -> bool {
+    let line = line.trim();
+    [format!("pub mod {name};"), format!("mod {name};"), format!("pub(crate) mod {name};")]
+        .iter()
+        .any(|d| d == line)
+}
+
+#[test]
+fn only_its_own_modules_name_a_dialect() {
+    let mut found = Vec::new();
+    for (path, source) in rust_files("src") {
+        if may_name_dialects(&path) || is_test(&path) {
+            continue;
+        }
+        for (number, line) in without_tests(&source).lines().enumerate() {
+            let lower = line.to_lowercase();
+            for entry in registry::all() {
+                if lower.contains(entry.name) && !declares(line, entry.name) {
+                    found.push(format!("{path}:{}: {}", number + 1, line.trim()));
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "dialects are named outside their modules:\n{}", found.join("\n"));
+}
+
+#[test]
+fn rooms_import_from_the_left_only() {
+    let mut found = Vec::new();
+    for (path, source) in rust_files("src") {
+        let room = path.trim_start_matches("src/").split(['/', '.']).next().unwrap_or_default();
+        let Some(at) = ROOMS.iter().position(|name| *name == room) else { continue };
+        if path == REGISTRY || is_test(&path) {
+            continue;
+        }
+        for (number, line) in without_tests(&source).lines().enumerate() {
+            for (right, other) in ROOMS.iter().enumerate().skip(at + 1) {
+                let imports = code_of(line).contains(&format!("crate::{other}::"))
+                    || code_of(line).contains(&format!("crate::{other};"))
+                    || code_of(line).contains("use crate::{") && words(line).contains(other);
+                if imports {
+                    let rank = format!("{room} is left of {}", ROOMS[right]);
+                    found.push(format!("{path}:{}: {} ({rank})", number + 1, line.trim()));
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "imports from the right:\n{}", found.join("\n"));
+}
+
+#[test]
+fn every_room_is_in_the_order() {
+    let library = text("src/lib.rs");
+    let modules = library.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+    for module in modules {
+        assert!(ROOMS.contains(&module), "src/{module} has no place in the order");
+    }
+}
+
+#[test]
+fn files_are_one_room_each() {
+    let long: Vec<String> = rust_files("src")
+        .into_iter()
+        .map(|(path, source)| (source.lines().count(), path))
+        .filter(|(lines, path)| *lines > LIMIT && !LONG.contains(&path.as_str()))
+        .map(|(lines, path)| format!("{path}: {lines} lines"))
+        .collect();
+    assert!(long.is_empty(), "over {LIMIT} lines:\n{}", long.join("\n"));
+}
+
+#[test]
+fn nothing_in_src_panics_by_choice() {
+    const WORDS: &[&str] =
+        &[".unwrap()", ".expect(", "panic!(", "todo!(", "unimplemented!(", "unreachable!(", "#[ignore"];
+    let mut found = Vec::new();
+    for (path, source) in rust_files("src").into_iter().filter(|(path, _)| !is_test(path)) {
+        for (number, line) in without_tests(&source).lines().enumerate() {
+            if WORDS.iter().any(|word| code_of(line).contains(word)) {
+                found.push(format!("{path}:{}: {}", number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "src may not panic:\n{}", found.join("\n"));
+}
+
+/// The rules themselves see what they are for.
+#[test]
+fn the_rules_have_teeth() {
+    assert!(may_name_dialects("src/lower/fadal/block.rs") && may_name_dialects("src/emit/macro_b/mod.rs"));
+    assert!(!may_name_dialects("src/legalize/fadal/x.rs") && !may_name_dialects("src/lower/common/mod.rs"));
+    assert!(is_test("src/syntax/testing.rs") && !is_test("src/syntax/file.rs"));
+    assert!(declares("pub mod fadal;", "fadal") && !declares("use super::fadal;", "fadal"));
+    assert_eq!(code_of("let a = 1; // .unwrap() is not code"), "let a = 1; ");
+    assert_eq!(code_of(r#"let a = "https://x"; b"#), r#"let a = "https://x"; b"#);
+    assert_eq!(without_tests("a\n#[cfg(test)]\nmod tests {\n    b\n}\nc\n"), "a\n\n\n\n\nc\n");
+    assert_eq!(without_tests("#[cfg(test)]\nmod tests;\nc\n"), "\n\nc\n");
+}
+
+/// A file that only tests are built from: a module declared so, or one inside such a module.
+fn is_test(path: &str) -> bool {
+    static ROOTS: OnceLock<Vec<String>> = OnceLock::new();
+    let roots = ROOTS.get_or_init(|| {
+        let declared = |(path, source): (String, String)| {
+            let folder = path.trim_end_matches(".rs").trim_end_matches("/mod").to_owned();
+            let lines: Vec<&str> = source.lines().collect();
+            let tested = (0..lines.len()).filter(|at| lines[*at] == "#[cfg(test)]").filter_map(|at| {
+                let item = lines[at..].iter().find(|line| !line.starts_with('#'))?;
+                item.split_once("mod ")?.1.strip_suffix(';').map(str::to_owned)
+            });
+            tested.map(|name| format!("{folder}/{name}")).collect::<Vec<_>>()
+        };
+        rust_files("src").into_iter().flat_map(declared).collect()
+    });
+    roots.iter().any(|root| path == format!("{root}.rs") || path.starts_with(&format!("{root}/")))
+}
+
+/// A source with its test modules and test items blanked; lines keep their numbers.
+fn without_tests(source: &str) -> String {
+    let mut out = String::new();
+    let mut waiting = false;
+    let mut inside = false;
+    for line in source.lines() {
+        if line == "#[cfg(test)]" {
+            waiting = true;
+        } else if waiting {
+            waiting = false;
+            inside = line.ends_with('{');
+        } else if inside {
+            inside = line != "}";
+        } else {
+            out.push_str(line);
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// A line without its comment.
+fn code_of(line: &str) -> &str {
+    let mut in_text = false;
+    let bytes = line.as_bytes();
+    for at in 0..bytes.len() {
+        match bytes[at] {
+            b'"' if at == 0 || bytes[at - 1] != b'\\' && bytes[at - 1] != b'\'' => in_text = !in_text,
+            b'/' if !in_text && bytes.get(at + 1) == Some(&b'/') => return &line[..at],
+            _ => {}
+        }
+    }
+    line
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split(|sign: char| !sign.is_alphanumeric() && sign != '_').collect()
+}

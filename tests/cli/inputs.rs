@@ -1,0 +1,99 @@
+//! What is read, and what is not.
+
+use super::{CLEAN, Shop, names, repository};
+
+#[test]
+fn what_cannot_be_read_is_said() {
+    let shop = Shop::with(&[("empty.nc", ""), ("docs/notes.pdf", "x"), ("a.nc", CLEAN)]);
+    shop.write("binary.nc", b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03\0\0\0");
+    let to = "--from fanuc --to haas --out out";
+    shop.fails(&format!("convert nowhere {to}"), &["nowhere", "no such file or folder"]);
+    shop.fails(&format!("convert a.nc nowhere {to}"), &["nowhere"]);
+    shop.fails(&format!("convert empty.nc {to}"), &["empty.nc", "empty"]);
+    shop.fails(&format!("convert binary.nc {to}"), &["binary.nc", "binary file"]);
+    shop.fails(&format!("convert docs {to}"), &["docs", "no program files", ".nc"]);
+    for command in ["parse", "ir"] {
+        shop.fails(&format!("{command} nowhere --dialect fanuc"), &["nowhere"]);
+        shop.fails(&format!("{command} empty.nc --dialect fanuc"), &["empty"]);
+        shop.fails(&format!("{command} binary.nc --dialect fanuc"), &["binary"]);
+        shop.fails(&format!("{command} docs --dialect fanuc"), &["no program files"]);
+    }
+}
+
+/// A folder of programs may hold a file that is none; it is named and left out.
+#[test]
+fn a_folder_is_converted_without_what_is_no_program() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/empty.nc", ""), ("in/sub/b.txt", CLEAN)]);
+    let run = shop.run("convert in --from fanuc --to haas --out out --quiet");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.err.contains("empty.nc"), "{}", run.err);
+    let all = shop.files();
+    let written: Vec<&str> = names(&all).into_iter().filter(|name| name.starts_with("out/")).collect();
+    assert_eq!(written, ["out/a.nc", "out/macroglot.lock", "out/sub/b.txt"]);
+}
+
+#[test]
+fn standard_input_to_standard_output() {
+    let run = Shop::empty().run_on("convert - --from fanuc --to haas", CLEAN);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.starts_with("%\nO1234\n") && run.out.ends_with("M30\n%\n"), "{}", run.out);
+    assert!(run.err.contains("1 program in 1 file"), "{}", run.err);
+    Shop::empty().fails("convert - --from fanuc --to haas", &["empty"]);
+}
+
+#[test]
+fn the_control_is_recognized_where_the_text_shows_it() {
+    let shop = Shop::empty();
+    for dialect in ["fadal", "cc100"] {
+        let folder = repository(&format!("corpus/{dialect}"));
+        let named = shop.run(&format!("ir {folder}/{} --dialect {dialect}", first(dialect)));
+        let found = shop.run(&format!("ir {folder}/{}", first(dialect)));
+        assert_eq!(found.out, named.out, "{dialect}: {}", found.err);
+    }
+}
+
+/// A program that only its own control reads.
+fn first(dialect: &str) -> &'static str {
+    match dialect {
+        "fadal" => "o800-dhole.nc",
+        _ => "example10-ellipse.nc",
+    }
+}
+
+#[test]
+fn a_control_that_is_not_certain_is_asked_for() {
+    let shop = Shop::with(&[("a.nc", "O1\nG0 X1. Y2.\nM30\n")]);
+    shop.fails("convert a.nc --to haas", &["not certain", "--from"]);
+    shop.fails("parse a.nc", &["not certain", "--dialect"]);
+}
+
+#[test]
+fn one_name_in_two_folders_is_an_error_and_one_file_named_twice_is_not() {
+    let shop = Shop::with(&[("one/a.nc", CLEAN), ("two/a.nc", CLEAN)]);
+    shop.fails("convert one two --from fanuc --to haas --out out", &["one/a.nc", "two/a.nc"]);
+    let run = shop.run("convert one one/a.nc --from fanuc --to haas --out out --quiet");
+    assert_eq!(run.code, 0, "{}", run.err);
+}
+
+/// Two programs with one number: both are converted, and a person must choose which one to load.
+/// A call of that number cannot be converted, because it is not known which one is meant.
+#[test]
+fn two_programs_with_one_number() {
+    let caller = CLEAN.replace("O1234", "O1000").replace("M30", "M98 P1234\nM30");
+    let sub = CLEAN.replace("M30", "M99");
+    let shop = Shop::with(&[("in/a.nc", &sub), ("in/b.nc", &sub), ("in/call.nc", &caller)]);
+    let run = shop.run("convert in --from fanuc --to haas --out out --format json");
+    assert_eq!(run.code, 1);
+    let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    for program in json["programs"].as_array().unwrap() {
+        let codes: Vec<&str> =
+            program["diagnostics"].as_array().unwrap().iter().map(|d| d["code"].as_str().unwrap()).collect();
+        if program["source"] == "in/call.nc" {
+            assert_eq!(program["outcome"], "refused");
+            assert!(codes.contains(&"MG0603"), "{codes:?}");
+        } else {
+            assert_eq!(program["outcome"], "review");
+            assert!(codes.contains(&"MG0602"), "{codes:?}");
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What is written, and what never is.
+
+use super::{CLEAN, REFUSED, Shop, names, repository};
+
+const TO: &str = "--from fanuc --to haas";
+
+#[test]
+fn a_clean_program_is_0_and_a_refused_one_is_1() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", REFUSED)]);
+    let run = shop.run(&format!("convert in/a.nc {TO} --out out"));
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert!(run.out.ends_with("1 program in 1 file: 1 converted, 0 for review, 0 refused\n"), "{}", run.out);
+    let run = shop.run(&format!("convert in {TO} --out both"));
+    assert_eq!(run.code, 1);
+    assert!(run.err.contains("in/b.nc:5:1") && run.err.contains("MG0301"), "{}", run.err);
+    let all = shop.files();
+    let written: Vec<&str> = names(&all).into_iter().filter(|name| name.starts_with("both/")).collect();
+    assert_eq!(written, ["both/a.nc", "both/macroglot.lock"], "a refused program is not written");
+    let run = shop.run(&format!("convert in/b.nc {TO}"));
+    assert_eq!((run.code, run.out.as_str()), (1, ""));
+}
+
+/// A draft stops the machine at the hole, keeps what stands around it, and stays refused.
+#[test]
+fn a_draft_has_an_alarm_at_the_hole() {
+    let shop = Shop::with(&[("b.nc", REFUSED)]);
+    let run = shop.run(&format!("convert b.nc {TO} --draft"));
+    assert_eq!(run.code, 1);
+    let lines: Vec<&str> = run.out.lines().collect();
+    let hole = lines.iter().position(|line| line.contains("NOT CONVERTED MG0301")).expect("an alarm");
+    assert!(lines[hole].starts_with("#3000="), "{}", lines[hole]);
+    assert_eq!((lines[hole - 1], lines[hole + 1]), ("G0 X1.", "G1 X2. F10."));
+    assert!(!run.out.contains("M38"));
+}
+
+#[test]
+fn an_input_is_never_overwritten() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN)]);
+    shop.fails(&format!("convert in {TO} --out in"), &["a.nc", "overwritten"]);
+    shop.fails(&format!("convert in/a.nc {TO} --out in"), &["overwritten"]);
+    shop.fails(&format!("convert in {TO} --out in/../in"), &["overwritten"]);
+    shop.fails(&format!("convert in {TO} --out out --report in/a.nc"), &["a.nc"]);
+    shop.write("in/b.txt", CLEAN.replace("O1234", "O1235").as_bytes());
+    shop.fails(&format!("convert in {TO} --out out --report in/../in/b.txt"), &["b.txt", "overwritten"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_do_not_lead_to_an_input_or_out_of_the_folder() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("out/x", ""), ("else/secret.nc", "KEEP")]);
+    std::os::unix::fs::symlink(shop.path("in"), shop.path("link")).unwrap();
+    shop.fails(&format!("convert in {TO} --out link"), &["overwritten"]);
+    std::os::unix::fs::symlink(shop.path("else/secret.nc"), shop.path("out/a.nc")).unwrap();
+    shop.fails(&format!("convert in {TO} --out out"), &["outside the output folder"]);
+}
+
+/// File systems of shop computers do not tell `a.nc` from `A.NC`.
+#[cfg(target_os = "linux")]
+#[test]
+fn two_inputs_for_one_place() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/A.NC", CLEAN)]);
+    shop.fails(&format!("convert in {TO} --out out"), &["a.nc", "A.NC", "nothing was written"]);
+}
+
+#[test]
+fn several_programs_need_a_folder() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", REFUSED)]);
+    shop.fails(&format!("convert in {TO}"), &["--out"]);
+}
+
+/// When one output cannot be written, none is, and nothing lies about.
+#[test]
+fn outputs_are_written_all_or_none() {
+    let shop =
+        Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", &CLEAN.replace("O1234", "O1235")), ("file", "KEEP")]);
+    shop.fails(&format!("convert in {TO} --out file"), &["file"]);
+    // a.nc could be written, but what stands at b.nc is a folder.
+    shop.write("out/b.nc/inside", b"KEEP");
+    shop.write("out/a.nc", b"OLD");
+    shop.fails(&format!("convert in {TO} --out out"), &["b.nc", "cannot be written"]);
+    shop.fails(&format!("convert in {TO} --out new --report file/x.json"), &["file/x.json"]);
+}
+
+#[test]
+fn from_a_control_to_itself_every_byte_stays() {
+    let odd = "%\r\no0001( odd  spacing )\r\n g0x1.000 Y+02.\r\n/N0005 m30\r\n%";
+    let shop = Shop::with(&[("in/a.nc", odd)]);
+    let run = shop.run("convert in --from fanuc --to fanuc --out out");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(shop.read("out/a.nc"), odd);
+}
+
+#[test]
+fn the_lock_is_honoured_by_the_next_run() {
+    let folder = repository("corpus/cc100");
+    let shop = Shop::empty();
+    let line = format!("convert {folder} --from cc100 --to haas --out out --quiet");
+    assert_eq!(shop.run(&line).code, 1);
+    let before = shop.files();
+    assert_eq!(shop.run(&line).code, 1);
+    assert!(shop.files() == before, "a second run writes the same");
+    // A register that somebody chose by hand is kept.
+    let lock = shop.read("out/macroglot.lock");
+    let line_before = lock.lines().find(|line| line.starts_with("V1 = ")).expect("a register for V1");
+    let name = "V1";
+    shop.write("out/macroglot.lock", lock.replace(line_before, &format!("{name} = 199")).as_bytes());
+    assert_eq!(shop.run(&line).code, 1);
+    assert!(shop.read("out/macroglot.lock").contains(&format!("{name} = 199\n")));
+    let moved = shop
+        .files()
+        .iter()
+        .any(|(name, bytes)| name.ends_with(".nc") && String::from_utf8_lossy(bytes).contains("#199"));
+    assert!(moved, "no program uses #199");
+}
+
+#[test]
+fn a_lock_of_another_kind_is_not_overwritten() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN)]);
+    assert_eq!(shop.run(&format!("convert in {TO} --out out --quiet")).code, 0);
+    shop.fails("convert in --from haas --to fanuc --out out", &["macroglot.lock"]);
+    shop.write("out/macroglot.lock", b"version = 99\nfrom = \"fanuc\"\nto = \"haas\"\n");
+    shop.fails(&format!("convert in {TO} --out out"), &["version 99"]);
+    shop.write("out/macroglot.lock", b"<<<<<<< ours\n");
+    shop.fails(&format!("convert in {TO} --out out"), &["macroglot.lock"]);
+}

@@ -1,0 +1,52 @@
+//! Machine profiles on the command line.
+
+use super::{CLEAN, Shop, repository};
+
+#[test]
+fn a_wrong_profile_is_named_with_its_line() {
+    let shop = Shop::with(&[
+        ("a.nc", CLEAN),
+        ("key.toml", "dialect = \"fanuc\"\nmachin = \"mill\"\n"),
+        ("syntax.toml", "dialect = \"fanuc\"\nunits = \n"),
+        ("value.toml", "dialect = \"fanuc\"\n\nmachine = \"router\"\n"),
+        ("nobody.toml", "dialect = \"siemens\"\n"),
+        ("cc100.toml", "dialect = \"cc100\"\n"),
+    ]);
+    let line = "convert a.nc --from fanuc --to haas --machine";
+    shop.fails(&format!("{line} key.toml"), &["key.toml:2", "machin"]);
+    shop.fails(&format!("{line} syntax.toml"), &["syntax.toml:2"]);
+    shop.fails(&format!("{line} value.toml"), &["value.toml:3", "router"]);
+    shop.fails(&format!("{line} nobody.toml"), &["nobody.toml", "siemens"]);
+    shop.fails(&format!("{line} cc100.toml"), &["cc100.toml", "neither"]);
+    shop.fails(&format!("{line} nowhere.toml"), &["nowhere.toml"]);
+    shop.fails("dialects fanuc --machine key.toml", &["key.toml:2"]);
+}
+
+/// What a profile states needs no review any more.
+#[test]
+fn a_profile_answers_reviews() {
+    let program = CLEAN.replace("G0 X1.", "#101=2.\nG0 X#101");
+    let confirm = "confirm = [\"behaviour:word.bare.expression\"]\n";
+    let shop = Shop::with(&[("a.nc", &program), ("m.toml", &format!("dialect = \"fanuc\"\n{confirm}"))]);
+    let plain = shop.run("convert a.nc --from fanuc --to haas");
+    assert!(
+        plain.err.contains("word.bare.expression") && plain.err.contains("1 for review"),
+        "{}",
+        plain.err
+    );
+    let known = shop.run("convert a.nc --from fanuc --to haas --machine m.toml");
+    assert!(known.err.contains("1 converted"), "{}", known.err);
+    assert_eq!(known.out, plain.out, "the same program, with nothing to look at");
+}
+
+/// M910 calls O9020 only where parameter 6080 says so.
+#[test]
+fn a_profile_gives_codes_their_meaning() {
+    let shop = Shop::empty();
+    let line = format!("convert {} --from fanuc --to haas --quiet", repository("corpus/fanuc/call-m910.nc"));
+    assert_eq!(shop.run(&line).code, 1);
+    let machine = repository("machines/fanuc-0i.toml");
+    let run = shop.run(&format!("{line} --machine {machine}"));
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("P9020"), "{}", run.out);
+}

@@ -1,0 +1,104 @@
+//! Reports, and what scripts read.
+
+use super::{CLEAN, REFUSED, Run, Shop};
+use serde_json::Value;
+
+fn shop() -> Shop {
+    Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", REFUSED)])
+}
+
+fn convert(shop: &Shop, rest: &str) -> Run {
+    let run = shop.run(&format!("convert in --from fanuc --to haas --out out {rest}"));
+    assert_eq!(run.code, 1, "{}", run.err);
+    run
+}
+
+#[test]
+fn json_has_the_keys_of_the_contract() {
+    let shop = shop();
+    let run = convert(&shop, "--format json --report r.json");
+    assert_eq!(run.err, "", "with JSON on standard output, standard error is quiet");
+    assert_eq!(run.out, shop.read("r.json"));
+    let json: Value = serde_json::from_str(&run.out).unwrap();
+    let programs = json["programs"].as_array().unwrap();
+    let a = &programs[0];
+    assert_eq!((&a["source"], &a["target"]), (&"in/a.nc".into(), &"out/a.nc".into()));
+    assert_eq!((&a["program"], &a["outcome"]), (&"O1234".into(), &"converted".into()));
+    assert_eq!(a["diagnostics"], Value::Array(vec![]));
+    let b = &programs[1];
+    assert_eq!((&b["source"], &b["target"]), (&"in/b.nc".into(), &Value::Null));
+    assert_eq!((&b["program"], &b["outcome"]), (&"O1235".into(), &"refused".into()));
+    let d = &b["diagnostics"][0];
+    assert_eq!((&d["code"], &d["severity"]), (&"MG0301".into(), &"error".into()));
+    assert_eq!((&d["file"], &d["line"], &d["column"]), (&"in/b.nc".into(), &5.into(), &1.into()));
+    assert!(d["message"].as_str().unwrap().contains("M38"));
+    let totals = &json["totals"];
+    for (key, count) in [("files", 2), ("programs", 2), ("converted", 1), ("review", 0), ("refused", 1)] {
+        assert_eq!(totals[key], count, "{key}");
+    }
+}
+
+/// What SARIF 2.1.0 requires, and what code hosts need to show a result beside its line.
+#[test]
+fn sarif_is_complete() {
+    let shop = shop();
+    let run = convert(&shop, "--format sarif --report r.sarif");
+    assert_eq!(run.out, shop.read("r.sarif"));
+    let log: Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!(log["version"], "2.1.0");
+    assert!(log["$schema"].as_str().unwrap().contains("sarif-2.1.0"));
+    let run = &log["runs"][0];
+    let driver = &run["tool"]["driver"];
+    assert_eq!(driver["name"], "macroglot");
+    let rules = driver["rules"].as_array().unwrap();
+    assert!(rules.iter().all(|rule| rule["shortDescription"]["text"].is_string()));
+    let results = run["results"].as_array().unwrap();
+    assert_eq!(results.len(), 1);
+    let result = &results[0];
+    assert_eq!(rules[result["ruleIndex"].as_u64().unwrap() as usize]["id"], result["ruleId"]);
+    assert_eq!((&result["ruleId"], &result["level"]), (&"MG0301".into(), &"error".into()));
+    assert!(result["message"]["text"].as_str().unwrap().contains("M38"));
+    let place = &result["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], "in/b.nc");
+    assert_eq!((&place["region"]["startLine"], &place["region"]["startColumn"]), (&5.into(), &1.into()));
+    assert_eq!((&place["region"]["endLine"], &place["region"]["endColumn"]), (&5.into(), &4.into()));
+    // The library's types for the format read it, too.
+    serde_json::from_value::<serde_sarif::sarif::Sarif>(log).unwrap();
+}
+
+#[test]
+fn reports_for_people_show_each_program_with_its_lines() {
+    let shop = shop();
+    convert(&shop, "--report r.md --report r.html --report r.txt --quiet");
+    insta::assert_snapshot!("report_markdown", shop.read("r.md"));
+    insta::assert_snapshot!("report_text", shop.read("r.txt"));
+    let html = shop.read("r.html");
+    assert_eq!(html.matches("<section>").count(), 2);
+    assert!(html.contains("<p class=\"outcome refused\">refused</p>"));
+    assert!(html.contains("error MG0301, line 5, column 1") && html.contains("<pre>M38</pre>"));
+    assert!(!html.contains("http"), "nothing beside the file is needed");
+}
+
+#[test]
+fn nothing_of_a_program_is_markup() {
+    let hostile = REFUSED.replace("M38", "M38 (<script>alert(1)</script> ``` [x](y))");
+    let shop = Shop::with(&[("in/<b>.nc", &hostile)]);
+    convert(&shop, "--report r.html --report r.md --quiet");
+    let html = shop.read("r.html");
+    assert!(!html.contains("<script") && !html.contains("<b>") && html.contains("&lt;script&gt;"));
+    let markdown = shop.read("r.md");
+    for line in markdown.lines().filter(|line| line.contains("<script")) {
+        assert!(line.starts_with("      "), "outside an indented block: {line}");
+    }
+    assert!(!markdown.contains("<b>"));
+}
+
+#[test]
+fn a_report_of_no_known_kind_is_refused_before_anything_is_written() {
+    let shop = shop();
+    let line = "convert in --from fanuc --to haas --out out";
+    shop.fails(&format!("{line} --report r.pdf"), &["r.pdf", ".sarif"]);
+    shop.fails(&format!("{line} --report r"), &["ending"]);
+    shop.fails(&format!("{line} --report r.json --report r.json"), &["twice"]);
+    shop.fails(&format!("{line} --report in/b.nc"), &["b.nc"]);
+}

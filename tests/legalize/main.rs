@@ -1,0 +1,11 @@
+//! What stands in for something the target lacks does the same.
+//!
+//! Programs are built in the text form of the IR, legalized by one pass, and run by the IR's own evaluator. Expected
+//! values come from the arithmetic of the standard library, bounds from the documentation of each emulation.
+
+mod conditions;
+mod constants;
+mod dwell;
+mod functions;
+mod harness;
+mod truth;

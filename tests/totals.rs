@@ -1,0 +1,150 @@
+//! `corpus/TOTALS.md`: what becomes of the corpus, in figures that a change shows as a difference of
+//! lines. `UPDATE=1 cargo test --test totals` writes it anew.
+
+mod support;
+
+use macroglot::diag::{Code, Severity};
+use macroglot::dialect::{Control, registry};
+use macroglot::library::{Conversion, Lock, Options, Outcome, convert, gather};
+use macroglot::syntax::{parse_file, parse_totals};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use support::{Pair, pairs, root};
+
+const HEAD: &str = "\
+# Totals over the corpus
+
+Written by `UPDATE=1 cargo test --test totals`; the test fails where it is stale. The machines are
+those of `macroglot.toml`.
+";
+
+#[test]
+fn totals_are_fresh() {
+    let mut out = String::from(HEAD);
+    reading(&mut out);
+    let pairs = pairs();
+    assert_eq!(pairs.len(), 6, "the project file names six pairs");
+    conversions(&mut out, &pairs);
+    codes(&mut out, &pairs);
+    refusals(&mut out, &pairs);
+    support::assert_fresh("corpus/TOTALS.md", &out);
+}
+
+fn reading(out: &mut String) {
+    out.push_str(
+        "\n## Reading\n\nFragments: right ones read without an error, wrong ones whose fault is named.\n\n",
+    );
+    out.push_str(
+        "| dialect | files parsed | blocks | unparsed | lossless | fragments right | fragments wrong |\n",
+    );
+    out.push_str("|---|---:|---:|---:|---:|---:|---:|\n");
+    for entry in registry::all() {
+        let (inputs, errors) = gather(&[root().join("corpus").join(entry.name)], &[]);
+        assert!(errors.is_empty(), "{errors:?}");
+        let (mut parsed, mut blocks, mut unparsed, mut lossless) = (0, 0, 0, 0);
+        for input in &inputs {
+            let totals = parse_totals(&input.bytes, entry.parse);
+            parsed += usize::from(totals.unparsed == 0);
+            blocks += totals.blocks;
+            unparsed += totals.unparsed;
+            lossless += usize::from(totals.lossless);
+        }
+        let n = inputs.len();
+        assert_eq!((parsed, lossless), (n, n), "every program of {} is read, and kept", entry.name);
+        let (right, wrong) = (fragments(entry, "ok"), fragments(entry, "error"));
+        let _ = writeln!(
+            out,
+            "| {} | {parsed}/{n} | {blocks} | {unparsed} | {lossless}/{n} | {right} | {wrong} |",
+            entry.name
+        );
+    }
+}
+
+/// How many fragments of a status come out as their status says, of how many.
+fn fragments(entry: &registry::Entry, status: &str) -> String {
+    let control = Control::plain(entry.name).unwrap();
+    let table = support::text(&format!("corpus/{}/fragments.tsv", entry.name));
+    let rows = table.lines().skip(1).map(|row| row.split('\t').collect::<Vec<_>>());
+    let rows: Vec<_> = rows.filter(|row| row.get(2) == Some(&status)).collect();
+    let named = |text: &str| {
+        let parsed = parse_file(text.as_bytes(), entry.parse);
+        let errors = parsed.blocks.iter().flat_map(|block| &block.errors);
+        let refused = errors.into_iter().any(|error| error.code.severity() == Severity::Error);
+        // What is wrong with a block only beside others, or in its meaning, is found behind parsing.
+        let lowered = || {
+            let lowered = (entry.lower)(&parsed, 0, "fragment.nc", &control);
+            lowered.programs.iter().flat_map(|(_, found)| found).any(|d| d.severity() == Severity::Error)
+        };
+        refused || status == "error" && lowered()
+    };
+    let good = rows.iter().filter(|row| named(row[1]) == (status == "error")).count();
+    format!("{good}/{}", rows.len())
+}
+
+fn count(conversion: &Conversion, outcome: Outcome) -> usize {
+    conversion.programs.iter().filter(|program| program.outcome == outcome).count()
+}
+
+fn conversions(out: &mut String, pairs: &[Pair]) {
+    out.push_str("\n## Conversion\n\n| from | to | programs | converted | for review | refused |\n");
+    out.push_str("|---|---|---:|---:|---:|---:|\n");
+    for Pair { from, to, conversion, .. } in pairs {
+        let [good, review, refused] =
+            [Outcome::Converted, Outcome::Review, Outcome::Refused].map(|outcome| count(conversion, outcome));
+        let all = conversion.programs.len();
+        let _ = writeln!(out, "| {from} | {to} | {all} | {good} | {review} | {refused} |");
+    }
+}
+
+/// Programs that have each code.
+fn codes(out: &mut String, pairs: &[Pair]) {
+    let mut rows: BTreeMap<Code, Vec<usize>> = BTreeMap::new();
+    for (at, pair) in pairs.iter().enumerate() {
+        for program in &pair.conversion.programs {
+            let codes: BTreeSet<Code> = program.diagnostics.iter().map(|d| d.code).collect();
+            for code in codes {
+                rows.entry(code).or_insert_with(|| vec![0; pairs.len()])[at] += 1;
+            }
+        }
+    }
+    out.push_str("\n## Programs by code\n\n| code | |");
+    pairs.iter().for_each(|pair| out.push_str(&format!(" {} to {} |", pair.from, pair.to)));
+    let _ = writeln!(out, "\n|---|---|{}", "---:|".repeat(pairs.len()));
+    for (code, counts) in rows {
+        let _ = write!(out, "| {} | {} |", code.number(), code.title());
+        counts.iter().for_each(|count| out.push_str(&format!(" {count} |")));
+        out.push('\n');
+    }
+}
+
+/// Every refused program with every reason, each said once.
+fn refusals(out: &mut String, pairs: &[Pair]) {
+    out.push_str("\n## Refusals\n");
+    for Pair { from, to, inputs, conversion } in pairs {
+        let _ = writeln!(out, "\n### {from} to {to}\n");
+        for program in conversion.programs.iter().filter(|p| p.outcome == Outcome::Refused) {
+            let _ =
+                writeln!(out, "- {} {}", inputs[program.file].name, program.name.as_deref().unwrap_or(""));
+            let errors = program.diagnostics.iter().filter(|d| d.severity() == Severity::Error);
+            let reasons: BTreeSet<(&str, &str)> =
+                errors.map(|d| (d.code.number(), d.message.as_str())).collect();
+            for (code, message) in reasons {
+                let _ = writeln!(out, "  - {code} {message}");
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_changes_from_a_control_to_itself() {
+    for entry in registry::all() {
+        let control = Control::plain(entry.name).unwrap();
+        let (inputs, _) = gather(&[root().join("corpus").join(entry.name)], &[]);
+        let lock = Lock::new(entry.name, entry.name);
+        let conversion = convert(&inputs, &control, &control, lock, Options::default());
+        for (input, text) in inputs.iter().zip(&conversion.texts) {
+            let text = text.as_ref().map(|text| text.as_bytes());
+            assert_eq!(text, Some(input.bytes.as_slice()), "{}", input.path.display());
+        }
+    }
+}
