@@ -7,6 +7,7 @@ use macroglot::diag::{Code, Severity};
 use macroglot::dialect::{Control, registry};
 use macroglot::library::{Conversion, Lock, Options, Outcome, convert, gather};
 use macroglot::syntax::{parse_file, parse_totals};
+use macroglot::verify::Outcome as Verdict;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use support::{Pair, pairs, root};
@@ -86,13 +87,31 @@ fn count(conversion: &Conversion, outcome: Outcome) -> usize {
 }
 
 fn conversions(out: &mut String, pairs: &[Pair]) {
-    out.push_str("\n## Conversion\n\n| from | to | programs | converted | for review | refused |\n");
-    out.push_str("|---|---|---:|---:|---:|---:|\n");
-    for Pair { from, to, conversion, .. } in pairs {
+    out.push_str(
+        "\n## Conversion\n\nVerified, undecided, different: what the verifier says of those with a conversion.\n\n",
+    );
+    out.push_str(
+        "| from | to | programs | converted | for review | refused | verified | undecided | different |\n",
+    );
+    out.push_str("|---|---|---:|---:|---:|---:|---:|---:|---:|\n");
+    for Pair { from, to, conversion, certificates, .. } in pairs {
         let [good, review, refused] =
             [Outcome::Converted, Outcome::Review, Outcome::Refused].map(|outcome| count(conversion, outcome));
+        let [same, undecided, different] = [Verdict::Same, Verdict::Undecided, Verdict::Different]
+            .map(|verdict| conversion.programs.iter().filter(|p| p.verdict == Some(verdict)).count());
         let all = conversion.programs.len();
-        let _ = writeln!(out, "| {from} | {to} | {all} | {good} | {review} | {refused} |");
+        let _ = writeln!(
+            out,
+            "| {from} | {to} | {all} | {good} | {review} | {refused} | {same} | {undecided} | {different} |"
+        );
+        for program in conversion.programs.iter().filter(|p| p.outcome != Outcome::Refused) {
+            assert!(program.verdict.is_some(), "{from} to {to}: {:?} was not verified", program.name);
+            assert!(
+                certificates[program.file].is_some(),
+                "{from} to {to}: {:?} has no certificate",
+                program.name
+            );
+        }
     }
 }
 
@@ -120,7 +139,7 @@ fn codes(out: &mut String, pairs: &[Pair]) {
 /// Every refused program with every reason, each said once.
 fn refusals(out: &mut String, pairs: &[Pair]) {
     out.push_str("\n## Refusals\n");
-    for Pair { from, to, inputs, conversion } in pairs {
+    for Pair { from, to, inputs, conversion, .. } in pairs {
         let _ = writeln!(out, "\n### {from} to {to}\n");
         for program in conversion.programs.iter().filter(|p| p.outcome == Outcome::Refused) {
             let _ =

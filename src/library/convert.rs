@@ -11,6 +11,7 @@ use crate::lower::Lowered;
 use crate::opt;
 use crate::syntax::{ProgramName, parse_file};
 use crate::text::Span;
+use crate::verify;
 use rayon::prelude::*;
 
 /// What became of a program.
@@ -34,6 +35,8 @@ pub struct ProgramReport {
     pub name: Option<String>,
     /// What became of it.
     pub outcome: Outcome,
+    /// What the verifier found; none where it was not asked, or the program has no conversion.
+    pub verdict: Option<verify::Outcome>,
     /// What was found, in source order.
     pub diagnostics: Vec<Diagnostic>,
     /// Which bytes of the target file each block comes from: source span, target range.
@@ -148,7 +151,14 @@ pub fn convert(
                     text.push_str(&part.text);
                 }
             }
-            reports.push(ProgramReport { file: at, name: written[index].clone(), outcome, diagnostics, map });
+            reports.push(ProgramReport {
+                file: at,
+                name: written[index].clone(),
+                outcome,
+                verdict: None,
+                diagnostics,
+                map,
+            });
         }
         texts.push(any.then(|| if framed { format!("%\n{text}%\n") } else { text }));
     }
@@ -323,7 +333,7 @@ fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
                 diagnostics.into_iter().filter(|d| d.severity() == Severity::Error).collect();
             let outcome = outcome(&diagnostics);
             let name = program.name.as_ref().map(written_name);
-            ProgramReport { file: at, name, outcome, diagnostics, map: Vec::new() }
+            ProgramReport { file: at, name, outcome, verdict: None, diagnostics, map: Vec::new() }
         }));
     }
     Conversion { programs, texts, lock }

@@ -241,7 +241,14 @@ impl Sink {
                     text.push_str(&part);
                 }
             }
-            programs.push(ProgramReport { file: 0, name, outcome, diagnostics, map: Vec::new() });
+            programs.push(ProgramReport {
+                file: 0,
+                name,
+                outcome,
+                verdict: None,
+                diagnostics,
+                map: Vec::new(),
+            });
         }
         if framed {
             text.push_str("%\n");

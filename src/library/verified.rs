@@ -7,6 +7,10 @@ use crate::dialect::Control;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
 use crate::verify::{self, Certificate, Effort, Job, Names, ProgramCertificate, Side};
+use rayon::prelude::*;
+
+/// A program that is to be judged: its report among the conversion's, and the program on its control.
+type Wanted = (usize, ProgramRef);
 
 /// Verifies every program that was converted, and lets its outcome rest on that. Yields a certificate
 /// for each file that has a conversion.
@@ -17,14 +21,9 @@ pub fn judge(
     target: &Control,
     effort: Effort,
 ) -> Vec<Option<Certificate>> {
-    let none = || inputs.iter().map(|_| None).collect();
     let (Some(run), Some(run_there)) = (source.entry().execute, target.entry().execute) else {
-        for program in conversion.programs.iter_mut().filter(|program| program.outcome != Outcome::Refused) {
-            let what = "there is no emulated control to run it on";
-            program.diagnostics.push(Diagnostic::new(Code::NotDecided, Span::default(), what));
-            program.outcome = Outcome::Review;
-        }
-        return none();
+        open(conversion).for_each(|program| undecided(program, "there is no emulated control to run it on"));
+        return vec![None; inputs.len()];
     };
     let texts: Vec<(usize, String)> =
         conversion.texts.iter().enumerate().filter_map(|(at, text)| Some((at, text.clone()?))).collect();
@@ -43,55 +42,63 @@ pub fn judge(
     let lock = &conversion.lock;
     let names = Names { variables: lock.variables.clone(), programs: lock.programs.clone() };
     let job = Job { source: &from, target: &to, names: &names, effort };
-    let all = from.programs();
-    let mut certificates: Vec<Option<Certificate>> = none();
-    #[allow(clippy::needless_range_loop)] // the index names the file in three tables
-    for file in 0..inputs.len() {
-        let sections: Vec<ProgramRef> = all.iter().filter(|program| program.file == file).copied().collect();
-        let reports: Vec<usize> =
-            (0..conversion.programs.len()).filter(|at| conversion.programs[*at].file == file).collect();
-        // Both sides cut a file at its program words; where they disagree, nothing was verified.
-        let paired = sections.len() == reports.len();
-        let wanted: Vec<(usize, ProgramRef)> = reports
-            .iter()
-            .copied()
-            .zip(sections)
-            .filter(|(at, _)| paired && conversion.programs[*at].outcome != Outcome::Refused)
-            .collect();
-        let open = reports.iter().filter(|at| conversion.programs[**at].outcome != Outcome::Refused).count();
-        if open == 0 {
-            continue;
+    let wanted = wanted(conversion, &from.programs(), inputs.len());
+    let verified: Vec<Option<Certificate>> = wanted
+        .par_iter()
+        .map(|wanted| {
+            let programs: Vec<ProgramRef> = wanted.iter().map(|(_, program)| *program).collect();
+            (!programs.is_empty()).then(|| verify::verify(&job, &programs))
+        })
+        .collect();
+    for (file, certificate) in verified.iter().enumerate() {
+        let Some(certificate) = certificate else { continue };
+        for ((at, program), found) in wanted[file].iter().zip(&certificate.programs) {
+            let block = ours[file].parsed.blocks.get(from.blocks(*program).start);
+            apply(conversion, *at, block.map_or_else(Span::default, |block| block.span), found);
         }
-        if wanted.is_empty() {
-            for at in reports {
-                let program = &mut conversion.programs[at];
-                let what = "the emulated control divides the file into other programs";
-                program.diagnostics.push(Diagnostic::new(Code::NotDecided, Span::default(), what));
-                program.outcome = program.outcome.max(Outcome::Review);
-            }
-            continue;
-        }
-        let programs: Vec<ProgramRef> = wanted.iter().map(|(_, program)| *program).collect();
-        let certificate = verify::verify(&job, &programs);
-        for ((at, program), found) in wanted.iter().zip(&certificate.programs) {
-            let start = from.blocks(*program).start;
-            let span = ours
-                .get(file)
-                .and_then(|f| f.parsed.blocks.get(start))
-                .map_or_else(Span::default, |b| b.span);
-            apply(conversion, *at, span, found);
-        }
-        certificates[file] = Some(certificate);
-        if wanted.iter().any(|(at, _)| conversion.programs[*at].outcome == Outcome::Refused) {
-            withdraw(conversion, file, &reports);
+        if certificate.outcome == verify::Outcome::Different {
+            withdraw(conversion, file);
         }
     }
-    certificates
+    verified
+}
+
+/// The programs that have a conversion.
+fn open(conversion: &mut Conversion) -> impl Iterator<Item = &mut super::ProgramReport> {
+    conversion.programs.iter_mut().filter(|program| program.outcome != Outcome::Refused)
+}
+
+/// The programs of each file that are to be judged.
+fn wanted(conversion: &mut Conversion, all: &[ProgramRef], files: usize) -> Vec<Vec<Wanted>> {
+    let mut wanted = vec![Vec::new(); files];
+    for (file, wanted) in wanted.iter_mut().enumerate() {
+        let sections = all.iter().filter(|program| program.file == file).copied();
+        let reports: Vec<usize> =
+            (0..conversion.programs.len()).filter(|at| conversion.programs[*at].file == file).collect();
+        // Both sides cut a file at its program words; where they disagree, nothing can be verified.
+        if sections.clone().count() == reports.len() {
+            let paired = reports.into_iter().zip(sections);
+            wanted.extend(paired.filter(|(at, _)| conversion.programs[*at].outcome != Outcome::Refused));
+        } else {
+            open(conversion)
+                .filter(|program| program.file == file)
+                .for_each(|program| undecided(program, "the emulated control divides the file otherwise"));
+        }
+    }
+    wanted
+}
+
+/// Notes that nothing could be verified.
+fn undecided(program: &mut super::ProgramReport, why: &str) {
+    program.diagnostics.push(Diagnostic::new(Code::NotDecided, Span::default(), why));
+    program.outcome = Outcome::Review;
+    program.verdict = Some(verify::Outcome::Undecided);
 }
 
 /// Writes into a program's report what the verifier found.
 fn apply(conversion: &mut Conversion, at: usize, span: Span, found: &ProgramCertificate) {
     let program = &mut conversion.programs[at];
+    program.verdict = Some(found.outcome);
     match found.outcome {
         verify::Outcome::Same => {}
         verify::Outcome::Undecided => {
@@ -119,10 +126,9 @@ fn apply(conversion: &mut Conversion, at: usize, span: Span, found: &ProgramCert
 }
 
 /// Takes back the text of a file of which a program differs.
-fn withdraw(conversion: &mut Conversion, file: usize, reports: &[usize]) {
+fn withdraw(conversion: &mut Conversion, file: usize) {
     conversion.texts[file] = None;
-    for at in reports {
-        let program = &mut conversion.programs[*at];
+    for program in conversion.programs.iter_mut().filter(|program| program.file == file) {
         program.map.clear();
         if program.outcome != Outcome::Refused {
             let what = "stands in one file with a program that differs, so it is not written either";

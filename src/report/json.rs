@@ -4,6 +4,7 @@
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
 use crate::library::Outcome;
+use crate::verify;
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -20,6 +21,7 @@ struct Program<'a> {
     from: &'a str,
     to: &'a str,
     outcome: Outcome,
+    verdict: Option<verify::Outcome>,
     diagnostics: Vec<Finding<'a>>,
 }
 
@@ -68,6 +70,7 @@ fn programs<'a>(part: &Part<'a>) -> Vec<Program<'a>> {
             from: part.from,
             to: part.to,
             outcome: program.outcome,
+            verdict: program.verdict,
             diagnostics: diagnostics.collect(),
         }
     });

@@ -2,6 +2,7 @@
 
 use super::Part;
 use crate::library::Outcome;
+use crate::verify;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,6 +19,12 @@ pub struct Totals {
     pub review: usize,
     /// Programs without a conversion.
     pub refused: usize,
+    /// Conversions that were verified to be the same.
+    pub verified: usize,
+    /// Conversions that the verifier could not decide on.
+    pub undecided: usize,
+    /// Conversions that the verifier found to differ; they are among the refused.
+    pub different: usize,
     /// How many programs have each code.
     pub codes: BTreeMap<&'static str, usize>,
 }
@@ -35,6 +42,12 @@ impl Totals {
                     Outcome::Review => &mut totals.review,
                     Outcome::Refused => &mut totals.refused,
                 } += 1;
+                match program.verdict {
+                    Some(verify::Outcome::Same) => totals.verified += 1,
+                    Some(verify::Outcome::Undecided) => totals.undecided += 1,
+                    Some(verify::Outcome::Different) => totals.different += 1,
+                    None => {}
+                }
                 let codes: BTreeSet<_> = program.diagnostics.iter().map(|d| d.code).collect();
                 codes.into_iter().for_each(|code| *totals.codes.entry(code.number()).or_default() += 1);
             }
@@ -45,9 +58,13 @@ impl Totals {
 
 impl std::fmt::Display for Totals {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { files, programs, converted, review, refused, .. } = self;
+        let Self { files, programs, converted, review, refused, verified, undecided, different, .. } = self;
         let (program, file) = (plural(*programs, "program"), plural(*files, "file"));
-        write!(f, "{program} in {file}: {converted} converted, {review} for review, {refused} refused")
+        write!(f, "{program} in {file}: {converted} converted, {review} for review, {refused} refused")?;
+        if verified + undecided + different > 0 {
+            write!(f, "; {verified} verified, {undecided} undecided, {different} different")?;
+        }
+        Ok(())
     }
 }
 

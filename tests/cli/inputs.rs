@@ -29,7 +29,16 @@ fn a_folder_is_converted_without_what_is_no_program() {
     assert!(run.err.contains("empty.nc"), "{}", run.err);
     let all = shop.files();
     let written: Vec<&str> = names(&all).into_iter().filter(|name| name.starts_with("out/")).collect();
-    assert_eq!(written, ["out/a.nc", "out/macroglot.lock", "out/sub/b.txt"]);
+    assert_eq!(
+        written,
+        [
+            "out/a.nc",
+            "out/a.nc.certificate.json",
+            "out/macroglot.lock",
+            "out/sub/b.txt",
+            "out/sub/b.txt.certificate.json"
+        ]
+    );
 }
 
 #[test]

@@ -9,13 +9,17 @@ fn a_clean_program_is_0_and_a_refused_one_is_1() {
     let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", REFUSED)]);
     let run = shop.run(&format!("convert in/a.nc {TO} --out out"));
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    assert!(run.out.ends_with("1 program in 1 file: 1 converted, 0 for review, 0 refused\n"), "{}", run.out);
+    assert!(run.out.ends_with("1 program in 1 file: 1 converted, 0 for review, 0 refused; 1 verified, 0 undecided, 0 different\n"), "{}", run.out);
     let run = shop.run(&format!("convert in {TO} --out both"));
     assert_eq!(run.code, 1);
     assert!(run.err.contains("in/b.nc:5:1") && run.err.contains("MG0301"), "{}", run.err);
     let all = shop.files();
     let written: Vec<&str> = names(&all).into_iter().filter(|name| name.starts_with("both/")).collect();
-    assert_eq!(written, ["both/a.nc", "both/macroglot.lock"], "a refused program is not written");
+    assert_eq!(
+        written,
+        ["both/a.nc", "both/a.nc.certificate.json", "both/macroglot.lock"],
+        "a refused program is not written"
+    );
     let run = shop.run(&format!("convert in/b.nc {TO}"));
     assert_eq!((run.code, run.out.as_str()), (1, ""));
 }

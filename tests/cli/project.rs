@@ -20,7 +20,10 @@ fn a_project_is_converted_without_arguments() {
     let run = shop.run("convert");
     assert_eq!((run.code, run.err.as_str()), (0, ""));
     let files = shop.files();
-    assert_eq!(names(&files), ["macroglot.toml", "out/a.nc", "out/macroglot.lock", "programs/a.nc"]);
+    assert_eq!(
+        names(&files),
+        ["macroglot.toml", "out/a.nc", "out/a.nc.certificate.json", "out/macroglot.lock", "programs/a.nc"]
+    );
     // Again, elsewhere.
     assert_eq!(shop.run("convert --out copy --from fanuc --to haas").code, 0);
     assert_eq!(shop.read("copy/out/a.nc"), shop.read("out/a.nc"));

@@ -2,7 +2,8 @@
 #![allow(dead_code)] // each test uses its part
 
 use macroglot::dialect::{Control, Profile, registry};
-use macroglot::library::{Conversion, Input, Lock, Options, Project, convert, gather};
+use macroglot::library::{Conversion, Input, Lock, Options, Project, convert, gather, judge};
+use macroglot::verify::{Certificate, Effort};
 use std::path::{Path, PathBuf};
 
 /// The folder of the repository.
@@ -30,12 +31,13 @@ pub fn assert_fresh(path: &str, fresh: &str) {
     panic!("{path} is stale: read the difference, then write it with UPDATE=1\n{diff}");
 }
 
-/// A library of the project file, converted for one of its targets.
+/// A library of the project file, converted for one of its targets and verified.
 pub struct Pair {
     pub from: String,
     pub to: String,
     pub inputs: Vec<Input>,
     pub conversion: Conversion,
+    pub certificates: Vec<Option<Certificate>>,
 }
 
 /// Every library of the project file at the root, for each of its targets.
@@ -59,8 +61,10 @@ pub fn pairs() -> Vec<Pair> {
             let (inputs, errors) = gather(&[root().join(&library.path)], &[]);
             assert!(errors.is_empty(), "{errors:?}");
             let lock = Lock::new(source.name(), target.name());
-            let conversion = convert(&inputs, &source, &target, lock, Options::default());
-            pairs.push(Pair { from: source.name().into(), to: target.name().into(), inputs, conversion });
+            let mut conversion = convert(&inputs, &source, &target, lock, Options::default());
+            let certificates = judge(&inputs, &mut conversion, &source, &target, Effort::default());
+            let (from, to) = (source.name().into(), target.name().into());
+            pairs.push(Pair { from, to, inputs, conversion, certificates });
         }
     }
     pairs
