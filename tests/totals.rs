@@ -74,7 +74,8 @@ fn fragments(entry: &registry::Entry, status: &str) -> String {
         // What is wrong with a block only beside others, or in its meaning, is found behind parsing.
         let lowered = || {
             let lowered = (entry.lower)(&parsed, 0, "fragment.nc", &control);
-            lowered.programs.iter().flat_map(|(_, found)| found).any(|d| d.severity() == Severity::Error)
+            let mut found = lowered.programs.iter().flat_map(|(_, found)| found);
+            found.any(|d| d.severity() == Severity::Error || d.code == Code::ModalCallNotOpen)
         };
         refused || status == "error" && lowered()
     };

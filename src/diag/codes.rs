@@ -254,16 +254,6 @@ Put the comment at the end of the line, or take the words away."
 
 Write `#` in front of it."
 
-    "0165" DuplicateTarget Review "jump target stands more than once"
-"Several blocks answer to the target of this jump. Some controls always take the first of them, others look onward from the jump, or go by a parameter.
-
-Give each target a number or name of its own."
-
-    "0166" MissingTarget Error "jump to a target that is not there"
-"The label or block number that the jump names does not stand in this program.
-
-Correct the name, or add the target."
-
     "0167" NumberTooLarge Error "number is too large"
 "A block number, program number, subscript or label number has more digits than anything on the control.
 

@@ -1,7 +1,7 @@
 //! Fanuc Custom Macro B.
 
+use super::Block;
 use super::macro_b::{self, Reading, Row, Rules, lexemes_of_rules};
-use super::{Block, SyntaxError};
 use crate::text::Span;
 
 /// What pest makes of the grammar; it stays in here.
@@ -30,11 +30,6 @@ pub(super) const RULES: Rules = Rules {
 /// Reads the blocks of one line.
 pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
     macro_b::parse_line(&RULES, source, line, out);
-}
-
-/// What is wrong between the blocks of a file: loops, jumps and modal calls that do not match.
-pub fn check_blocks(blocks: &[Block], source: &[u8]) -> Vec<SyntaxError> {
-    macro_b::check_blocks(blocks, source)
 }
 
 fn read(text: &str, start: u32, row: &mut Row) -> Result<(), Reading> {

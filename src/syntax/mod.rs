@@ -18,7 +18,6 @@ pub mod haas;
 mod macro_b;
 mod plain;
 mod support;
-mod targets;
 #[cfg(test)]
 #[allow(missing_docs)]
 pub(crate) mod testing;

@@ -180,22 +180,6 @@ pub fn faults(parser: Parser, line: &str) -> Vec<(String, u32)> {
     errors.map(|error| (format!("{:?}", error.code), error.span.start + 1)).collect()
 }
 
-/// The faults between the blocks of a source: code and the text they stand at.
-pub fn between_blocks(
-    parser: Parser,
-    check: fn(&[Block], &[u8]) -> Vec<SyntaxError>,
-    source: &str,
-) -> Vec<(&'static str, &str)> {
-    let file = parse_file(source.as_bytes(), parser);
-    let name = |code| match code {
-        crate::diag::Code::MissingTarget => "MissingTarget",
-        crate::diag::Code::DuplicateTarget => "DuplicateTarget",
-        _ => "another",
-    };
-    let errors = check(&file.blocks, source.as_bytes());
-    errors.iter().map(|error| (name(error.code), &source[error.span.range()])).collect()
-}
-
 /// A line's items in short form: words as `X=1.`, expressions with their operator
 /// in front.
 pub fn show(parser: Parser, line: &str) -> String {

@@ -75,6 +75,7 @@ impl<'a> Lowering<'a> {
         match row.op {
             Op::CallMacro | Op::CallModal => self.macro_call(flow, words, site),
             Op::CallModalOff => {
+                self.modal_call_off(words.get(at).map_or(site.span, |(_, span)| *span));
                 self.builder.push(StmtKind::ModalCallOff, site.clone());
                 let mut rest = words.clone();
                 rest.remove(at);
@@ -92,6 +93,17 @@ impl<'a> Lowering<'a> {
             _ => {
                 let message = format!("{} has no counterpart in the common form", row.code);
                 self.findings.not_understood(site.span, message);
+            }
+        }
+    }
+
+    /// Counts the end of a modal call, and says where this program has begun none before.
+    fn modal_call_off(&mut self, span: Span) {
+        match self.modal_calls.checked_sub(1) {
+            Some(left) => self.modal_calls = left,
+            None => {
+                let what = "no modal call is begun before this block; only a caller's can end here";
+                self.findings.add(Diagnostic::new(Code::ModalCallNotOpen, span, what));
             }
         }
     }
@@ -275,6 +287,7 @@ impl<'a> Lowering<'a> {
             if self.findings.is("call.modal.block.calls", site.span) {
                 self.findings.not_understood(site.span, "a modal call that calls in its own block");
             }
+            self.modal_calls += 1;
             return self.builder.push(StmtKind::ModalCall(call), site.clone());
         }
         self.builder.end_then(site.clone(), |next| TermKind::Call { call, next });

@@ -86,6 +86,8 @@ struct Lowering<'a> {
     builder: Builder,
     /// The loops that are open here, innermost last.
     loops: Vec<Loop>,
+    /// Modal calls that were begun and not ended, as the text has it.
+    modal_calls: usize,
     /// The motion code in force as the text has it, for the roles of words that stand without one.
     motion: Motion,
     /// Index of the block being lowered.
@@ -142,6 +144,7 @@ impl<'a> Lowering<'a> {
             findings: Findings::new(control),
             builder,
             loops: Vec::new(),
+            modal_calls: 0,
             motion: Motion::default(),
             at: piece.body.start,
             aliased,

@@ -2,9 +2,7 @@
 
 use crate::diag::Code;
 use crate::syntax::support::fault;
-use crate::syntax::targets::check_targets;
-use crate::syntax::{Block, Expr, ExprKind, Item, ItemKind, Label, SyntaxError, Word};
-use crate::text::Span;
+use crate::syntax::{Item, ItemKind, SyntaxError};
 
 /// How an item counts for the rule that plain and parametric do not mix. G
 /// codes stand with either: the manual prints `G0 X=V23 Y=V22` and
@@ -51,27 +49,4 @@ pub(super) fn mixture(items: &[Item]) -> Option<SyntaxError> {
         return Some(fault(Code::MixedBlock, item.span, message));
     }
     None
-}
-
-/// What is wrong between the blocks of a file: jumps and calls to a label that is not
-/// there, and labels that stand again. What is wrong inside a block stands in
-/// [`Block::errors`].
-pub fn check_blocks(blocks: &[Block], _source: &[u8]) -> Vec<SyntaxError> {
-    check_targets(blocks, call)
-}
-
-/// The label of `G22 P1` (a call) or `G24 P2` (a jump).
-fn call(items: &[Item]) -> Option<(Label, Span)> {
-    let word = |wanted: char| {
-        items.iter().find_map(|item| match &item.kind {
-            ItemKind::Word(Word {
-                letter, value: Some(Expr { kind: ExprKind::Number(number), .. }), ..
-            }) if *letter == wanted => Some((number.value, item.span)),
-            _ => None,
-        })
-    };
-    let (code, _) = word('G')?;
-    let (label, span) = word('P')?;
-    let whole = label.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&label);
-    (whole && [22.0, 24.0].contains(&code)).then_some((Label::Number(label as u32), span))
 }

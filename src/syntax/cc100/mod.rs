@@ -5,8 +5,6 @@ mod check;
 mod diagnose;
 mod lexemes;
 
-pub use check::check_blocks;
-
 use super::Block;
 use super::plain::plain_block;
 use super::support::{readable, tile, unparsed};

@@ -140,23 +140,6 @@ fn any_bytes_print_back() {
     lossless_under_mutation("cc100", parse_line);
 }
 
-/// Faults between blocks as (code, text they stand at).
-#[test]
-fn labels_and_jumps_match() {
-    let table: [(&str, &[(&str, &str)]); 7] = [
-        ("G22 P1\nM30\n$1\nBEQ P01\nG24 P1\nG99", &[]),
-        ("G22 P2\nM30\n$1", &[("MissingTarget", "P2")]),
-        ("G24 P2", &[("MissingTarget", "P2")]),
-        ("V1=V2-V3 BLE P9", &[("MissingTarget", "BLE P9")]),
-        ("BEQ V1\nG=V1 P=V2\nM98 P7", &[]),
-        ("$1\n$1\nBEQ P1", &[("DuplicateTarget", "$1")]),
-        ("$1\n$1", &[]),
-    ];
-    for (source, expected) in table {
-        assert_eq!(between_blocks(parse_line, super::check_blocks, source), expected, "{source}");
-    }
-}
-
 #[test]
 fn plain_blocks_are_what_the_grammar_says() {
     assert_plain_blocks_agree("cc100", by_grammar);

@@ -2,8 +2,7 @@
 
 use crate::diag::Code;
 use crate::syntax::support::fault;
-use crate::syntax::targets::check_targets;
-use crate::syntax::{BinaryOp, Block, Expr, ExprKind, Index, SyntaxError, VarRef};
+use crate::syntax::{BinaryOp, Expr, ExprKind, Index, SyntaxError, VarRef};
 
 /// Faults of an expression that must be true or false.
 pub(super) fn condition(expr: &Expr, errors: &mut Vec<SyntaxError>) {
@@ -53,11 +52,4 @@ pub(super) fn subscript(variable: &VarRef, errors: &mut Vec<SyntaxError>) {
 fn is_relation(op: BinaryOp) -> bool {
     use BinaryOp::*;
     matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
-}
-
-/// What is wrong between the blocks of a file: jumps to a label or block number that
-/// is not there, and labels that stand again, which no jump reaches. What is wrong
-/// inside a block stands in [`Block::errors`].
-pub fn check_blocks(blocks: &[Block], _source: &[u8]) -> Vec<SyntaxError> {
-    check_targets(blocks, |_| None)
 }

@@ -6,8 +6,6 @@ mod diagnose;
 mod expr;
 mod lexemes;
 
-pub use check::check_blocks;
-
 use super::plain::plain_block;
 use super::support::{depth, fault, readable, tile, unparsed};
 use super::{Block, SyntaxError};

@@ -192,25 +192,6 @@ fn any_bytes_print_back() {
     lossless_under_mutation("fadal", parse_line);
 }
 
-/// Faults between blocks as (code, text they stand at).
-#[test]
-fn labels_and_jumps_match() {
-    let table: [(&str, &[(&str, &str)]); 8] = [
-        ("O1\n#:A\n#GOTO :A\n#GOTO:a", &[]),
-        ("O1\n#GOTO :B\n#:A", &[("MissingTarget", "GOTO :B")]),
-        ("O1\n#IF V1=1 THEN GOTO N7", &[("MissingTarget", "GOTO N7")]),
-        ("O1\nN007 G0\n#GOTO N7", &[]),
-        ("O1\n#:A\n#:A\n#GOTO :A", &[("DuplicateTarget", ":A")]),
-        ("O1\n#:A\n#:A\nN5\nN5", &[]),
-        ("O1\n#:A\nO2\n#GOTO :A", &[("MissingTarget", "GOTO :A")]),
-        // What could not be read may be the label.
-        ("O1\n#GOTO :A\n#:A 'HERE", &[]),
-    ];
-    for (source, expected) in table {
-        assert_eq!(between_blocks(parse_line, super::check_blocks, source), expected, "{source}");
-    }
-}
-
 #[test]
 fn plain_blocks_are_what_the_grammar_says() {
     assert_plain_blocks_agree("fadal", by_grammar);

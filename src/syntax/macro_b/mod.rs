@@ -11,7 +11,6 @@ mod blocks;
 mod checks;
 mod expressions;
 mod faults;
-mod file_checks;
 mod lexeme;
 mod plain;
 mod rules;
@@ -24,6 +23,5 @@ mod tree;
 mod tests;
 
 pub(super) use blocks::parse_line;
-pub use file_checks::check_blocks;
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
 pub(super) use rules::{Reading, Rules, read};

@@ -136,6 +136,14 @@ fn loops_that_do_not_pair() {
 }
 
 #[test]
+fn modal_calls_that_do_not_pair() {
+    // Outside a modal call an alarm, unless a parameter says otherwise (seed 001:2603).
+    reviews("fanuc", "G67", &[Code::ModalCallNotOpen]);
+    reviews("fanuc", "G66P9100\nG67\nN4G67", &[Code::ModalCallNotOpen]);
+    reviews("fanuc", "G66P9100\nX1.\nG66P9200\nG67\nG67", &[]);
+}
+
+#[test]
 fn jumps_out_of_loops_and_inside_them() {
     means(
         "fanuc",
