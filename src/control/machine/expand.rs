@@ -38,14 +38,19 @@ impl<'a> Driver<'a> {
         match cycle.op {
             Op::CyclePeck | Op::CycleChipBreak => self.peck(cycle),
             Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid | Op::CycleTapByLead => self.tap(cycle),
+            // A dwell that an earlier cycle was given is none of a cycle that takes no such word.
             Op::CycleBore | Op::CycleBoreDwell => {
                 self.feed(bottom);
-                self.dwell(cycle.dwell);
+                if cycle.op == Op::CycleBoreDwell {
+                    self.dwell(cycle.dwell);
+                }
                 self.feed(r);
             }
             Op::CycleBoreStop | Op::CycleBoreManual => {
                 self.feed(bottom);
-                self.dwell(cycle.dwell);
+                if cycle.op == Op::CycleBoreManual {
+                    self.dwell(cycle.dwell);
+                }
                 let before = self.machine.spindle;
                 self.turn(Spindle::Stopped);
                 if cycle.op == Op::CycleBoreManual {

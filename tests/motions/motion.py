@@ -1,0 +1,213 @@
+"""Keeps the list of moves that a person works out for a program, and writes it down.
+
+Nothing here reads a program. A list says: from here rapid to there, feed to there. Coordinates are
+those of the part in the units of the program; what is written are millimetres of the machine.
+"""
+
+import math
+import os
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+INCH = 25.4
+ALL = []
+
+
+def number(value):
+    text = f"{value:.9f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def sin(degrees):
+    return math.sin(math.radians(degrees))
+
+
+def cos(degrees):
+    return math.cos(math.radians(degrees))
+
+
+def tan(degrees):
+    return math.tan(math.radians(degrees))
+
+
+class Motion:
+    """The moves of one program.
+
+    start is the machine position in mm at which the run begins; shift is what the work offset adds, in mm;
+    length what the tool in use adds to Z, in mm.
+    """
+
+    def __init__(self, control, name, run, about, *, unit=1.0, start=(0, 0, 0), home=(0, 0, 0), offsets=None,
+                 tools=None, profile="", scenario="", tables="", ends="ended"):
+        self.control, self.name, self.run, self.about = control, name, run, about
+        self.unit, self.start, self.home = unit, start, home
+        self.offsets, self.tools = offsets or {}, tools or {}
+        self.profile, self.scenario, self.tables, self.ends = profile, scenario, tables, ends
+        self.now = list(map(float, start))
+        self.shift, self.length = (0.0, 0.0, 0.0), 0.0
+        self.speed, self.mode = 0.0, "per_minute"
+        self.lines = []
+        ALL.append(self)
+
+    # Where coordinates count from.
+
+    def work(self, which):
+        """Coordinates count from this work offset; 0 is the machine's own zero."""
+        self.shift = self.offsets.get(which, (0.0, 0.0, 0.0)) if which else (0.0, 0.0, 0.0)
+
+    def tool(self, which):
+        """The length of this tool's offset counts; 0 for none."""
+        self.length = self.tools.get(which, 0.0) if which else 0.0
+
+    def place(self, x=None, y=None, z=None):
+        at = list(self.now)
+        for axis, value in enumerate((x, y, z)):
+            if value is not None:
+                at[axis] = value * self.unit + self.shift[axis] + (self.length if axis == 2 else 0.0)
+        return at
+
+    def here(self):
+        """Where the tool stands, in the part's coordinates and units."""
+        shifts = (self.shift[0], self.shift[1], self.shift[2] + self.length)
+        return tuple((value - shift) / self.unit for value, shift in zip(self.now, shifts))
+
+    # The moves.
+
+    def _write(self, kind, at, *rest):
+        self.lines.append(" ".join([kind, *map(number, at), *map(str, rest)]))
+
+    def rapid(self, x=None, y=None, z=None):
+        self._rapid(self.place(x, y, z))
+
+    def _rapid(self, at):
+        if math.dist(at, self.now) > 1e-7:
+            self._write("rapid", at)
+        self.now = at
+
+    def machine(self, x=None, y=None, z=None):
+        """A rapid move in machine coordinates, mm."""
+        self._rapid([now if value is None else value for now, value in zip(self.now, (x, y, z))])
+
+    def by(self, x=0.0, y=0.0, z=0.0):
+        """A rapid move by so much."""
+        self._rapid([now + step * self.unit for now, step in zip(self.now, (x, y, z))])
+
+    def feed(self, x=None, y=None, z=None, f=None, mode=None):
+        self._feed(self.place(x, y, z), f, mode)
+
+    def feed_by(self, x=0.0, y=0.0, z=0.0, f=None, mode=None):
+        self._feed([now + step * self.unit for now, step in zip(self.now, (x, y, z))], f, mode)
+
+    def set_feed(self, f, mode=None):
+        self.speed, self.mode = f * self.unit, mode or self.mode
+
+    def _feed(self, at, f, mode):
+        if f is not None:
+            self.set_feed(f, mode)
+        if math.dist(at, self.now) > 1e-7:
+            self._write("feed", at, number(self.speed), self.mode)
+        self.now = at
+
+    def arc(self, x, y, centre, turn, z=None, f=None, plane=(0, 1)):
+        """An arc about a centre (part coordinates); turn is +1 counter-clockwise, -1 clockwise, seen as
+        the first axis of the plane turns to the second."""
+        if f is not None:
+            self.set_feed(f)
+        at = self.place(x, y, z)
+        one, two = plane
+        middle = list(self.now)
+        place = self.place(*(dict(zip(plane, centre)).get(axis) for axis in range(3)))
+        middle[one], middle[two] = place[one], place[two]
+        begin = math.atan2(self.now[two] - middle[two], self.now[one] - middle[one])
+        end = math.atan2(at[two] - middle[two], at[one] - middle[one])
+        sweep = math.degrees(end - begin) * turn % 360.0
+        if math.hypot(at[one] - self.now[one], at[two] - self.now[two]) < 1e-7:
+            sweep = 360.0
+        self._write("arc", at, *map(number, middle), number(turn * sweep), number(self.speed), self.mode)
+        self.now = at
+
+    def arc_of_radius(self, x, y, radius, turn, f=None):
+        """The arc of less than half a turn with this radius."""
+        px, py, _ = self.here()
+        dx, dy = x - px, y - py
+        chord = math.hypot(dx, dy)
+        height = math.sqrt(max(radius * radius - chord * chord / 4.0, 0.0))
+        # Left of the way for counter-clockwise arcs.
+        centre = ((px + x) / 2.0 - turn * height * dy / chord, (py + y) / 2.0 + turn * height * dx / chord)
+        self.arc(x, y, centre, turn, f=f)
+
+    def dwell(self, seconds):
+        self.lines.append(f"dwell {number(seconds)}")
+
+    def probe(self, aim, to, f=None):
+        """A probe move toward a place of the part; it ended at this machine position, mm."""
+        if f is not None:
+            self.set_feed(f)
+        self._write("probe", to, *map(number, self.place(*aim)), number(self.speed))
+        self.now = list(map(float, to))
+
+    def hole(self, x=None, y=None, *, r, bottom, back=None, f=None, dwell=0.0, out="rapid"):
+        """A drilled hole: over it, to the plane r, to the bottom, up to r, and to the plane back."""
+        if f is not None:
+            self.set_feed(f)
+        self.rapid(x, y)
+        self.over(r, bottom)
+        self.feed(z=bottom)
+        if dwell:
+            self.dwell(dwell)
+        self.rapid(z=r) if out == "rapid" else self.feed(z=r)
+        if back is not None:
+            self.rapid(z=back)
+
+    def peck(self, x=None, y=None, *, r, bottom, steps, back=None, f=None, dwell=0.0, clear=1.0, chips=False):
+        """A hole in steps: out to the plane r after each (or back by the clearance only, to break the chip),
+        down again to the clearance (mm) over the last depth."""
+        if f is not None:
+            self.set_feed(f)
+        self.rapid(x, y)
+        self.over(r, bottom)
+        depth = r
+        for step in steps:
+            if depth != r:
+                if not chips:
+                    self.rapid(z=r)
+                self.rapid(z=min(depth + clear / self.unit, r))
+            depth = max(depth - step, bottom)
+            self.feed(z=depth)
+            if depth == bottom:
+                break
+        if dwell:
+            self.dwell(dwell)
+        self.rapid(z=r)
+        if back is not None:
+            self.rapid(z=back)
+
+    def over(self, r, bottom):
+        """The tool goes down to the plane r over a hole."""
+        self.rapid(z=r)
+        self._write("hole", self.now, number(self.place(z=bottom)[2]))
+
+    # Writing it down.
+
+    def text(self):
+        def row(values):
+            return "[" + ", ".join(map(number, (list(values) + [0.0] * 10)[:10])) + "]"
+
+        scenario = [f"start = {row(self.start)}", f"references = [{row(self.home)}, {row(self.home)}]"]
+        scenario += [self.scenario] if self.scenario else []
+        if self.offsets:
+            scenario.append("[work_offsets]")
+            scenario += [f"{which} = {row(at)}" for which, at in sorted(self.offsets.items())]
+        for which, length in sorted(self.tools.items()):
+            scenario += [f"[tools.{which}]", f"length = {number(length)}"]
+        scenario += [self.tables] if self.tables else []
+        about = "\n".join("# " + line for line in self.about.strip().splitlines())
+        run = ", ".join(f'"{path}"' for path in self.run)
+        return (
+            f"{about}\n\ncontrol = \"{self.control}\"\nrun = [{run}]\nends = \"{self.ends}\"\n"
+            f"profile = '''\ndialect = \"{self.control}\"\n{self.profile.strip()}\n'''\n"
+            f"scenario = '''\n" + "\n".join(scenario) + "\n'''\n"
+            "moves = '''\n" + "\n".join(self.lines) + "\n'''\n"
+        )
+
+    def path(self):
+        return os.path.join(HERE, "expected", self.control, self.name + ".toml")
