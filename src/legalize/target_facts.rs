@@ -10,21 +10,23 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Behaviour, Control, Row};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
-    BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, NcItem, Program, Relation, StmtKind, TermKind,
-    Var,
+    BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, NcItem, Relation, StmtKind, TermKind, Var,
 };
+use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports the unconfirmed facts of the target that programs rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = Summaries::of(module);
     let own = context.source.is("vacancy");
+    let given = given(module);
+    let none = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
         let mut found =
             Found { target: context.target, said: BTreeSet::new(), all: Vec::new(), home: program.site.span };
-        let given = given(module, program);
-        let vacancy = own.then(|| Vacancy::of(program, &summaries, &given));
+        let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
+        let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
         for (id, block) in program.ids().zip(&program.blocks) {
             found.home = program.site.span;
             found.block(block);
@@ -42,17 +44,16 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-/// The locals that every call of a program in the library sets.
-fn given(module: &Module, program: &Program) -> BTreeSet<Var> {
-    let calls = module.programs.iter().flat_map(|p| &p.blocks).flat_map(super::calls_of);
-    let to_it =
-        calls.filter(|call| matches!((&call.callee, &program.name), (Callee::Program(a), Some(b)) if a == b));
-    let sets = to_it.map(|call| {
-        let locals = call.arguments.iter().filter(|a| !a.value.may_be_vacant());
-        let vars = locals.map(|a| Var { class: Class::Local, number: a.local });
-        if call.level { vars.collect() } else { BTreeSet::new() }
-    });
-    sets.reduce(|a: BTreeSet<Var>, b| a.intersection(&b).copied().collect()).unwrap_or_default()
+/// By program: the locals that every call of it in the library sets.
+fn given(module: &Module) -> BTreeMap<&ProgramName, BTreeSet<Var>> {
+    let mut given: BTreeMap<&ProgramName, BTreeSet<Var>> = BTreeMap::new();
+    for call in module.programs.iter().flat_map(|p| &p.blocks).flat_map(super::calls_of) {
+        let Callee::Program(name) = &call.callee else { continue };
+        let sure = call.arguments.iter().filter(|a| call.level && !a.value.may_be_vacant());
+        let sets: BTreeSet<Var> = sure.map(|a| Var { class: Class::Local, number: a.local }).collect();
+        given.entry(name).and_modify(|all| all.retain(|var| sets.contains(var))).or_insert(sets);
+    }
+    given
 }
 
 struct Found<'c> {

@@ -1,6 +1,7 @@
 //! What programs may read and write, calls included.
 
 use super::Liveness;
+use super::call_graph::CallGraph;
 use crate::canon::Op;
 use crate::ir::{
     Bank, BlockId, Call, Callee, Class, Expr, Module, Nc, Place, Program, StmtKind, TermKind, Var,
@@ -26,16 +27,60 @@ pub struct Effects {
     pub writes: Vars,
 }
 
-/// The effects of every program of a module.
+/// The effects of every program of a module, on all but its temporaries.
 #[derive(Clone, Debug, Default)]
 pub struct Summaries {
-    /// By program: all it may read and write, and what it calls.
+    /// By program: all it may read and write, what it calls included.
     effects: Vec<Effects>,
     /// By program: what it may read before it writes it.
     exposed: Vec<Vars>,
     names: BTreeMap<ProgramName, usize>,
+    /// Of the modal calls that an NC block may make.
     modal: Effects,
+    /// Of a body in the same program, or of what cannot be told.
+    everything: Effects,
+    /// Of code outside the library, which may see its caller's locals too.
+    unknown: Effects,
     come_back: bool,
+}
+
+/// Variables of a callee as its caller sees them: the locals of a level of its own are not among them.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'s> {
+    vars: &'s Vars,
+    level: bool,
+}
+
+impl Seen<'_> {
+    /// True where the variable is among them.
+    pub fn contains(&self, var: Var) -> bool {
+        !self.hides(var.class) && self.vars.contains(var)
+    }
+
+    /// True where there are none.
+    pub fn is_empty(&self) -> bool {
+        self.vars().next().is_none() && self.classes().next().is_none()
+    }
+
+    /// The single ones.
+    pub fn vars(&self) -> impl Iterator<Item = Var> + '_ {
+        self.vars.vars.iter().copied().filter(|var| !self.hides(var.class))
+    }
+
+    /// The whole classes.
+    pub fn classes(&self) -> impl Iterator<Item = Class> + '_ {
+        self.vars.classes.iter().copied().filter(|class| !self.hides(*class))
+    }
+
+    fn hides(&self, class: Class) -> bool {
+        self.level && class == Class::Local
+    }
+}
+
+impl<'s> From<&'s Vars> for Seen<'s> {
+    fn from(vars: &'s Vars) -> Self {
+        Self { vars, level: false }
+    }
 }
 
 const SHARED: [Class; 5] =
@@ -47,14 +92,13 @@ impl Vars {
         Self { vars: BTreeSet::new(), classes: SHARED.into() }
     }
 
-    /// The variables that a computed number of this bank may mean.
-    pub fn bank(bank: Bank) -> Self {
-        let classes: &[Class] = match bank {
+    /// The classes whose variables a computed number of this bank may mean.
+    pub fn bank(bank: Bank) -> &'static [Class] {
+        match bank {
             Bank::Numbered => &[Class::Local, Class::Common, Class::Retained],
             Bank::Global => &[Class::Global],
             Bank::Parametric => &[Class::Parametric],
-        };
-        Self { vars: BTreeSet::new(), classes: classes.iter().copied().collect() }
+        }
     }
 
     /// True where the variable is among them.
@@ -63,10 +107,10 @@ impl Vars {
     }
 
     /// Adds all of another; true where that changed it.
-    pub fn join(&mut self, other: &Vars) -> bool {
-        let before = (self.vars.len(), self.classes.len());
-        self.vars.extend(&other.vars);
-        self.classes.extend(&other.classes);
+    pub fn join<'v>(&mut self, other: impl Into<Seen<'v>>) -> bool {
+        let (other, before) = (other.into(), (self.vars.len(), self.classes.len()));
+        self.vars.extend(other.vars());
+        self.classes.extend(other.classes());
         before != (self.vars.len(), self.classes.len())
     }
 
@@ -85,7 +129,7 @@ impl Vars {
                 self.vars.insert(*var);
             }
             Expr::Indirect(bank, _) => {
-                self.join(&Self::bank(*bank));
+                self.classes.extend(Self::bank(*bank));
             }
             _ => {}
         });
@@ -98,7 +142,7 @@ impl Vars {
                 self.vars.insert(*var);
             }
             Place::Indirect(bank, _) => {
-                self.join(&Self::bank(*bank));
+                self.classes.extend(Self::bank(*bank));
             }
             Place::System(..) => {}
         }
@@ -106,11 +150,6 @@ impl Vars {
 }
 
 impl Effects {
-    /// Of code that nobody knows: everything that is shared.
-    pub fn unknown() -> Self {
-        Self { reads: Vars::shared(), writes: Vars::shared() }
-    }
-
     /// Of a body in the same program, or of what cannot be told: everything.
     pub fn everything() -> Self {
         let mut all = Vars::shared();
@@ -118,8 +157,9 @@ impl Effects {
         Self { reads: all.clone(), writes: all }
     }
 
-    fn join(&mut self, other: &Effects) -> bool {
-        self.reads.join(&other.reads) | self.writes.join(&other.writes)
+    fn join(&mut self, other: &Effects, level: bool) -> bool {
+        let seen = |vars| Seen { vars, level };
+        self.reads.join(seen(&other.reads)) | self.writes.join(seen(&other.writes))
     }
 
     fn without(self, class: Class) -> Self {
@@ -132,92 +172,86 @@ impl Summaries {
     pub fn of(module: &Module) -> Self {
         let names = module.programs.iter().enumerate();
         let names = names.filter_map(|(at, p)| p.name.clone().map(|name| (name, at))).collect();
+        let everything = Effects::everything();
         let mut out = Self {
             effects: module.programs.iter().map(own).collect(),
             exposed: vec![Vars::default(); module.programs.len()],
             names,
             modal: Effects::default(),
+            unknown: everything.clone().without(Class::Temp),
+            everything,
             come_back: super::may_come_back(module),
         };
-        while out.spread(module) {}
-        while out.expose(module) {}
+        let graph = Graph::of(module, &mut out);
+        out.spread(&graph);
+        graph.calls.settle(|at| {
+            let Some(program) = module.programs.get(at) else { return false };
+            let live = Liveness::of(program, &out, super::Exit::Nothing);
+            let exposed = Vars { vars: live.before(BlockId(0)).collect(), classes: live.classes_at_entry() };
+            out.exposed[at].join(&exposed.without(Class::Temp))
+        });
         out
     }
 
-    /// Adds to each program what its callees do; true where that changed something.
-    fn spread(&mut self, module: &Module) -> bool {
-        let mut changed = false;
-        for (at, program) in module.programs.iter().enumerate() {
-            for call in calls(program) {
-                let effects = self.of_call(call);
-                changed |= self.effects[at].join(&effects);
+    /// Adds to each program what its callees do.
+    fn spread(&mut self, graph: &Graph) {
+        // The modal calls stand behind the programs, as one more.
+        self.effects.push(std::mem::take(&mut self.modal));
+        graph.calls.settle(|at| {
+            let mut mine = std::mem::take(&mut self.effects[at]);
+            let mut changed = false;
+            for (callee, level) in graph.calls.callees(at) {
+                changed |= mine.join(&self.effects[*callee], *level);
             }
-            for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-                let StmtKind::ModalCall(call) = &stmt.kind else { continue };
-                let body = self.of_call(call);
-                changed |= self.modal.join(&body);
-            }
-            for block in &program.blocks {
-                let TermKind::Chain(name) = &block.term.kind else { continue };
-                let effects = self.of_program(name).without(Class::Temp);
-                changed |= self.effects[at].join(&effects);
-            }
-            if program.blocks.iter().flat_map(|block| &block.stmts).any(|s| matches!(s.kind, StmtKind::Nc(_)))
-            {
-                let modal = self.modal.clone();
-                changed |= self.effects[at].join(&modal);
-            }
+            self.effects[at] = mine;
+            changed
+        });
+        self.modal = self.effects.pop().unwrap_or_default();
+        if graph.modal_body {
+            self.modal = self.everything.clone();
         }
-        changed
     }
 
-    fn expose(&mut self, module: &Module) -> bool {
-        let mut changed = false;
-        for (at, program) in module.programs.iter().enumerate() {
-            let live = Liveness::of(program, self, super::Exit::Nothing);
-            let exposed = Vars { vars: live.before(BlockId(0)).collect(), classes: live.classes_at_entry() };
-            changed |= self.exposed[at].join(&exposed.without(Class::Temp));
-        }
-        changed
+    /// What a call may read, as its caller sees it. A body in the same program is everything.
+    fn reads(&self, call: &Call) -> Seen<'_> {
+        let (effects, level) = self.of_call(call);
+        Seen { vars: &effects.reads, level }
     }
 
-    /// What a call may read and write, as its caller sees it: the locals of a level of its own are
-    /// not among them. A body in the same program is everything.
-    pub fn of_call(&self, call: &Call) -> Effects {
-        let effects = match &call.callee {
-            Callee::Program(name) => self.of_program(name).without(Class::Temp),
-            Callee::Block(_) => Effects::everything(),
-            Callee::Computed(_) | Callee::Cycle(_) => unknown_callee(),
-        };
-        let body = matches!(call.callee, Callee::Block(_));
-        if call.level && !body { effects.without(Class::Local) } else { effects }
+    /// What a call may write, as its caller sees it. A body in the same program is everything.
+    pub fn writes(&self, call: &Call) -> Seen<'_> {
+        let (effects, level) = self.of_call(call);
+        Seen { vars: &effects.writes, level }
+    }
+
+    fn of_call(&self, call: &Call) -> (&Effects, bool) {
+        match &call.callee {
+            Callee::Program(name) => (self.of_program(name), call.level),
+            Callee::Block(_) => (&self.everything, false),
+            Callee::Computed(_) | Callee::Cycle(_) => (&self.unknown, call.level),
+        }
     }
 
     /// What a call may read before it writes it, as its caller sees it.
-    pub fn exposed_by(&self, call: &Call) -> Vars {
-        let Callee::Program(name) = &call.callee else { return self.of_call(call).reads };
-        let exposed = self.exposed_of(name);
-        if call.level { exposed.without(Class::Local) } else { exposed }
+    pub fn exposed_by(&self, call: &Call) -> Seen<'_> {
+        let Callee::Program(name) = &call.callee else { return self.reads(call) };
+        Seen { vars: self.exposed_of(name), level: call.level }
     }
 
     /// What a program of this name may read before it writes it.
-    pub fn exposed_of(&self, name: &ProgramName) -> Vars {
-        self.names.get(name).map_or_else(|| unknown_callee().reads, |at| self.exposed[*at].clone())
+    pub fn exposed_of(&self, name: &ProgramName) -> &Vars {
+        self.names.get(name).map_or(&self.unknown.reads, |at| &self.exposed[*at])
     }
 
     /// All that a program of this name may read and write.
-    pub fn of_program(&self, name: &ProgramName) -> Effects {
-        self.names.get(name).map_or_else(unknown_callee, |at| self.effects[*at].clone())
+    pub fn of_program(&self, name: &ProgramName) -> &Effects {
+        self.names.get(name).map_or(&self.unknown, |at| &self.effects[*at])
     }
 
     /// What an NC block may read and write besides its words: by a modal call that it makes, or by
     /// an operation that moves values between variables and tables.
-    pub fn of_nc(&self, nc: &Nc) -> Effects {
-        if nc.has(Op::ReadOffset) || nc.has(Op::WriteVariable) {
-            Effects::everything()
-        } else {
-            self.modal.clone()
-        }
+    pub fn of_nc(&self, nc: &Nc) -> &Effects {
+        if moves_values(nc) { &self.everything } else { &self.modal }
     }
 
     /// True where a call of another program may go on at a labelled block of its caller.
@@ -226,19 +260,63 @@ impl Summaries {
     }
 }
 
-/// Code outside the library may see its caller's locals too.
-fn unknown_callee() -> Effects {
-    Effects::everything().without(Class::Temp)
+/// Who calls whom, modal calls as one more program that everyone with NC blocks calls.
+struct Graph {
+    calls: CallGraph,
+    /// True where a modal call runs a body of its own program.
+    modal_body: bool,
 }
 
-fn calls(program: &Program) -> impl Iterator<Item = &Call> {
-    program.blocks.iter().filter_map(|block| match &block.term.kind {
-        TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => Some(call),
-        _ => None,
-    })
+impl Graph {
+    /// The graph; calls that leave the library are added to the effects at once.
+    fn of(module: &Module, summaries: &mut Summaries) -> Self {
+        let modal = module.programs.len();
+        let mut callees = vec![BTreeSet::new(); modal + 1];
+        let mut modal_body = false;
+        for (at, program) in module.programs.iter().enumerate() {
+            let mut edge = |from: usize, callee: &Callee, level: bool| {
+                let place = match callee {
+                    Callee::Program(name) => summaries.names.get(name),
+                    Callee::Block(_) => return modal_body |= from == modal,
+                    Callee::Computed(_) | Callee::Cycle(_) => None,
+                };
+                match place {
+                    Some(place) => drop(callees[from].insert((*place, level))),
+                    None => {
+                        let Summaries { effects, modal, unknown, .. } = &mut *summaries;
+                        effects.get_mut(from).unwrap_or(modal).join(unknown, level);
+                    }
+                }
+            };
+            let mut moves = false;
+            for block in &program.blocks {
+                for stmt in &block.stmts {
+                    match &stmt.kind {
+                        StmtKind::ModalCall(call) => edge(modal, &call.callee, call.level),
+                        StmtKind::Nc(_) => moves = true,
+                        _ => {}
+                    }
+                }
+                match &block.term.kind {
+                    TermKind::Call { call, .. } => edge(at, &call.callee, call.level),
+                    TermKind::Chain(name) => edge(at, &Callee::Program(name.clone()), false),
+                    _ => {}
+                }
+            }
+            if moves {
+                callees[at].insert((modal, false));
+            }
+        }
+        Self { calls: CallGraph::new(callees), modal_body }
+    }
 }
 
-/// What a program reads and writes by itself.
+/// True where the block moves values between variables and tables.
+fn moves_values(nc: &Nc) -> bool {
+    nc.ops().any(|op| matches!(op, Op::ReadOffset | Op::WriteVariable))
+}
+
+/// What a program reads and writes by itself, temporaries aside.
 fn own(program: &Program) -> Effects {
     let mut out = Effects::default();
     for block in &program.blocks {
@@ -249,13 +327,13 @@ fn own(program: &Program) -> Effects {
                 StmtKind::ClearAll(class) => {
                     out.writes.classes.insert(*class);
                 }
-                StmtKind::Nc(nc) if nc.has(Op::ReadOffset) || nc.has(Op::WriteVariable) => {
-                    out.join(&Effects::everything());
+                StmtKind::Nc(nc) if moves_values(nc) => {
+                    out.join(&Effects::everything(), false);
                 }
                 _ => {}
             }
         }
         block.term.kind.exprs(&mut |e| out.reads.read(e));
     }
-    out
+    out.without(Class::Temp)
 }

@@ -1,6 +1,6 @@
 //! Which variables are live: may be read before they are written.
 
-use super::effects::{Effects, Summaries, Vars};
+use super::effects::{Seen, Summaries, Vars};
 use super::{Cfg, Row, Universe};
 use crate::ir::{Block, BlockId, Callee, Class, Expr, Place, Program, Site, StmtKind, TermKind, Var};
 use std::collections::{BTreeSet, VecDeque};
@@ -23,6 +23,8 @@ pub struct Liveness<'p> {
     exit: Exit,
     /// Live at the start of each block, those two of [`Cfg::whole`] included.
     before: Vec<Row>,
+    /// What each block reads before it writes it, and what passes it.
+    transfers: Vec<(Row, Row)>,
     cfg: Cfg,
     classes: BTreeSet<Class>,
     /// True where a modal call runs a body of the program, whose return may go behind any NC block.
@@ -39,13 +41,18 @@ impl<'p> Liveness<'p> {
             universe: Universe::default(),
             exit,
             before: Vec::new(),
+            transfers: Vec::new(),
             cfg,
             classes: BTreeSet::new(),
             modal_body: has_modal_body(program),
         };
         live.gather();
         live.before = vec![live.universe.none(); live.cfg.len()];
-        live.solve();
+        // Without variables there is nothing to find.
+        if !live.universe.vars().is_empty() {
+            live.transfers = program.blocks.iter().map(|block| live.transfer(block)).collect();
+            live.solve();
+        }
         live
     }
 
@@ -61,7 +68,9 @@ impl<'p> Liveness<'p> {
                 }
             }
             block.term.kind.exprs(&mut |e| all.read(e));
-            all.join(&self.used_by_term(&block.term.kind));
+            if let Some(used) = self.used_by_term(&block.term.kind) {
+                all.join(used);
+            }
         }
         self.classes = all.classes;
         self.universe = Universe::new(&all.vars);
@@ -75,9 +84,9 @@ impl<'p> Liveness<'p> {
         while let Some(id) = work.pop_front() {
             waiting[id.index()] = false;
             let mut row = self.after(id);
-            if let Some(block) = self.program.block(id) {
-                self.term(&block.term.kind, &mut row);
-                block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut row));
+            if let Some((reads, passes)) = self.transfers.get(id.index()) {
+                row.intersect(passes);
+                row.join(reads);
             }
             if self.before[id.index()].join(&row) {
                 for pred in self.cfg.preds(id) {
@@ -87,6 +96,16 @@ impl<'p> Liveness<'p> {
                 }
             }
         }
+    }
+
+    /// What a block makes of what is live behind it: of nothing, and of everything.
+    fn transfer(&self, block: &Block) -> (Row, Row) {
+        let through = |mut row: Row| {
+            self.term(&block.term.kind, &mut row);
+            block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut row));
+            row
+        };
+        (through(self.universe.none()), through(self.universe.classes(|_| true)))
     }
 
     /// Live behind a block's terminator.
@@ -109,19 +128,19 @@ impl<'p> Liveness<'p> {
         row
     }
 
-    fn used_by_term(&self, kind: &TermKind) -> Vars {
+    fn used_by_term(&self, kind: &TermKind) -> Option<Seen<'p>> {
         match kind {
             // The graph leads into a body in the same program.
             TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => {
-                self.summaries.exposed_by(call)
+                Some(self.summaries.exposed_by(call))
             }
-            TermKind::Chain(name) => self.summaries.exposed_of(name),
-            _ => Vars::default(),
+            TermKind::Chain(name) => Some(self.summaries.exposed_of(name).into()),
+            _ => None,
         }
     }
 
     fn term(&self, kind: &TermKind, row: &mut Row) {
-        self.add(&self.used_by_term(kind), row);
+        self.used_by_term(kind).iter().for_each(|used| self.add(*used, row));
         kind.exprs(&mut |e| self.read(e, row));
     }
 
@@ -140,8 +159,7 @@ impl<'p> Liveness<'p> {
             }
         }
         if let StmtKind::Nc(nc) = kind {
-            let Effects { reads, .. } = self.summaries.of_nc(nc);
-            self.add(&reads, row);
+            self.add((&self.summaries.of_nc(nc).reads).into(), row);
         }
         kind.exprs(&mut |e| self.read(e, row));
     }
@@ -149,15 +167,17 @@ impl<'p> Liveness<'p> {
     fn read(&self, e: &Expr, row: &mut Row) {
         e.walk(&mut |part| match part {
             Expr::Var(var) => self.universe.place(*var).iter().for_each(|at| row.insert(*at)),
-            Expr::Indirect(bank, _) => self.add(&Vars::bank(*bank), row),
+            Expr::Indirect(bank, _) => {
+                row.join(&self.universe.classes(|class| Vars::bank(*bank).contains(&class)));
+            }
             _ => {}
         });
     }
 
-    fn add(&self, vars: &Vars, row: &mut Row) {
-        vars.vars.iter().filter_map(|var| self.universe.place(*var)).for_each(|at| row.insert(at));
-        if !vars.classes.is_empty() {
-            row.join(&self.universe.classes(|class| vars.classes.contains(&class)));
+    fn add(&self, seen: Seen<'_>, row: &mut Row) {
+        seen.vars().filter_map(|var| self.universe.place(var)).for_each(|at| row.insert(at));
+        for whole in seen.classes() {
+            row.join(&self.universe.classes(|class| class == whole));
         }
     }
 

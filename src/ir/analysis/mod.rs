@@ -3,6 +3,7 @@
 //!
 //! Every answer errs to the safe side. Nothing recurses on the size of a program.
 
+mod call_graph;
 mod cfg;
 mod dominators;
 mod effects;
@@ -14,7 +15,7 @@ mod values;
 
 pub use cfg::{Cfg, may_come_back};
 pub use dominators::Dominators;
-pub use effects::{Effects, Summaries, Vars};
+pub use effects::{Effects, Seen, Summaries, Vars};
 pub use liveness::{Exit, Liveness};
 pub use loops::{Loop, Loops};
 pub use set::{Row, Universe};

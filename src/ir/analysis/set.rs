@@ -79,6 +79,11 @@ impl Row {
         changed
     }
 
+    /// Keeps what is in another too.
+    pub fn intersect(&mut self, other: &Row) {
+        self.bits.iter_mut().zip(&other.bits).for_each(|(word, keep)| *word &= keep);
+    }
+
     /// Takes out all of another.
     pub fn subtract(&mut self, other: &Row) {
         self.bits.iter_mut().zip(&other.bits).for_each(|(word, less)| *word &= !less);

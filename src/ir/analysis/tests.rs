@@ -116,7 +116,7 @@ fn liveness_across_calls() {
     let name = programs[1].name.clone().unwrap();
     let exposed = summaries.exposed_of(&name);
     assert_eq!(exposed.vars, [var("local.7"), var("common.106")].into());
-    let writes = summaries.of_program(&name).writes;
+    let writes = &summaries.of_program(&name).writes;
     assert!(writes.contains(var("common.107")) && !writes.contains(var("common.106")));
     // A callee outside the library reads all that is shared.
     let unknown =

@@ -4,7 +4,7 @@
 //! to be assigned (arguments that every call gives). Arithmetic never yields vacant; copies do
 //! where what they copy may be. A comparison with vacant settles it on each of its ways.
 
-use super::effects::{Summaries, Vars};
+use super::effects::{Seen, Summaries, Vars};
 use super::{Cfg, Row, Universe};
 use crate::canon::Sys;
 use crate::ir::{
@@ -107,7 +107,7 @@ impl<'p> Vacancy<'p> {
             // What the operator gives is a number.
             StmtKind::Input { target, .. } => self.write(target, false, sure, row),
             StmtKind::ClearAll(class) if sure => row.subtract(&self.universe.classes(|c| c == *class)),
-            StmtKind::Nc(nc) => self.disturb(&self.summaries.of_nc(nc).writes, row),
+            StmtKind::Nc(nc) => self.disturb((&self.summaries.of_nc(nc).writes).into(), row),
             _ => {}
         }
     }
@@ -130,8 +130,8 @@ impl<'p> Vacancy<'p> {
     }
 
     /// What is written out of sight may be vacant.
-    fn disturb(&self, written: &Vars, row: &mut Row) {
-        if written.vars.is_empty() && written.classes.is_empty() {
+    fn disturb(&self, written: Seen<'_>, row: &mut Row) {
+        if written.is_empty() {
             return;
         }
         self.universe
@@ -164,10 +164,10 @@ impl<'p> Vacancy<'p> {
                 }
                 Callee::Block(_) => {
                     if to == *next {
-                        self.disturb(&self.summaries.of_call(call).writes, row);
+                        self.disturb(self.summaries.writes(call), row);
                     }
                 }
-                _ => self.disturb(&self.summaries.of_call(call).writes, row),
+                _ => self.disturb(self.summaries.writes(call), row),
             },
             _ => {}
         }

@@ -74,7 +74,7 @@ pub fn values_at(
         for pred in cfg.preds(id) {
             let block = program.block(*pred)?;
             if let TermKind::Call { call, .. } = &block.term.kind
-                && (matches!(call.callee, Callee::Block(_)) || summaries.of_call(call).writes.contains(var))
+                && (matches!(call.callee, Callee::Block(_)) || summaries.writes(call).contains(var))
             {
                 return None;
             }
