@@ -4,11 +4,15 @@
 //! stands (`X#5041 Y#5042` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. In the block that defines the
 //! cycle nothing need be added where that block runs the cycle anyway. A block that defines a cycle without a position
 //! and without running it is stored by a repeat of none.
+//! Under a rotation the present place would be turned once more; there the block gets the words that
+//! last named the place, where they still have their values.
 //! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
 
+use super::programmed::Programmed;
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::Summaries;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use std::collections::BTreeMap;
 
@@ -23,11 +27,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         control.behaviour("cycle.runs.without.axes").map(|b| b.value.clone())
     };
     let stored = runs(context.source).as_deref() == Some("false");
+    let summaries = Summaries::of(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        let named = Programmed::of(program, &summaries, &|id| facts.at(index, id));
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
+            let mut named = named[at].clone();
             for stmt in &mut block.stmts {
                 state.step(stmt);
+                named.step(stmt, &state, &summaries);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere));
                 nc.items.retain(|item| *item != NcItem::Op(Op::CycleHere));
@@ -39,9 +47,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         "the source only stores a cycle that is defined without a position; a repeat of none does that on the target where it is so taken",
                     )
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
-                    let what = "a cycle is run where the tool stands under a rotation, which would turn that place once more: write the cycle's position there";
-                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
-                    None
+                    match named.words() {
+                        Some([x, y]) => {
+                            nc.items.extend([NcItem::Word(Role::X, x), NcItem::Word(Role::Y, y)]);
+                            Some("the cycle is run at the turned place by naming that place again")
+                        }
+                        None => {
+                            let what = "a cycle is run where the tool stands under a rotation, which would turn that place once more: write the cycle's position there";
+                            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                            None
+                        }
+                    }
                 } else if here && !placed {
                     place(nc, state.op(Group::Distance))
                         .err()

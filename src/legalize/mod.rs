@@ -35,6 +35,7 @@ mod modal_calls;
 mod operator;
 mod outline;
 mod polar;
+mod programmed;
 mod reference;
 mod registers;
 mod repeats;

@@ -1,0 +1,145 @@
+//! Where a program last sent the tool in X and Y, in words that still have the value they had then.
+//!
+//! A forward analysis of one program. Behind a call, at an entry and where paths disagree nothing
+//! is known; nor behind anything that may shift what coordinates mean. A rotation does not count
+//! as that: the program's coordinates stay, the machine turns them.
+
+use super::Modal;
+use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::{Cfg, Summaries, Vars};
+use crate::ir::{BlockId, Expr, Program, Stmt, StmtKind, TermKind};
+
+/// The last position in X and Y that the program named, absolute, where it is known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Programmed {
+    /// No path leads here.
+    #[default]
+    Unreached,
+    /// These words still name it.
+    Known([Option<Expr>; 2]),
+}
+
+const NOWHERE: Programmed = Programmed::Known([None, None]);
+
+impl Programmed {
+    /// The position at the start of every block of a program. `modal` says what is in force there.
+    pub fn of(program: &Program, summaries: &Summaries, modal: &dyn Fn(BlockId) -> Modal) -> Vec<Self> {
+        let cfg = Cfg::of(program);
+        let mut entries = vec![Self::Unreached; program.blocks.len()];
+        for root in cfg.roots() {
+            entries[root.index()] = NOWHERE;
+        }
+        // Each entry loses at most two words, so this ends.
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for &id in cfg.order() {
+                let Some(block) = program.block(id) else { continue };
+                let (mut here, mut state) = (entries[id.index()].clone(), modal(id));
+                if here == Self::Unreached {
+                    continue;
+                }
+                for stmt in &block.stmts {
+                    state.step(stmt);
+                    here.step(stmt, &state, summaries);
+                }
+                if matches!(block.term.kind, TermKind::Call { .. }) {
+                    here = NOWHERE;
+                }
+                for to in cfg.succs(id) {
+                    changed |= entries[to.index()].join(&here);
+                }
+            }
+        }
+        entries
+    }
+
+    /// Both words, where both are known.
+    pub fn words(&self) -> Option<[Expr; 2]> {
+        match self {
+            Self::Known([Some(x), Some(y)]) => Some([x.clone(), y.clone()]),
+            _ => None,
+        }
+    }
+
+    /// Takes a statement's effect; `modal` is what is in force behind it.
+    pub fn step(&mut self, stmt: &Stmt, modal: &Modal, summaries: &Summaries) {
+        let before = stmt.site.skip.map(|_| self.clone());
+        let mut written = Vars::default();
+        stmt.kind.target().iter().for_each(|place| written.write(place));
+        match &stmt.kind {
+            StmtKind::ClearAll(class) => drop(written.classes.insert(*class)),
+            StmtKind::Nc(nc) => {
+                written.join(&summaries.of_nc(nc).writes);
+                if !nc.ops().all(keeps_coordinates)
+                    || modal.calls.as_ref().is_none_or(|calls| !calls.is_empty())
+                {
+                    *self = NOWHERE;
+                } else if !nc.has(Op::RotateOn) {
+                    self.moved([nc.word(Role::X), nc.word(Role::Y)], modal.op(Group::Distance));
+                }
+            }
+            _ => {}
+        }
+        if let Self::Known(words) = self {
+            for word in words {
+                *word = word.take().filter(|word| !reads(word, &written));
+            }
+        }
+        if let Some(before) = before {
+            self.join(&before);
+        }
+    }
+
+    fn moved(&mut self, to: [Option<&Expr>; 2], distance: Option<Op>) {
+        let Self::Known(words) = self else { return };
+        for (word, to) in words.iter_mut().zip(to) {
+            if let Some(to) = to {
+                let stays = distance == Some(Op::Absolute) && is_plain(to);
+                *word = stays.then(|| to.clone());
+            }
+        }
+    }
+
+    /// Joins what is known on another path; true where that changed anything.
+    fn join(&mut self, other: &Self) -> bool {
+        let Self::Known(theirs) = other else { return false };
+        let Self::Known(mine) = self else {
+            *self = other.clone();
+            return true;
+        };
+        let mut changed = false;
+        for (mine, theirs) in mine.iter_mut().zip(theirs) {
+            if mine.is_some() && mine != theirs {
+                *mine = None;
+                changed = true;
+            }
+        }
+        changed
+    }
+}
+
+/// True for what leaves the meaning of coordinates alone.
+fn keeps_coordinates(op: Op) -> bool {
+    use Group::*;
+    let group = op.group();
+    matches!(
+        group,
+        Motion | Cycle | Distance | FeedMode | LengthComp | ReturnPlane | Rotation | Spindle | Coolant
+    ) || op == Op::CycleHere
+}
+
+/// True where only variables and numbers are read, and none that may be vacant: a vacant word is none.
+fn is_plain(word: &Expr) -> bool {
+    let mut plain = !word.may_be_vacant();
+    word.walk(&mut |e| {
+        plain &= !matches!(e, Expr::System(..)) && (e.place().is_none() || matches!(e, Expr::Var(_)))
+    });
+    plain
+}
+
+fn reads(word: &Expr, written: &Vars) -> bool {
+    let mut found = false;
+    word.walk(&mut |e| found |= matches!(e, Expr::Var(var) if written.contains(*var)));
+    found
+}
