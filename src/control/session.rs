@@ -194,6 +194,13 @@ impl<'r, 'f> Session<'r, 'f> {
         }
     }
 
+    /// Notes that a variable which outlives the program was written, where the scenario asks for it.
+    pub fn wrote(&mut self, name: impl FnOnce() -> String, value: Option<f64>) {
+        if self.scenario.variable_events {
+            self.trace.push(Happening::Variable { name: name(), value });
+        }
+    }
+
     /// The way that a branching block takes.
     pub fn branch(&mut self, way: i64) {
         self.branches.took(self.trace.at, way);

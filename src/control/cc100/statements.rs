@@ -17,7 +17,7 @@ impl Interpreter<'_, '_> {
                 let session = &mut self.session;
                 let seconds = session.machine.read(Sys::CycleSeconds, &[], &mut session.trace).unwrap_or(0.0);
                 let cell = self.cell(target)?;
-                self.store.set(cell, seconds);
+                self.keep(cell, seconds);
                 self.condition.load(seconds);
             }
             ItemKind::Transfer { table, cells } => {
@@ -39,12 +39,18 @@ impl Interpreter<'_, '_> {
     fn assign(&mut self, target: &VarRef, value: &Expr) -> Flow<()> {
         let cell = self.cell(target)?;
         let result = self.value(value)?;
-        self.store.set(cell, result);
+        self.keep(cell, result);
         match value.kind {
             ExprKind::Binary(..) => self.condition.set(result),
             _ => self.condition.load(result),
         }
         Ok(())
+    }
+
+    /// Gives a variable its value.
+    fn keep(&mut self, cell: super::store::Cell, value: f64) {
+        self.store.set(cell, value);
+        self.session.wrote(|| cell.name(), Some(value));
     }
 
     /// INC and DEC: the fraction goes first.
@@ -58,7 +64,7 @@ impl Interpreter<'_, '_> {
             self.session.rest_on("fix.toward.zero");
         }
         let after = before.trunc() + if down { -1.0 } else { 1.0 };
-        self.store.set(cell, after);
+        self.keep(cell, after);
         self.condition.set(after);
         Ok(())
     }
@@ -146,7 +152,7 @@ impl Interpreter<'_, '_> {
             _ => session.machine.read(state, &subscripts, &mut session.trace),
         };
         let value = value.ok_or_else(|| Stop::unnamed(format!("{name} {row} has no {letter}")))?;
-        self.store.set(place, value);
+        self.keep(place, value);
         self.condition.load(value);
         Ok(())
     }

@@ -31,7 +31,7 @@ impl Cell {
         letter.is_ascii_uppercase().then(|| Cell(NUMBERS + (letter as usize - 'A' as usize)))
     }
 
-    fn name(self) -> String {
+    pub fn name(self) -> String {
         match u8::try_from(self.0.saturating_sub(NUMBERS)) {
             Ok(letter) if self.0 >= NUMBERS => format!("V{}", char::from(b'A' + letter)),
             _ => format!("V{}", self.0 + 1),

@@ -160,7 +160,7 @@ impl<'r> Interpreter<'r, '_> {
             let value = |letter| line.words.iter().find(|word| word.letter == letter).map(|word| word.value);
             let number = value('L').map(|selector| (selector - 100.0).round() as u32);
             if let Some(register) = number.and_then(|number| Register::new("R", number)) {
-                self.registers.set(register, value('P').unwrap_or(0.0));
+                self.keep(register, value('P').unwrap_or(0.0));
             }
         }
         if read.flows(Op::ReadOffset) {

@@ -83,7 +83,9 @@ impl Interpreter<'_, '_> {
 
     fn clear(&mut self, ranges: &[(VarRef, Option<VarRef>)]) -> Flow<()> {
         if ranges.is_empty() {
-            self.registers.clear_all();
+            for name in self.registers.clear_all() {
+                self.session.wrote(|| name, Some(0.0));
+            }
         }
         for (from, to) in ranges {
             let Some(to) = to else {
@@ -98,7 +100,7 @@ impl Interpreter<'_, '_> {
             }
             for number in first.unwrap_or(1)..=last.unwrap_or(0) {
                 if let Some(register) = Register::new("V", number) {
-                    self.registers.set(register, 0.0);
+                    self.keep(register, 0.0);
                 }
             }
         }

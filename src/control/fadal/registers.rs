@@ -29,6 +29,15 @@ impl Register {
     }
 }
 
+impl std::fmt::Display for Register {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Register::V(number) => write!(f, "V{number}"),
+            Register::R(number) => write!(f, "R{number}"),
+        }
+    }
+}
+
 /// The variables; none of a value is one that nothing has set since power-on.
 #[derive(Clone, Debug)]
 pub(super) struct Registers {
@@ -73,9 +82,13 @@ impl Registers {
         }
     }
 
-    /// What CLEAR alone does.
-    pub fn clear_all(&mut self) {
+    /// What CLEAR alone does; returns the variables that held something.
+    pub fn clear_all(&mut self) -> Vec<String> {
+        let held =
+            self.v.iter().enumerate().skip(1).filter(|(_, value)| value.is_some_and(|value| value != 0.0));
+        let held = held.map(|(number, _)| Register::V(number).to_string()).collect();
         self.v = [Some(0.0); LAST_V + 1];
+        held
     }
 
     /// The variables that were set, by name.

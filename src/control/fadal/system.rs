@@ -72,7 +72,7 @@ impl Interpreter<'_, '_> {
     pub(super) fn assign(&mut self, variable: &VarRef, value: f64) -> Flow<()> {
         let number = self.subscript(variable)?;
         if let Some(register) = self.register(variable, number)? {
-            self.registers.set(register, value);
+            self.keep(register, value);
             return Ok(());
         }
         let session = &mut self.session;
@@ -85,6 +85,12 @@ impl Interpreter<'_, '_> {
         }
         session.trace.rest_on(row);
         Ok(session.machine.write(state, &subscripts, value, &mut session.trace)?)
+    }
+
+    /// Gives a V or R its value.
+    pub(super) fn keep(&mut self, register: Register, value: f64) {
+        self.registers.set(register, value);
+        self.session.wrote(|| register.to_string(), Some(value));
     }
 
     /// The V or R of a name; none for other names.

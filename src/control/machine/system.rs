@@ -147,6 +147,11 @@ impl Machine {
                 let axis = axis.ok_or_else(nothing)?;
                 self.frame.datum[axis] = value * self.axis_unit(axis);
             }
+            Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius => {
+                self.cells.insert(cell(state, subscripts), value);
+                let value = value * unit;
+                trace.push(Happening::Write { state, subscripts: subscripts.to_vec(), value });
+            }
             Sys::TimerMs => self.timer_ms_from = self.clock - value,
             Sys::TimerHours => self.timer_hours_from = self.clock - value * 3_600_000.0,
             _ => {

@@ -72,10 +72,7 @@ impl Runner<'_> {
 
     fn write_shared(&mut self, number: u32, value: Value) {
         self.memory.set(number, value);
-        if self.session.scenario.variable_events {
-            let name = format!("#{number}");
-            self.session.trace.push(Happening::Variable { name, value });
-        }
+        self.session.wrote(|| format!("#{number}"), value);
     }
 
     /// The variable with a computed number; what it rests on is noted now.
