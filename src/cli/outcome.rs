@@ -2,7 +2,7 @@
 
 use super::common::{complain, print};
 use super::jobs::Job;
-use crate::library::{Conversion, Output, same_file};
+use crate::library::{Conversion, Output, certificate_of, same_file};
 use crate::report::{self, Part, Sheet};
 use crate::verify::Certificate;
 use std::path::{Path, PathBuf};
@@ -74,9 +74,8 @@ pub fn certificates(
 ) -> Vec<Output> {
     let pairs = targets.iter().zip(certificates).flat_map(|(places, files)| places.iter().zip(files));
     let beside = pairs.filter_map(|(place, certificate)| {
-        let mut path = place.clone()?.into_os_string();
-        path.push(".certificate.json");
-        Some(Output { path: path.into(), bytes: certificate.as_ref()?.print().into_bytes() })
+        let path = certificate_of(place.as_ref()?);
+        Some(Output { path, bytes: certificate.as_ref()?.print().into_bytes() })
     });
     beside.collect()
 }

@@ -19,6 +19,6 @@ pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
 pub use detect::{Detected, detect};
 pub use inputs::{Input, InputError, gather, same_file};
 pub use lock::{Lock, LockError};
-pub use outputs::{Output, OutputError, plan, write_all};
+pub use outputs::{Output, OutputError, certificate_of, plan, write_all};
 pub use project::{Library, Machine, Project, ProjectError};
 pub use verified::judge;

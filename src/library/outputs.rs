@@ -54,12 +54,35 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
         }
         places.push(place);
     }
+    for (name, place) in names.iter().zip(&places) {
+        let beside = certificate_of(place);
+        if let Some(other) = taken.get(&format!("{name}{CERTIFICATE}").to_lowercase()) {
+            return Err(OutputError::Collision(
+                format!("the certificate of {name}"),
+                (*other).into(),
+                beside,
+            ));
+        }
+        if sources.contains(&real(&beside)) {
+            return Err(OutputError::OverInput(beside));
+        }
+    }
     let base = real(folder);
     // A link inside the output folder may lead out of it.
     match places.iter().find(|place| place.exists() && !real(place).starts_with(&base)) {
         Some(place) => Err(OutputError::Outside(place.display().to_string())),
         None => Ok(places),
     }
+}
+
+/// What a certificate's name has behind that of its program's file.
+const CERTIFICATE: &str = ".certificate.json";
+
+/// Where the certificate of a conversion goes.
+pub fn certificate_of(place: &Path) -> PathBuf {
+    let mut path = place.as_os_str().to_owned();
+    path.push(CERTIFICATE);
+    path.into()
 }
 
 /// Writes all files: each beside its place first, then all are renamed. A fault

@@ -44,6 +44,11 @@ fn an_input_is_never_overwritten() {
     shop.fails(&format!("convert in/a.nc {TO} --out in"), &["overwritten"]);
     shop.fails(&format!("convert in {TO} --out in/../in"), &["overwritten"]);
     shop.fails(&format!("convert in {TO} --out out --report in/a.nc"), &["a.nc"]);
+    // Certificates go beside programs.
+    shop.write("out/a.nc.certificate.json", CLEAN.as_bytes());
+    shop.fails(&format!("convert in/a.nc out/a.nc.certificate.json {TO} --out out"), &["overwritten"]);
+    shop.write("a.nc.certificate.json", CLEAN.as_bytes());
+    shop.fails(&format!("convert in/a.nc a.nc.certificate.json {TO} --out o"), &["certificate", "a.nc"]);
     shop.write("in/b.txt", CLEAN.replace("O1234", "O1235").as_bytes());
     shop.fails(&format!("convert in {TO} --out out --report in/../in/b.txt"), &["b.txt", "overwritten"]);
 }
