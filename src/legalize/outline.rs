@@ -1,4 +1,8 @@
-//! Subroutines inside a program, where the target calls programs only.
+//! Subroutines inside a program, where the target wants them: behind the program's end, or, where it
+//! calls programs only, as programs of their own.
+//!
+//! A subroutine at the head of its program, jumped over, is moved behind the end; the order of blocks
+//! means nothing but to the reader.
 //!
 //! Law: what a call of a block runs is what is reachable from it; a program
 //! made of copies of those blocks does the same and returns to the same place.
@@ -10,9 +14,10 @@ use crate::ir::{Block, BlockId, Callee, Module, Program, Site, StmtKind, TermKin
 use crate::syntax::{Label, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Gives each called block a program of its own.
+/// Gives each called block a program of its own, or its place behind the program's end.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("call.local").is_some() {
+        module.programs.iter_mut().for_each(move_behind);
         return;
     }
     let mut out = Vec::with_capacity(module.programs.len());
@@ -25,17 +30,47 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     context.origins = origins;
 }
 
+/// The blocks that are called.
+fn entries(program: &Program) -> BTreeSet<BlockId> {
+    let calls = program.blocks.iter().flat_map(calls_of);
+    let blocks = calls.filter_map(|call| match call.callee {
+        Callee::Block(entry) => Some(entry),
+        _ => None,
+    });
+    blocks.collect()
+}
+
+/// Moves the subroutines that a program begins with behind its end.
+fn move_behind(program: &mut Program) {
+    let Some(TermKind::Jump(start)) = program.blocks.first().map(|block| &block.term.kind) else { return };
+    let (start, all) = (start.index(), program.blocks.len());
+    let main = reachable(program, BlockId(0));
+    let called: BTreeSet<BlockId> =
+        entries(program).iter().flat_map(|&entry| reachable(program, entry)).collect();
+    let only_called = |at| !main.contains(&BlockId(at)) && called.contains(&BlockId(at));
+    if !(2..all).contains(&start) || !(1..start as u32).all(only_called) {
+        return;
+    }
+    let moved = start - 1;
+    program.blocks[1..].rotate_left(moved);
+    let place = |id: &mut BlockId| match id.index() {
+        0 => {}
+        at if at < start => *id = BlockId((at + all - start) as u32),
+        at => *id = BlockId((at - moved) as u32),
+    };
+    for block in &mut program.blocks {
+        for_each_jump(&mut block.term.kind, &mut |to| place(to));
+        for_each_callee(block, &mut |callee| {
+            if let Callee::Block(entry) = callee {
+                place(entry);
+            }
+        });
+    }
+}
+
 /// Appends the program and, behind it, the programs made of its subroutines.
 fn outline(mut program: Program, out: &mut Vec<Program>) {
-    let entries: BTreeSet<BlockId> = program
-        .blocks
-        .iter()
-        .flat_map(calls_of)
-        .filter_map(|call| match call.callee {
-            Callee::Block(entry) => Some(entry),
-            _ => None,
-        })
-        .collect();
+    let entries = entries(&program);
     if entries.is_empty() {
         out.push(program);
         return;
@@ -109,20 +144,23 @@ fn for_each_jump(kind: &mut TermKind, f: &mut dyn FnMut(&mut BlockId)) {
     }
 }
 
+fn for_each_callee(block: &mut Block, f: &mut dyn FnMut(&mut Callee)) {
+    for stmt in &mut block.stmts {
+        if let StmtKind::ModalCall(call) = &mut stmt.kind {
+            f(&mut call.callee);
+        }
+    }
+    if let TermKind::Call { call, .. } = &mut block.term.kind {
+        f(&mut call.callee);
+    }
+}
+
 fn rename_calls(block: &mut Block, names: &BTreeMap<BlockId, ProgramName>) {
-    let rename = |callee: &mut Callee| {
+    for_each_callee(block, &mut |callee| {
         if let Callee::Block(entry) = callee
             && let Some(name) = names.get(entry)
         {
             *callee = Callee::Program(name.clone());
         }
-    };
-    for stmt in &mut block.stmts {
-        if let StmtKind::ModalCall(call) = &mut stmt.kind {
-            rename(&mut call.callee);
-        }
-    }
-    if let TermKind::Call { call, .. } = &mut block.term.kind {
-        rename(&mut call.callee);
-    }
+    });
 }
