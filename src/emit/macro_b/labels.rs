@@ -133,6 +133,16 @@ pub(super) fn numbers(block: &Block) -> impl Iterator<Item = u32> {
     })
 }
 
+/// The number in a label of a letter and a number, as subroutines have where they are named so.
+fn lettered(block: &Block) -> Option<u32> {
+    block.labels.iter().find_map(|label| match label {
+        Label::Name(name) if name.starts_with(|letter: char| letter.is_ascii_alphabetic()) => {
+            name.get(1..)?.parse().ok()
+        }
+        _ => None,
+    })
+}
+
 /// The sequence numbers in a block, in order.
 fn sequences(block: &Block) -> impl DoubleEndedIterator<Item = u32> {
     block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]).filter_map(|site| site.sequence)
@@ -144,6 +154,8 @@ struct Inventor {
     /// By block: the last number in it, and the first number in it or behind it.
     last: Vec<Option<u32>>,
     next: Vec<Option<u32>>,
+    /// By block: the number in a label like `L100`.
+    wishes: Vec<Option<u32>>,
     /// Where to go on when there is no room between neighbours.
     spare: u32,
 }
@@ -163,7 +175,8 @@ impl Inventor {
         for at in (0..program.blocks.len()).rev() {
             next[at] = next[at].or(next[at + 1]);
         }
-        Self { taken, last, next, spare: 9000 }
+        let wishes = program.blocks.iter().map(lettered).collect();
+        Self { taken, last, next, wishes, spare: 9000 }
     }
 
     fn invent(mut self, labels: &mut Labels, missing: &[usize], faults: &mut Vec<String>) {
@@ -173,7 +186,9 @@ impl Inventor {
             before = self.last.get(seen..at).unwrap_or_default().iter().flatten().last().copied().or(before);
             seen = at;
             let next = self.next.get(at).copied().flatten();
-            let Some(number) = self.pick(before.unwrap_or(0), next, labels.most) else {
+            let wish =
+                self.wishes[at].filter(|number| labels.is_valid(*number) && !self.taken.contains(number));
+            let Some(number) = wish.or_else(|| self.pick(before.unwrap_or(0), next, labels.most)) else {
                 faults.push("every sequence number is used".into());
                 return;
             };
