@@ -186,8 +186,12 @@ impl Inventor {
             before = self.last.get(seen..at).unwrap_or_default().iter().flatten().last().copied().or(before);
             seen = at;
             let next = self.next.get(at).copied().flatten();
-            let wish =
-                self.wishes[at].filter(|number| labels.is_valid(*number) && !self.taken.contains(number));
+            let wish = self
+                .wishes
+                .get(at)
+                .copied()
+                .flatten()
+                .filter(|number| labels.is_valid(*number) && !self.taken.contains(number));
             let Some(number) = wish.or_else(|| self.pick(before.unwrap_or(0), next, labels.most)) else {
                 faults.push("every sequence number is used".into());
                 return;
