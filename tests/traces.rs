@@ -130,3 +130,35 @@ fn the_schema_refuses_what_is_no_event() {
         assert!(!fits(&schema, &schema, &value), "{line}");
     }
 }
+
+/// The drawings of a run with a profile's kind of machine.
+fn drawings(profile: &str, text: &str) -> String {
+    let control = Control::from_profile(profile).expect("a profile");
+    let parsed = parse_file(text.as_bytes(), control.entry().parse);
+    let library = [LoadedFile { name: "t.nc", parsed: &parsed }];
+    let execute = control.entry().execute.expect("an emulated control");
+    let run = execute(&library, ProgramRef::FIRST, &control, &Scenario::default());
+    backplot(&run.events, "t.nc")
+}
+
+/// A hole and a cut 40 mm long, 300 mm from where the tool starts: the part fills the drawing, the way to it is
+/// dashed and ends at its edge.
+#[test]
+fn a_backplot_shows_the_part() {
+    let text =
+        "O1\nG90 G0 X300. Y300.\nG81 Z-5. R2. F100.\nX301.\nG80\nG1 Z-1. F100.\nX340.\nG0 X0. Y0.\nM30\n";
+    let plot = drawings("dialect = \"fanuc\"\nunits = \"metric\"", text);
+    assert!(plot.contains(">XY, mm<") && plot.contains(">isometric, mm<"), "{plot}");
+    assert!(plot.contains("stroke-dasharray"), "{plot}");
+    // Ticks from 300 on, none at zero; ten millimetres are a scale.
+    assert!(plot.contains(">310<") && plot.contains(">330<") && !plot.contains(">0<"), "{plot}");
+    assert!(plot.contains(">5 mm<") || plot.contains(">10 mm<"), "{plot}");
+    assert_eq!(plot.matches("<g ").count(), plot.matches("</g>").count());
+}
+
+#[test]
+fn a_lathe_is_drawn_over_z_and_x() {
+    let profile = "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"";
+    let plot = drawings(profile, "O1\nG0 X50. Z2.\nG1 Z-20. F0.2\nX60.\nM30\n");
+    assert!(plot.contains(">ZX, mm<") && !plot.contains(">XY, mm<"), "{plot}");
+}

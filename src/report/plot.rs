@@ -1,4 +1,4 @@
-//! The backplot: the tool's path from above and from the side, as SVG.
+//! The backplot: the tool's path from above and askew, as SVG.
 
 mod view;
 
@@ -21,6 +21,12 @@ enum Kind {
     Cut,
 }
 
+/// A way to look at the path: two of its axes, across and up, or none for askew.
+struct Drawing {
+    axes: Option<(char, char)>,
+    project: fn(Point) -> (f64, f64),
+}
+
 /// What is drawn.
 #[derive(Default)]
 struct Path {
@@ -34,7 +40,9 @@ const SIZE: f64 = 560.0;
 /// Room round a drawing.
 const MARGIN: f64 = 60.0;
 
-/// The path as an SVG with two drawings: XY from above, and isometric.
+/// The path as an SVG with two drawings: XY from above, and isometric. A path without a move along Y, as a
+/// lathe's, is drawn over Z and X. The rapids before the first cut and behind the last one end at the
+/// edge of a drawing, so that the part fills it.
 pub fn backplot(events: &[Event], title: &str) -> String {
     let path = Path::of(events);
     let mut out = String::new();
@@ -45,26 +53,29 @@ pub fn backplot(events: &[Event], title: &str) -> String {
     );
     let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>");
     let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", escape(title));
-    let above: fn(Point) -> (f64, f64) = |point| (point[0], point[1]);
+    let flat = path.flat();
     // Thirty degrees to either side, Z up.
     let isometric: fn(Point) -> (f64, f64) = |[x, y, z]| {
         let (sin, cos) = (0.5, 0.866_025_403_784_438_6);
         ((x - y) * cos, (x + y) * sin + z)
     };
-    for (column, (name, project)) in [("XY, mm", above), ("isometric, mm", isometric)].into_iter().enumerate()
-    {
+    for (column, drawing) in [flat, Drawing { axes: None, project: isometric }].into_iter().enumerate() {
         let left = MARGIN + column as f64 * (SIZE + MARGIN);
-        draw(&path, name, project, (left, 1.25 * MARGIN), &mut out);
+        draw(&path, &drawing, (left, 1.25 * MARGIN), &mut out);
     }
     legend(height, &mut out);
     out.push_str("</svg>\n");
     out
 }
 
-fn draw(path: &Path, name: &str, project: fn(Point) -> (f64, f64), corner: (f64, f64), out: &mut String) {
-    let bounds = Bounds::of(path.points().map(project));
+fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), out: &mut String) {
+    let project = drawing.project;
+    let bounds = Bounds::of(path.framed().into_iter().map(project));
     let view = View::new(bounds, corner, SIZE);
-    let flat = name.starts_with("XY");
+    let name = match drawing.axes {
+        Some((across, up)) => format!("{across}{up}, mm"),
+        None => "isometric, mm".to_owned(),
+    };
     let _ = writeln!(
         out,
         "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{SIZE}\" height=\"{SIZE}\" fill=\"none\" stroke=\"#ccc\"/>",
@@ -72,16 +83,27 @@ fn draw(path: &Path, name: &str, project: fn(Point) -> (f64, f64), corner: (f64,
     );
     let _ =
         writeln!(out, "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#555\">{name}</text>", corner.0, corner.1 - 6.0);
-    if flat {
-        view.axes(out);
-    } else {
-        let zero = [0.0; 3];
-        let arm = view.span() * 0.12;
-        for (label, end) in [("X", [arm, 0.0, 0.0]), ("Y", [0.0, arm, 0.0]), ("Z", [0.0, 0.0, arm])] {
-            view.arrow(project(zero), project(end), label, out);
+    match drawing.axes {
+        Some(names) => view.axes(names, out),
+        None => {
+            let zero = [0.0; 3];
+            let arm = view.span() * 0.1;
+            let foot = view.free_corner(path.points().map(project));
+            for (label, end) in [("X", [arm, 0.0, 0.0]), ("Y", [0.0, arm, 0.0]), ("Z", [0.0, 0.0, arm])] {
+                view.arrow(foot, project(zero), project(end), label, out);
+            }
         }
     }
-    for stroke in &path.strokes {
+    let _ = writeln!(
+        out,
+        "<clipPath id=\"{name}\"><rect x=\"{:.1}\" y=\"{:.1}\" width=\"{SIZE}\" height=\"{SIZE}\"/></clipPath>\n<g clip-path=\"url(#{name})\">",
+        corner.0,
+        corner.1,
+        name = &name[..2]
+    );
+    // Cuts lie over the rapids that go the same way.
+    let (rapids, cuts): (Vec<_>, Vec<_>) = path.strokes.iter().partition(|stroke| stroke.kind == Kind::Rapid);
+    for stroke in rapids.into_iter().chain(cuts) {
         let style = match stroke.kind {
             Kind::Rapid => "stroke=\"#c60\" stroke-width=\"0.8\" stroke-dasharray=\"5 3\"",
             Kind::Cut => "stroke=\"#036\" stroke-width=\"1.4\"",
@@ -111,6 +133,11 @@ fn draw(path: &Path, name: &str, project: fn(Point) -> (f64, f64), corner: (f64,
             x - 4.0
         );
     }
+    if let Some(start) = path.points().next() {
+        let (x, y) = view.place(project(start));
+        let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" fill=\"#c60\"/>");
+    }
+    out.push_str("</g>\n");
     view.scale(out);
 }
 
@@ -131,13 +158,23 @@ fn legend(height: f64, out: &mut String) {
             x + 46.0
         );
     }
-    let x = MARGIN + 230.0;
-    let _ = writeln!(
-        out,
-        "<circle cx=\"{x}\" cy=\"{:.1}\" r=\"4\" fill=\"none\" stroke=\"#080\" stroke-width=\"1.5\"/><text x=\"{:.1}\" y=\"{y}\">hole</text>",
-        y - 4.0,
-        x + 10.0
-    );
+    let middle = y - 4.0;
+    let marks = [
+        (
+            format!("<circle r=\"4\" cy=\"{middle}\" fill=\"none\" stroke=\"#080\" stroke-width=\"1.5\""),
+            "hole",
+        ),
+        (format!("<path d=\"M-4 {middle}h8m-4 -4v8\" stroke=\"#b00\" stroke-width=\"1.5\""), "touch"),
+        (format!("<circle r=\"3\" cy=\"{middle}\" fill=\"#c60\""), "start"),
+    ];
+    for (at, (mark, name)) in marks.into_iter().enumerate() {
+        let x = MARGIN + 230.0 + 70.0 * at as f64;
+        let _ = writeln!(
+            out,
+            "{mark} transform=\"translate({x})\"/><text x=\"{}\" y=\"{y}\">{name}</text>",
+            x + 10.0
+        );
+    }
 }
 
 fn escape(text: &str) -> String {
@@ -170,6 +207,38 @@ impl Path {
             }
         }
         path
+    }
+
+    /// The drawing from above; of a path that has depth and no Y, over Z and X.
+    fn flat(&self) -> Drawing {
+        let moves = |axis: usize| {
+            let mut values = self.points().map(|point| point[axis]);
+            values.next().is_some_and(|first| values.any(|value| value != first))
+        };
+        if moves(2) && !moves(1) {
+            Drawing { axes: Some(('Z', 'X')), project: |point| (point[2], point[0]) }
+        } else {
+            Drawing { axes: Some(('X', 'Y')), project: |point| (point[0], point[1]) }
+        }
+    }
+
+    /// The points that a drawing must hold: all but the way to the first cut and the way from the last.
+    fn framed(&self) -> Vec<Point> {
+        if self.strokes.iter().all(|stroke| stroke.kind == Kind::Rapid) {
+            return self.points().collect();
+        }
+        let mut strokes: Vec<&[Point]> = self.strokes.iter().map(|stroke| &stroke.points[..]).collect();
+        if let Some((stroke, points)) = self.strokes.first().zip(strokes.first_mut())
+            && stroke.kind == Kind::Rapid
+        {
+            *points = &points[points.len().saturating_sub(1)..];
+        }
+        if let Some((stroke, points)) = self.strokes.last().zip(strokes.last_mut())
+            && stroke.kind == Kind::Rapid
+        {
+            *points = &points[..points.len().min(1)];
+        }
+        strokes.concat()
     }
 
     fn points(&self) -> impl Iterator<Item = Point> + '_ {

@@ -65,56 +65,84 @@ impl View {
         [5.0, 2.0, 1.0].into_iter().map(|unit| unit * ten).find(|step| *step <= about).unwrap_or(ten)
     }
 
-    /// Ticks with their coordinates along both sides, and lines through zero.
-    pub fn axes(&self, out: &mut String) {
+    /// Ticks with their coordinates along both sides, lines through zero, and the names of the axes.
+    pub fn axes(&self, (across, up): (char, char), out: &mut String) {
         let step = self.step();
         let (left, bottom) = (self.corner.0, self.corner.1 + self.size);
-        let room = self.size * 0.07 / self.scale;
-        let ticks = |low: f64, high: f64| {
-            let first = ((low - room) / step).ceil() as i64;
-            let last = ((high + room) / step).floor() as i64;
+        let (right, top) = (left + self.size, self.corner.1);
+        let _ = writeln!(
+            out,
+            "<text x=\"{:.1}\" y=\"{:.1}\">{across}</text><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{up}</text>",
+            right + 4.0,
+            bottom + 4.0,
+            left - 4.0,
+            top + 4.0
+        );
+        let ticks = |low: f64| {
+            let first = (low / step).ceil() as i64;
+            let last = ((low + self.size / self.scale) / step).floor() as i64;
             (first..=last.min(first.saturating_add(40))).map(move |at| at as f64 * step)
         };
-        for at in ticks(self.bounds.low.0, self.bounds.high.0) {
+        // What lies at the drawing's left and lower edges.
+        let low = (
+            self.bounds.low.0 - (self.shift.0 - left) / self.scale,
+            self.bounds.low.1 - (bottom - self.shift.1) / self.scale,
+        );
+        for at in ticks(low.0) {
             let x = self.place((at, 0.0)).0;
             if x < left || x > left + self.size {
                 continue;
             }
             let colour = if at == 0.0 { "#999" } else { "#eee" };
-            let top = self.corner.1;
             let _ = writeln!(
                 out,
                 "<line x1=\"{x:.1}\" y1=\"{top:.1}\" x2=\"{x:.1}\" y2=\"{bottom:.1}\" stroke=\"{colour}\"/>"
             );
             let _ = writeln!(
                 out,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"10\">{at}</text>",
-                bottom + 12.0
+                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"10\">{}</text>",
+                bottom + 12.0,
+                digits(at)
             );
         }
-        for at in ticks(self.bounds.low.1, self.bounds.high.1) {
+        for at in ticks(low.1) {
             let y = self.place((0.0, at)).1;
             if y < self.corner.1 || y > bottom {
                 continue;
             }
             let colour = if at == 0.0 { "#999" } else { "#eee" };
-            let right = left + self.size;
             let _ = writeln!(
                 out,
                 "<line x1=\"{left:.1}\" y1=\"{y:.1}\" x2=\"{right:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\"/>"
             );
             let _ = writeln!(
                 out,
-                "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{at}</text>",
+                "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{}</text>",
                 left - 4.0,
-                y + 4.0
+                y + 4.0,
+                digits(at)
             );
         }
     }
 
+    /// Where the small axes stand: in the corner of the drawing that the fewest points come near.
+    pub fn free_corner(&self, points: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
+        let (low, high) = (self.corner.1 + 100.0, self.corner.1 + self.size - 30.0);
+        let (left, right) = (self.corner.0 + 75.0, self.corner.0 + self.size - 75.0);
+        let corners = [(left, high), (right, high), (left, low)];
+        let mut near = [0_usize; 3];
+        for point in points {
+            let (x, y) = self.place(point);
+            for (count, corner) in near.iter_mut().zip(corners) {
+                *count += usize::from((x - corner.0).abs() < 75.0 && (y - corner.1).abs() < 100.0);
+            }
+        }
+        let best = corners.into_iter().zip(near).min_by_key(|(_, count)| *count);
+        best.map_or((left, high), |(corner, _)| corner)
+    }
+
     /// A labelled line, for an axis.
-    pub fn arrow(&self, from: (f64, f64), to: (f64, f64), label: &str, out: &mut String) {
-        let corner = (self.corner.0 + 75.0, self.corner.1 + self.size - 30.0);
+    pub fn arrow(&self, corner: (f64, f64), from: (f64, f64), to: (f64, f64), label: &str, out: &mut String) {
         let (dx, dy) = ((to.0 - from.0) * self.scale, (to.1 - from.1) * self.scale);
         let (x, y) = (corner.0 + dx, corner.1 - dy);
         let _ = writeln!(
@@ -131,10 +159,16 @@ impl View {
         let from = x - step * self.scale;
         let _ = writeln!(
             out,
-            "<path d=\"M{from:.1} {:.1}v4h{:.1}v-4\" fill=\"none\" stroke=\"#333\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{step} mm</text>",
+            "<path d=\"M{from:.1} {:.1}v4h{:.1}v-4\" fill=\"none\" stroke=\"#333\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{} mm</text>",
             y - 4.0,
             x - from,
-            y + 14.0
+            y + 14.0,
+            digits(step)
         );
     }
+}
+
+/// A round number without the noise of binary fractions.
+fn digits(value: f64) -> f64 {
+    format!("{value:.9}").parse().unwrap_or(value) + 0.0
 }
