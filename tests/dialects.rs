@@ -80,7 +80,8 @@ fn fanuc_system_variables_are_those_of_the_manual() {
     holds(&mill, "#", Some(3012), Sys::Time, &[]);
     holds(&mill, "#", Some(3901), Sys::PartsMade, &[]);
     holds(&mill, "#", Some(4001), Sys::Modal, &[1]);
-    holds(&mill, "#", Some(4030), Sys::Modal, &[30]);
+    holds(&mill, "#", Some(4014), Sys::Modal, &[14]);
+    holds(&mill, "#", Some(4030), Sys::Other, &[4030]); // in the range, and its group is not named
     holds(&mill, "#", Some(4201), Sys::ModalNow, &[1]);
     holds(&mill, "#", Some(4102), Sys::Address, &[2]); // B
     holds(&mill, "#", Some(4107), Sys::Address, &[4]); // D
@@ -300,7 +301,8 @@ fn haas_tables_are_those_of_the_class() {
     holds(&haas, "#", Some(2401), Sys::DiameterOrRadius, &[1]);
     holds(&haas, "#", Some(3026), Sys::ActiveTool, &[]);
     holds(&haas, "#", Some(3027), Sys::SpindleActual, &[]);
-    holds(&haas, "#", Some(4000), Sys::Modal, &[0]);
+    holds(&haas, "#", Some(4000), Sys::Other, &[4000]);
+    holds(&haas, "#", Some(4012), Sys::Modal, &[14]);
     holds(&haas, "#", Some(4124), Sys::Address, &[24]); // "the statement X1.3 sets variable #4124"
     holds(&haas, "#", Some(5401), Sys::ToolTable, &[1, 1]);
     holds(&haas, "#", Some(6001), Sys::Setting, &[1]);

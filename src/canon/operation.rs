@@ -311,7 +311,12 @@ impl Group {
             Group::LengthComp => Some(8),
             Group::Cycle => Some(9),
             Group::ReturnPlane => Some(10),
+            Group::Scaling => Some(11),
+            Group::ModalCall => Some(12),
+            Group::SpeedMode => Some(13),
             Group::WorkOffset => Some(14),
+            Group::PathMode => Some(15),
+            Group::Rotation => Some(16),
             _ => None,
         }
     }

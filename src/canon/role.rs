@@ -80,8 +80,14 @@ super::vocabulary! {
         PolarAngle = "polar.angle",
         /// Polar distance.
         PolarDistance = "polar.distance",
-        /// Scale factor.
+        /// Scale factor of all axes.
         Scale = "scale",
+        /// Scale factor of the X axis.
+        ScaleX = "scale.x",
+        /// Scale factor of the Y axis.
+        ScaleY = "scale.y",
+        /// Scale factor of the Z axis.
+        ScaleZ = "scale.z",
         /// Program number of a call.
         Program = "call.program",
         /// Sequence number of a call or a return.
@@ -137,6 +143,11 @@ impl Role {
                 | Role::OffsetRow
                 | Role::ProbePoint
         )
+    }
+
+    /// True for a scale factor.
+    pub const fn is_scale(self) -> bool {
+        matches!(self, Role::Scale | Role::ScaleX | Role::ScaleY | Role::ScaleZ)
     }
 
     /// True for a length, counted in least increments where no point is written.

@@ -65,7 +65,7 @@ super::vocabulary! {
         /// Tool life and other tool-table cells that only one control has: cell, tool. Cells: 1 feed
         /// seconds, 2 total seconds, 3 life limit, 4 life counter, 5 largest load, 6 load limit.
         ToolTable = "tool.table",
-        /// The modal code of a group, as the control numbers it: group.
+        /// The modal code of a group: group, by the common numbers of groups.
         Modal = "modal",
         /// The modal code of a group in the running block: group.
         ModalNow = "modal.now",

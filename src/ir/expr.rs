@@ -133,6 +133,21 @@ impl Expr {
         }
     }
 
+    /// True where the value can only be a whole number, or vacant.
+    pub fn is_whole(&self) -> bool {
+        match self {
+            Expr::Number(value) => value.fract() == 0.0,
+            Expr::Negate(inner) => inner.is_whole(),
+            Expr::Truth(_) | Expr::Vacant => true,
+            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor | BinOp::Mod, _, _) => true,
+            Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd, _) => true,
+            Expr::System(state, _) => {
+                matches!(state, Sys::Input | Sys::InputWord | Sys::Output | Sys::OutputWord)
+            }
+            _ => false,
+        }
+    }
+
     /// The place that the expression reads and nothing else, where it is a plain read.
     pub fn place(&self) -> Option<Place> {
         match self {

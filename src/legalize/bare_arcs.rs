@@ -1,20 +1,27 @@
-//! Moves under an arc mode that name neither centre nor radius.
+//! Moves under an arc mode that name neither centre nor radius, or both.
 //!
-//! Law: such a block is what the control makes of it: a straight move, an alarm, the last radius. Where the table of the
-//! source does not say which, no other control can be told; lowering spells the move out where it does.
+//! Law: such a block is what the control makes of it: a straight move, an alarm, the last radius. Where the tables of
+//! both controls give the same answer it stays as it is, for review where no maker confirms it; where they do not,
+//! no other control can be told; lowering spells the move out where its table says what it is.
 
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{BlockId, Module, Nc, StmtKind};
 
-/// Refuses arcs that say nothing about their curve.
+/// Refuses arcs that say nothing about their curve, and reports those that say it twice.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let same_family = context.source.dialect().family == context.target.dialect().family;
-    let known = context.source.behaviour("arc.without.centre").is_some_and(|row| row.value != "unknown");
+    let answer = |control: &crate::dialect::Control| {
+        control
+            .behaviour("arc.without.centre")
+            .map(|row| row.value.clone())
+            .filter(|value| value != "unknown")
+    };
+    let (here, there) = (answer(context.source), answer(context.target));
+    let spelled_out = here.as_deref() == Some("straight");
     let curves = |nc: &Nc| nc.ops().any(is_arc);
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
-    if same_family || known || !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if curves(nc))) {
+    if !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if curves(nc))) {
         return;
     }
     let facts = ModalFacts::of(module, &context.entry);
@@ -23,12 +30,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &block.stmts {
                 state.step(stmt);
-                if let StmtKind::Nc(nc) = &stmt.kind
-                    && state.op(Group::Motion).is_some_and(is_arc)
-                    && is_bare(nc)
-                {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                if !state.op(Group::Motion).is_some_and(is_arc) {
+                    continue;
+                }
+                let span = stmt.site.span;
+                if is_double(nc) {
+                    let what = "an arc with a centre and a radius: which of them counts is not stated";
+                    context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+                }
+                if !is_bare(nc) || spelled_out {
+                    continue;
+                }
+                if here.is_some() && here == there {
+                    context.rests_on_source(index, span, "arc.without.centre");
+                    context.rests_on_target(index, span, "arc.without.centre");
+                } else {
                     let what = "no source says what a move under an arc code does without centre and radius";
-                    context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                 }
             }
         }
@@ -39,10 +58,20 @@ fn is_arc(op: Op) -> bool {
     matches!(op, Op::ArcCw | Op::ArcCcw)
 }
 
+const CENTRE: [Role; 3] = [Role::ArcI, Role::ArcJ, Role::ArcK];
+
+fn has_centre(nc: &Nc) -> bool {
+    CENTRE.iter().any(|role| nc.word(*role).is_some())
+}
+
+fn is_double(nc: &Nc) -> bool {
+    has_centre(nc) && nc.word(Role::ArcRadius).is_some()
+}
+
 fn is_bare(nc: &Nc) -> bool {
-    let curve = [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius];
     let elsewhere = [Op::ReferenceReturn, Op::SetPosition, Op::MachineOnce, Op::Pole];
     nc.moves()
-        && curve.iter().all(|role| nc.word(*role).is_none())
+        && !has_centre(nc)
+        && nc.word(Role::ArcRadius).is_none()
         && !nc.ops().any(|op| elsewhere.contains(&op))
 }

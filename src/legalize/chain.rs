@@ -10,7 +10,7 @@ use crate::ir::{
 };
 use crate::syntax::{Label, ProgramName};
 use crate::text::Span;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The register that carries a return's sequence number, by its number in [`Class::Register`].
 const RETURN_TO: u32 = 1;
@@ -48,22 +48,37 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
 /// Law: the callee leaves the number in a register and returns; behind the call, the caller jumps to
 /// the block of that number, and goes on where it is 0. Side conditions: every caller is in the
 /// library; a call is not repeated, for such a return ends its repeats. A caller that lacks the number
-/// goes on behind the call where the source would alarm.
+/// goes on behind the call where the source would alarm. A program that nothing calls is a main program, in which
+/// the return is a jump.
 pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("return.to.sequence").is_some() && !context.target.is("m99.p.jumps.here") {
         return;
     }
     let mut numbers: BTreeMap<ProgramName, Vec<u32>> = BTreeMap::new();
     let register = Var { class: Class::Register, number: RETURN_TO };
+    let called = called(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        for span in subroutines_that_return_to(program) {
+        let inside = subroutines_that_return_to(program);
+        let main = inside.is_empty()
+            && called
+                .as_ref()
+                .is_some_and(|all| !program.name.as_ref().is_some_and(|name| all.contains(name)));
+        for span in inside {
             let why = "a subroutine inside the program returns to a block by its number";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
         }
+        let own = if main { places(program) } else { BTreeMap::new() };
         for block in &mut program.blocks {
             let TermKind::Return { to } = &mut block.term.kind else { continue };
             let Some(wanted) = to.take() else { continue };
             let span = block.term.site.span;
+            if let Some(to) = wanted.constant().and_then(|number| own.get(&(number as u32))) {
+                block.term.kind = TermKind::Jump(*to);
+                let why =
+                    "nothing in the library calls the program: as a main program it goes on at that block";
+                context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                continue;
+            }
             match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {
                 (Some(number), Some(name)) => {
                     numbers.entry(name.clone()).or_default().push(number as u32);
@@ -91,17 +106,7 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
         if !program.blocks.iter().flat_map(calls_of).any(|call| wanted(call).is_some()) {
             continue;
         }
-        let place: BTreeMap<u32, BlockId> = program
-            .ids()
-            .rev()
-            .flat_map(|id| {
-                program.block(id).into_iter().flat_map(move |b| b.labels.iter().map(move |l| (l.clone(), id)))
-            })
-            .filter_map(|(label, id)| match label {
-                Label::Number(n) => Some((n, id)),
-                Label::Name(_) => None,
-            })
-            .collect();
+        let place = places(program);
         let temp = Var { class: Class::Temp, number: highest_temp(program) + 1 };
         rebuild(program, &mut |builder, part| match part {
             Part::Term(Terminator { kind: TermKind::Call { call, next }, site: whole })
@@ -132,6 +137,30 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
             other => other.keep(builder),
         });
     }
+}
+
+/// The programs that the library calls; none where a call is computed.
+fn called(module: &Module) -> Option<BTreeSet<ProgramName>> {
+    let calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
+    let callee = |call: &Call| match &call.callee {
+        Callee::Computed(_) => None,
+        Callee::Program(name) => Some(Some(name.clone())),
+        _ => Some(None),
+    };
+    Some(calls.map(callee).collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+}
+
+/// The first block of each sequence number.
+fn places(program: &Program) -> BTreeMap<u32, BlockId> {
+    let mut places = BTreeMap::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        for label in &block.labels {
+            if let Label::Number(number) = label {
+                places.entry(*number).or_insert(id);
+            }
+        }
+    }
+    places
 }
 
 /// The calls inside a program of what may return to a sequence number: nobody looks at the register behind them.

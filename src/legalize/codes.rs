@@ -96,6 +96,19 @@ fn codes_of_group(number: f64, source: &Control) -> Option<Vec<f64>> {
     Some(codes.filter_map(|row| row.code.strip_prefix('G')?.parse().ok()).collect())
 }
 
+/// A code of a modal group of which the target has the operation, and under another number: what the group's
+/// variable holds then is not the same on both.
+pub(super) fn renumbered(group: f64, source: &Control, target: &Control) -> Option<String> {
+    let group = Group::ALL.iter().find(|g| g.number().is_some_and(|n| f64::from(n) == group))?;
+    let mut rows = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
+    let row = rows.find(|row| {
+        let there = target.code_for(row.op, &Default::default()).is_some() || row.op == Op::SelectWork;
+        let same = row.head().and_then(|head| target.code(head.letter, head.number(), &[]));
+        there && same.is_none_or(|same| same.op != row.op)
+    })?;
+    Some(row.code.split(' ').next()?.to_owned())
+}
+
 fn check(letter: char, numbers: Option<Vec<f64>>, source: &Control, target: &Control) -> Option<Finding> {
     let Some(numbers) = numbers else { return Some(Finding::Any(letter)) };
     let same = |number: f64| {

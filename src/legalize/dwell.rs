@@ -8,6 +8,7 @@ use super::Context;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
+use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// Converts the times of dwells.
@@ -16,18 +17,26 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let code = target.code_for(Op::Dwell, &BTreeMap::new());
     let (ms, s) = (target.letter(Role::DwellMs, code).is_some(), target.letter(Role::DwellS, code).is_some());
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut computed = Vec::new();
+        let mut computed: Vec<(bool, Span)> = Vec::new();
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-            if nc.has(Op::Dwell) && convert(nc, ms, s) {
-                computed.push(stmt.site.span);
+            let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant());
+            let dropped = nc.has(Op::Dwell) && nc.items.iter().any(vacant);
+            let in_cycle = nc.word(Role::CycleDwell).is_some_and(|value| value.constant().is_none());
+            if in_cycle || nc.has(Op::Dwell) && convert(nc, ms, s) {
+                computed.push((in_cycle, stmt.site.span));
+            }
+            if dropped && !nc.items.iter().any(vacant) {
+                let what =
+                    "a dwell whose time is vacant has no time on the source, and a time of 0 on the target";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }
         }
-        let known = s
-            || target
-                .behaviour("dwell.expression")
-                .is_some_and(|b| b.value != "unknown" && b.origin.confirmed);
-        if let (Some(span), false) = (computed.first(), known) {
+        let row = target.behaviour("dwell.expression");
+        let known = row.is_some_and(|row| row.value != "unknown" && row.origin.confirmed);
+        // In seconds a computed value counts as written; a cycle has no such word.
+        let asked = computed.iter().find(|(in_cycle, _)| *in_cycle || !s);
+        if let (Some((_, span)), false) = (asked, known) {
             let what =
                 "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
             context.add_once(index, "dwell.expression", Diagnostic::new(Code::UnconfirmedFact, *span, what));
@@ -50,7 +59,10 @@ fn convert(nc: &mut Nc, ms: bool, s: bool) -> bool {
                 (Role::DwellS, Expr::Number(t / 1000.0))
             }
             (None, Role::DwellMs) if s => (Role::DwellS, scaled(BinOp::Div, old)),
-            (None, Role::DwellS) if !s => (Role::DwellMs, scaled(BinOp::Mul, old)),
+            (None, Role::DwellS) if !s => {
+                computed = true;
+                (Role::DwellMs, scaled(BinOp::Mul, old))
+            }
             (constant, same) => {
                 computed |= constant.is_none();
                 (same, old)

@@ -10,11 +10,13 @@
 //! modal state are shared by it.
 
 mod active_offsets;
+mod alarms;
 mod bare_arcs;
 mod blanks;
 mod chain;
 mod clear;
 mod codes;
+mod computed_numbers;
 mod conditions;
 mod constants;
 mod context;
@@ -22,6 +24,7 @@ mod cycle_here;
 mod dwell;
 mod emptied;
 mod exposed;
+mod facts;
 mod functions;
 mod increments;
 mod link;
@@ -45,7 +48,7 @@ mod shift;
 mod state;
 mod substitutes;
 mod tapping;
-mod target_facts;
+
 mod temporaries;
 mod truth;
 mod units;
@@ -70,6 +73,7 @@ pub struct Pass {
 
 /// The passes, in the order they run in.
 pub const PASSES: &[Pass] = &[
+    Pass { name: "source-facts", run: facts::of_source },
     Pass { name: "blanks", run: blanks::run },
     Pass { name: "link", run: link::run },
     Pass { name: "outline", run: outline::run },
@@ -87,7 +91,9 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "tapping", run: tapping::run },
     Pass { name: "reference", run: reference::run },
     Pass { name: "shift", run: shift::run },
+    Pass { name: "computed-numbers", run: computed_numbers::run },
     Pass { name: "state", run: state::run },
+    Pass { name: "alarms", run: alarms::run },
     Pass { name: "dwell", run: dwell::run },
     Pass { name: "lookahead", run: lookahead::run },
     Pass { name: "cycle-here", run: cycle_here::run },
@@ -124,6 +130,6 @@ pub fn assign_registers(
     operator::questions(module, &registers, context);
     operator::prints(module, context);
     messages::run(module, context);
-    target_facts::run(module, context);
+    facts::of_target(module, context);
     registers
 }

@@ -11,9 +11,6 @@ use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
 
 /// Names the axes of returns that name none.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if !context.source.is("reference.all.axes") || context.target.is("reference.all.axes") {
-        return;
-    }
     let ncs = || {
         module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).filter_map(|stmt| {
             match &stmt.kind {
@@ -22,8 +19,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         })
     };
-    if !ncs().any(bare) {
+    let (here, there) = (context.source.is("reference.all.axes"), context.target.is("reference.all.axes"));
+    if here && there
+        || context.source.name() == context.target.name()
+        || !ncs().any(|nc| bare(nc) || empty(nc))
+    {
         return;
+    }
+    if !here {
+        return doubt(module, there, context);
     }
     let rotary = [Role::A, Role::B, Role::C];
     let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
@@ -40,6 +44,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if let StmtKind::Nc(nc) = &mut stmt.kind
                     && bare(nc)
                 {
+                    context.rests_on_source(index, span, "reference.all.axes");
                     let (code, what) = match state.op(Group::Distance) {
                         Some(distance) => {
                             restore = (distance == Op::Absolute).then_some(distance);
@@ -65,6 +70,32 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             block.stmts = out;
         }
     }
+}
+
+/// What a return without axes does on the source is not known; on the target it may move all of them.
+fn doubt(module: &Module, all: bool, context: &mut Context<'_>) {
+    for (index, program) in module.programs.iter().enumerate() {
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            if bare(nc) {
+                let what =
+                    "no source says what the source does at a return to the reference position without axes";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+            } else if all && empty(nc) {
+                let what = "all axis words of this return may be vacant; the target moves all axes then";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+            }
+        }
+    }
+}
+
+/// True where all axes may be dropped from a return, because their values may be vacant.
+fn empty(nc: &Nc) -> bool {
+    let axes = |item: &NcItem| match item {
+        NcItem::Word(role, value) if role.is_axis() => Some(value.may_be_vacant()),
+        _ => None,
+    };
+    nc.has(Op::ReferenceReturn) && nc.moves() && nc.items.iter().filter_map(axes).all(|vacant| vacant)
 }
 
 fn bare(nc: &Nc) -> bool {

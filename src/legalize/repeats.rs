@@ -13,11 +13,8 @@ use crate::ir::{
     BinOp, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind, TermKind, Var,
 };
 
-/// Unrolls repeated moves into loops.
+/// Unrolls repeated moves into loops, where only the source has them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if !context.source.is("repeat.moves") || context.target.is("repeat.moves") {
-        return;
-    }
     let ncs = |program: &Program, wanted: &dyn Fn(&Nc) -> bool| {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if wanted(nc)))
@@ -30,8 +27,29 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let drills = module.programs.iter().any(|program| ncs(program, &|nc| nc.ops().any(Op::is_cycle)));
     let facts = ModalFacts::of(module, &context.entry);
+    if !context.source.is("repeat.moves") || context.target.is("repeat.moves") {
+        return affected
+            .into_iter()
+            .for_each(|index| doubt(&module.programs[index], index, drills, &facts, context));
+    }
     for index in affected {
         unroll(&mut module.programs[index], index, drills, &facts, context);
+    }
+}
+
+/// A repeat outside of drilling cycles is copied; what both controls make of it must be confirmed.
+fn doubt(program: &Program, index: usize, drills: bool, facts: &ModalFacts, context: &mut Context<'_>) {
+    for (id, block) in program.ids().zip(&program.blocks) {
+        let mut state = facts.at(index, id);
+        for stmt in &block.stmts {
+            state.step(stmt);
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            let cycle = state.op(Group::Cycle).or((!drills).then_some(Op::CycleOff));
+            if nc.word(Role::Repeat).is_some() && !cycle.is_some_and(Op::is_cycle) {
+                context.rests_on_source(index, stmt.site.span, "repeat.moves");
+                context.rests_on_target(index, stmt.site.span, "repeat.moves");
+            }
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::canon::Role;
 use crate::ir::{
-    BlockId, Builder, Call, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program, Site, Stmt,
-    StmtKind, TermKind, Terminator, Var,
+    BinOp, BlockId, Builder, Call, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program,
+    Site, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::text::Span;
 
@@ -59,9 +59,17 @@ impl Rewriter<'_> {
         self.prelude.push(step);
     }
 
-    /// Computes `value` first, and yields the temporary that holds it.
+    /// Computes `value` first, and yields the temporary that holds it: an operand, which counts as 0 when vacant,
+    /// so that it can be compared like the number it is.
     pub fn hold(&mut self, value: Expr) -> Var {
         let temp = self.temp();
+        let value = match value {
+            Expr::Vacant => Expr::Number(0.0),
+            value if value.may_be_vacant() => {
+                Expr::Binary(BinOp::Add, Box::new(value), Box::new(Expr::Number(0.0)))
+            }
+            value => value,
+        };
         self.first(Prelude::Assign(temp, value));
         temp
     }

@@ -59,6 +59,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 enum Finding {
     Missing(Sys),
     Unconfirmed(Sys, String),
+    Renumbered(String),
     Wiring,
     LastTool,
     ReadOnly(Sys),
@@ -87,6 +88,12 @@ impl Finding {
                     state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
                 };
                 context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
+            }
+            Finding::Renumbered(code) => {
+                let what = format!(
+                    "a modal code is read, and {code} of its group has another number on {title}: it must not be in force here, nor be compared with"
+                );
+                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
             }
             Finding::Wiring => {
                 let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
@@ -119,6 +126,11 @@ fn held<'c>(
     }
 }
 
+/// False for what only one control has, whose numbers mean nothing on another.
+fn shared(state: Sys, source: &Control, target: &Control) -> bool {
+    state != Sys::Other || source.name() == target.name()
+}
+
 fn note(state: Sys, row: &crate::dialect::SystemVariable, span: Span, found: &mut Vec<(Span, Finding)>) {
     if !row.origin.confirmed {
         let note = row.origin.note.as_deref().map(|note| format!(": {note}")).unwrap_or_default();
@@ -136,9 +148,13 @@ fn read(
     span: Span,
     found: &mut Vec<(Span, Finding)>,
 ) -> Expr {
-    if let Some(row) = held(state, &subscripts, target) {
+    if let Some(row) = held(state, &subscripts, target).filter(|_| shared(state, source, target)) {
         note(state, row, span, found);
         settled(state, state, 1.0, source, span, found);
+        if let (Sys::Modal, Some(group)) = (state, subscripts.first().and_then(Expr::constant)) {
+            let code = super::codes::renumbered(group, source, target);
+            found.extend(code.map(|code| (span, Finding::Renumbered(code))));
+        }
         return Expr::System(state, subscripts);
     }
     for (_, other, factor) in SCALED.iter().filter(|(from, ..)| *from == state) {
@@ -212,7 +228,7 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
         return write_radius(nc, (source, target), span, found);
     }
     let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else { return };
-    if let Some(row) = held(*state, subscripts, target) {
+    if let Some(row) = held(*state, subscripts, target).filter(|_| shared(*state, source, target)) {
         note(*state, row, span, found);
         settled(*state, *state, 1.0, source, span, found);
         if !row.access.contains('w') {

@@ -1,7 +1,7 @@
 //! Fanuc Custom Macro B.
 
 use super::Block;
-use super::macro_b::{self, Reading, Row, Rules, lexemes_of_rules};
+use super::macro_b::{self, Reading, Row, Rules, bits_among_arithmetic, lexemes_of_rules};
 use crate::text::Span;
 
 /// What pest makes of the grammar; it stays in here.
@@ -18,6 +18,7 @@ lexemes_of_rules!(Rule);
 
 pub(super) const RULES: Rules = Rules {
     read,
+    rank: bits_among_arithmetic,
     bracket_depth: Some(5),
     constant_digits: Some(8),
     comments_do_not_nest: false,

@@ -1,7 +1,7 @@
 //! Haas macros, legacy and NGC controls.
 
 use super::Block;
-use super::macro_b::{self, Reading, Row, Rules, lexemes_of_rules};
+use super::macro_b::{self, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
 use crate::text::Span;
 
 /// What pest makes of the grammar; it stays in here.
@@ -18,6 +18,7 @@ lexemes_of_rules!(Rule);
 
 pub(super) const RULES: Rules = Rules {
     read,
+    rank: bits_behind_relations,
     bracket_depth: None,
     constant_digits: None,
     comments_do_not_nest: true,

@@ -122,7 +122,9 @@ fn scale(machine: &mut Machine, command: &Command) {
     }
     let factor = command.word(Role::Scale).unwrap_or(1.0);
     let mut factors = [1.0; AXES];
-    factors[..3].fill(factor);
+    for (own, role) in factors.iter_mut().zip([Role::ScaleX, Role::ScaleY, Role::ScaleZ]) {
+        *own = command.word(role).unwrap_or(factor);
+    }
     machine.frame.scale = Some((factors, centre));
 }
 

@@ -53,7 +53,9 @@ impl Emitter<'_> {
     /// Writes one side of a comparison.
     pub(super) fn compared(&mut self, value: &Expr, relation: Relation) {
         let rank = self.spellings.relation(relation).rank;
-        let rank = if rank == 0 { u32::MAX } else { rank.saturating_add(1) };
+        // AND, OR and XOR could be read as joining conditions here.
+        let bits = matches!(value, Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, ..));
+        let rank = if rank == 0 || bits { u32::MAX } else { rank.saturating_add(1) };
         self.expression(value, Spot { rank, sign: true });
     }
 

@@ -29,9 +29,9 @@ pub(super) enum Form {
     SkipGoto {
         /// The switch.
         level: u8,
-        /// Where the first goes.
+        /// Where the first goes, while the switch is off.
         to: BlockId,
-        /// Where the second goes.
+        /// Where the second goes, while it is on.
         otherwise: Option<BlockId>,
     },
     /// `WHILE[..]DOn`.
@@ -252,7 +252,8 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         if off == next && self.is_one_line(at + 1, at, on) {
             return Form::Skip(level);
         }
-        Form::SkipGoto { level, to: on, otherwise: (off != next).then_some(off) }
+        // The control passes over the `/GOTO` while the switch is on.
+        Form::SkipGoto { level, to: off, otherwise: (on != next).then_some(on) }
     }
 
     /// True where the block at `body` is one line that only `at` leads to, and where it does not go

@@ -14,6 +14,8 @@ pub(super) struct Code<'c> {
     pub row: &'c CodeMeaning,
     /// Letters with a role of their own beside it, and whether a comma stands before them.
     pub words: Vec<((char, bool), Role)>,
+    /// True where other words beside it make another operation of it.
+    pub shared: bool,
 }
 
 /// A binary operator as it is written.
@@ -80,7 +82,9 @@ impl<'c> Spellings<'c> {
     pub fn of(control: &'c Control) -> Self {
         let codes: Vec<Code> = (control.dialect().codes.iter())
             .filter(|row| row.preferred)
-            .filter_map(|row| Some(Code { text: spelling(row)?, row, words: beside(row) }))
+            .filter_map(|row| {
+                Some(Code { text: spelling(row)?, row, words: beside(row), shared: shared(row, control) })
+            })
             .collect();
         let mut by_op = vec![SmallVec::new(); Op::ALL.len()];
         for (at, code) in codes.iter().enumerate() {
@@ -178,10 +182,9 @@ impl<'c> Spellings<'c> {
         for code in codes {
             let mut letters = code.words.iter().filter(|(_, r)| *r == role).map(|(letter, _)| *letter);
             let Some(first) = letters.next() else { continue };
-            // Of several letters the usual one; for a scale they differ in what they scale.
+            // Of several letters the usual one.
             let usual = usual.filter(|usual| *usual == first || letters.clone().any(|l| l == *usual));
-            let several = role == Role::Scale && letters.next().is_some();
-            return (!several).then_some((usual.unwrap_or(first), Some(code)));
+            return Some((usual.unwrap_or(first), Some(code)));
         }
         let taken = |letter: &(char, bool)| codes.iter().any(|c| c.words.iter().any(|(l, _)| l == letter));
         usual.or(beside).filter(|letter| !taken(letter)).map(|letter| (letter, None))
@@ -255,6 +258,11 @@ fn beside_letters(codes: &[Code]) -> Vec<Option<(char, bool)>> {
         _ => None,
     };
     letters.iter().map(only).collect()
+}
+
+fn shared(row: &CodeMeaning, control: &Control) -> bool {
+    let mut rows = control.dialect().codes.iter().filter(|other| other.head() == row.head());
+    rows.any(|other| other.op != row.op)
 }
 
 /// The code and the constant words beside it; a word with any value is written as a word.

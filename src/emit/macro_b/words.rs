@@ -41,6 +41,37 @@ impl<'p> Emitter<'p> {
                 NcItem::Code(letter, value) => self.computed_code(*letter, value),
             }
         }
+        if known.iter().any(|code| code.shared) {
+            self.check_reading(nc, &known);
+        }
+    }
+
+    /// A code that means another thing beside some words must not be beside them.
+    fn check_reading(&mut self, nc: &Nc, codes: &[&Code]) {
+        let mut written: SmallVec<[(char, Option<f64>); 12]> = SmallVec::new();
+        for code in codes {
+            written.extend(code.row.head().map(|head| (head.letter, Some(head.number()))));
+            written.extend(code.text.split(' ').skip(1).filter_map(|word| {
+                let letter = word.chars().next()?;
+                Some((letter, word.get(letter.len_utf8()..)?.parse().ok()))
+            }));
+        }
+        for item in &nc.items {
+            let NcItem::Word(role, value) = item else { continue };
+            if let Some(((letter, false), _)) = self.spellings.letter(*role, codes) {
+                written.push((letter, value.constant()));
+            }
+        }
+        for code in codes.iter().filter(|code| code.shared) {
+            let Some(head) = code.row.head() else { continue };
+            let read = self.control.code(head.letter, head.number(), &written);
+            if read.is_none_or(|read| read.op != code.row.op) {
+                self.unmapped(format_args!(
+                    "{} beside these words, which make another code of it",
+                    code.text
+                ));
+            }
+        }
     }
 
     /// Writes a code by its number, which the control must have where it is constant.

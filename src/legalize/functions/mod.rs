@@ -40,6 +40,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 Expr::Binary(BinOp::Mod, a, b) if !modulo::is_native(&a, &b, target) => {
                     ("mod", modulo::by_division(*a, *b, rewriter, target))
                 }
+                Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), a, b) => {
+                    ("bits", Emulated::Exact(rounding::bits(op, *a, *b, position, rewriter, target)))
+                }
                 other => return other,
             };
             match emulated {

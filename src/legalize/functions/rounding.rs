@@ -4,7 +4,7 @@ use super::{Emulated, apply, binary, number};
 use crate::canon::Func;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr, Relation};
-use crate::legalize::{Prelude, Rewriter};
+use crate::legalize::{Position, Prelude, Rewriter};
 
 /// Law: `r = 1`, then `r = -1` where the argument is below zero. Exact; zero counts as positive.
 pub fn sign(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
@@ -43,6 +43,30 @@ pub fn nearest(a: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
         rewriter.first(Prelude::When(cond, r, binary(BinOp::Add, f.clone(), number(step))));
     }
     Expr::Var(r)
+}
+
+/// Law: bit operations round their operands; where the target's do not, or where that is not known,
+/// the operands are rounded before. Exact. Where the target rounds, nothing changes.
+pub fn bits(
+    op: BinOp,
+    a: Expr,
+    b: Expr,
+    position: Position,
+    rewriter: &mut Rewriter<'_>,
+    target: &Control,
+) -> Expr {
+    let rounds = target.behaviour("bits.of.fraction").is_some_and(|row| row.value == "round");
+    let mut whole = |e: Expr| match e.constant() {
+        _ if rounds || e.is_whole() => e,
+        Some(value) => number(value.round()),
+        // ROUND inside a word is another function.
+        None if target.function(Func::Round, 1).is_some() && !matches!(position, Position::Word(_)) => {
+            apply(Func::Round, e)
+        }
+        None => nearest(e, rewriter, target),
+    };
+    let (a, b) = (whole(a), whole(b));
+    binary(op, a, b)
 }
 
 /// Law: `ROUND[a*10^n]/10^n`. The product is rounded once more than the original's, so a

@@ -88,8 +88,10 @@ pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, ta
     let turned = |by: f64| binary(BinOp::Add, Expr::Var(angle), number(by));
     rewriter.first(Prelude::When(compare(Relation::Less, &x), angle, turned(180.0)));
     let upright = |relation| Cond::And(vec![compare(Relation::Equal, &x), compare(relation, &y)]);
-    rewriter.first(Prelude::When(upright(Relation::Greater), angle, number(90.0)));
-    rewriter.first(Prelude::When(upright(Relation::Less), angle, number(-90.0)));
+    if x.constant().is_none_or(|x| x == 0.0) {
+        rewriter.first(Prelude::When(upright(Relation::Greater), angle, number(90.0)));
+        rewriter.first(Prelude::When(upright(Relation::Less), angle, number(-90.0)));
+    }
     match wanted.as_str() {
         "0..360" => {
             rewriter.first(Prelude::When(compare(Relation::Less, &Expr::Var(angle)), angle, turned(360.0)));

@@ -1,7 +1,8 @@
 //! One block: its label, its block skip, its statements in order.
 
-use super::Lowering;
 use super::split::Piece;
+use super::{Lowering, Motion};
+use crate::canon::Op;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::ir::{Cond, Remark, Site, StmtKind, TermKind};
 use crate::lower::common::{remark_text, site_of};
@@ -153,23 +154,41 @@ impl<'a> Lowering<'a> {
     fn on_switch(&mut self, level: u8, site: &Site, on: Option<&'a [Item]>, off: &'a [Item]) {
         let (no, next) = (self.builder.fresh(), self.builder.fresh());
         let yes = if on.is_some() { self.builder.fresh() } else { next };
-        let before = self.motion;
         self.builder.end(TermKind::Branch { cond: Cond::Switch(level), yes, no }, site.clone());
-        self.builder.start(no);
-        self.items(off, site);
-        let after_off = self.motion;
-        if let Some(on) = on {
-            if self.builder.is_open() {
-                self.builder.end(TermKind::Jump(next), Site::default());
-            }
-            self.motion = before;
-            self.builder.start(yes);
-            self.items(on, site);
-        } else {
-            self.motion = before;
+        let before = self.motion;
+        let mut ways = [(no, Some(off)), (yes, on)];
+        // The control comes to a `/GOTO` while the switch is off, so that the shorter text has the other
+        // way first, unless this one goes elsewhere at its end.
+        if !self.goes_elsewhere(off) {
+            ways.reverse();
         }
-        self.motion.joined |= after_off.joined || self.motion.code != after_off.code;
+        let mut left: Option<Motion> = None;
+        for (start, items) in ways {
+            self.motion = before;
+            if let Some(items) = items {
+                self.builder.start(start);
+                self.items(items, site);
+                if self.builder.is_open() {
+                    self.builder.end(TermKind::Jump(next), Site::default());
+                }
+            }
+            if let Some(other) = left.replace(self.motion) {
+                self.motion.joined |= other.joined || self.motion.code != other.code;
+            }
+        }
         self.builder.start(next);
+    }
+
+    /// True where the last of the items is a jump, a return or the end.
+    fn goes_elsewhere(&mut self, items: &[Item]) -> bool {
+        match items.iter().rev().find(|item| acts(item)).map(|item| &item.kind) {
+            Some(ItemKind::Goto(_)) => true,
+            Some(ItemKind::Word(word)) => {
+                let row = self.flow_code(word).and_then(|id| self.codes.get(id)?.row);
+                row.is_some_and(|row| matches!(row.op, Op::Return | Op::End | Op::EndRewind))
+            }
+            _ => false,
+        }
     }
 
     /// True where the items do more than statements can that lie in one basic block.

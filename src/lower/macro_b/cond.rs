@@ -72,6 +72,7 @@ impl<'a> Lowering<'a> {
             ExprKind::Not(inner) => Cond::Not(Box::new(self.cond_at(inner, depth))),
             ExprKind::Binary(op, a, b) => match (relation(*op), op) {
                 (Some(relation), _) => {
+                    self.ranks(*op, a, b, false);
                     let (a, b) = (self.expr_at(a, At::Value, depth), self.expr_at(b, At::Value, depth));
                     Cond::Compare(relation, a, b)
                 }
@@ -81,6 +82,7 @@ impl<'a> Lowering<'a> {
                         Some(_) => self.findings.not_understood(expr.span, "conditions cannot be joined"),
                         None => self.unknown_behaviour("condition.and.or", expr.span),
                     }
+                    self.ranks(*op, a, b, true);
                     let (a, b) = (self.cond_at(a, depth), self.cond_at(b, depth));
                     join(*op, a, b)
                 }

@@ -67,6 +67,7 @@ impl<'a> Lowering<'a> {
         if is_condition(whole) {
             return self.truth(whole, depth);
         }
+        self.ranks(op, a, b, false);
         let op = match op {
             BinaryOp::Add => BinOp::Add,
             BinaryOp::Subtract => BinOp::Sub,
@@ -93,6 +94,26 @@ impl<'a> Lowering<'a> {
         Expr::Binary(op, Box::new(x), Box::new(y))
     }
 
+    /// The rank of an operator matters where an operand is another operation without brackets. `joins`
+    /// is true for AND, OR and XOR between conditions.
+    pub(super) fn ranks(&mut self, op: BinaryOp, a: &syntax::Expr, b: &syntax::Expr, joins: bool) {
+        let bits = matches!(op, BinaryOp::Modulo | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor);
+        for operand in [a, b] {
+            let inner = match &operand.kind {
+                ExprKind::Binary(inner, ..) if *inner != op => meaning(*inner, joins),
+                // The sign of a product or a sum changes nothing of it.
+                ExprKind::Negate(_) if bits => "negate",
+                _ => continue,
+            };
+            for name in [meaning(op, joins), inner] {
+                let bits = || self.control.operator(&format!("{name}.bits"));
+                if let Some(row) = self.control.operator(name).or_else(bits) {
+                    self.findings.rest_on(row, operand.span);
+                }
+            }
+        }
+    }
+
     /// The remainder of the common form rounds its operands; between whole constants nobody can tell.
     fn remainder(&mut self, a: &Expr, b: &Expr, span: Span) {
         let known = |e: &Expr| e.constant().is_some_and(|n| n.fract() == 0.0 && n >= 0.0);
@@ -112,9 +133,13 @@ impl<'a> Lowering<'a> {
 
     /// Bit operations of the common form round their operands.
     fn bits(&mut self, op: BinOp, a: Expr, b: Expr, span: Span) -> Expr {
-        let fractional = [&a, &b].into_iter().any(|e| !is_whole(e));
+        let fractional = [&a, &b].into_iter().any(|e| !e.is_whole());
         let rule = if fractional { self.findings.behaviour("bits.of.fraction", span) } else { Some("round") };
-        let cut = |e: Expr| if is_whole(&e) { e } else { Expr::Call(Func::Fix, vec![e]) };
+        let cut = |e: Expr| match e.constant() {
+            Some(value) => Expr::Number(value.trunc()),
+            None if e.is_whole() => e,
+            None => Expr::Call(Func::Fix, vec![e]),
+        };
         let (a, b) = match rule {
             Some("truncate") => (cut(a), cut(b)),
             Some(_) => (a, b),
@@ -201,18 +226,26 @@ fn is_open_atan(expr: &syntax::Expr) -> bool {
     matches!(&expr.kind, ExprKind::Call { function: Func::Atan, arguments, .. } if arguments.len() == 1)
 }
 
-/// True where the value can only be a whole number.
-fn is_whole(expr: &Expr) -> bool {
-    use crate::canon::Sys;
-    match expr {
-        Expr::Number(value) => value.fract() == 0.0,
-        Expr::Truth(_) | Expr::Vacant => true,
-        Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor | BinOp::Mod, _, _) => true,
-        Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd, _) => true,
-        Expr::System(state, _) => {
-            matches!(state, Sys::Input | Sys::InputWord | Sys::Output | Sys::OutputWord)
-        }
-        _ => false,
+/// The name of an operator in the tables.
+fn meaning(op: BinaryOp, joins: bool) -> &'static str {
+    match op {
+        BinaryOp::Add => "add",
+        BinaryOp::Subtract => "subtract",
+        BinaryOp::Multiply => "multiply",
+        BinaryOp::Divide => "divide",
+        BinaryOp::Modulo => "modulo",
+        BinaryOp::And if joins => "and",
+        BinaryOp::Or if joins => "or",
+        BinaryOp::Xor if joins => "xor",
+        BinaryOp::And => "and.bits",
+        BinaryOp::Or => "or.bits",
+        BinaryOp::Xor => "xor.bits",
+        BinaryOp::Equal => "eq",
+        BinaryOp::NotEqual => "ne",
+        BinaryOp::Greater => "gt",
+        BinaryOp::GreaterEqual => "ge",
+        BinaryOp::Less => "lt",
+        BinaryOp::LessEqual => "le",
     }
 }
 

@@ -27,6 +27,10 @@ impl<'a> Lowering<'a> {
             return self.whole_word(role, letter, number, point, value, code);
         }
         let counted = role.is_length() || counts_degrees(role);
+        if role.is_scale() && !point && number != 0.0 {
+            let note = "what a scale factor without a decimal point counts; it is taken as written";
+            self.findings.unconfirmed("numbers".into(), Some(note), value.span);
+        }
         if point || number == 0.0 || !(counted || matches!(role, Role::Feed | Role::Lead)) {
             return Some((role, Expr::Number(number)));
         }

@@ -198,6 +198,11 @@ impl<'a> Lowering<'a> {
             nc.items.push(NcItem::Op(op));
         }
         self.signed |= matches!(value, Expr::Negate(_));
+        for question in questions(role, &value) {
+            if self.findings.behaviour(question, span).is_none() {
+                self.unknown_behaviour(question, span);
+            }
+        }
         nc.items.push(NcItem::Word(role, value));
     }
 
@@ -214,6 +219,19 @@ impl<'a> Lowering<'a> {
             }
             None => self.unknown_behaviour("m.codes.per.block", span),
         }
+    }
+}
+
+/// Questions of behaviour that a word rests on.
+fn questions(role: Role, value: &Expr) -> &'static [&'static str] {
+    match (role, value.constant()) {
+        (Role::ArcI | Role::ArcJ | Role::ArcK, _) => &["arc.centre"],
+        (Role::ArcRadius, Some(radius)) if radius < 0.0 => &["arc.radius.negative"],
+        (Role::ArcRadius, Some(_)) => &["arc.radius.positive"],
+        (Role::ArcRadius, None) => &["arc.radius.positive", "arc.radius.negative"],
+        (Role::Repeat, Some(count)) if count >= 1.0 => &[],
+        (Role::Repeat, _) => &["cycle.l0.stores"],
+        _ => &[],
     }
 }
 

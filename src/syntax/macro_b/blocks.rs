@@ -69,7 +69,7 @@ pub(super) fn grammar_block(
     }
     let read = (rules.read)(&readable(bytes), span.start, row);
     let tree = match read {
-        Ok(()) => tree::build(source, row),
+        Ok(()) => tree::build(source, row, rules.rank),
         Err(stop) => Err(faults::explain(source, span, line_start, shape, &stop)),
     };
     match tree {

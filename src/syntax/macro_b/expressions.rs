@@ -6,22 +6,20 @@ use crate::canon::Func;
 use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, SyntaxError, VarRef};
 use crate::text::Span;
 
-/// Levels of operators, weakest first: relations, sums (and OR, XOR), products (and AND, MOD).
-const PRODUCTS: u8 = 2;
-
 impl Builder<'_> {
     /// `#1+#2*3`
     pub fn expression(&mut self) -> Result<Expr, SyntaxError> {
-        self.level(0)
+        self.joined(0, Self::signed)
     }
 
-    /// Operators of at least this level, from left to right.
-    fn level(&mut self, level: u8) -> Result<Expr, SyntaxError> {
-        if level > PRODUCTS {
-            return self.signed();
-        }
-        let mut left = self.level(level + 1)?;
-        while let Some(op) = self.operator_of(level) {
+    /// Operands with operators of at least this rank between them, from left to right.
+    fn joined(
+        &mut self,
+        least: u8,
+        operand: fn(&mut Self) -> Result<Expr, SyntaxError>,
+    ) -> Result<Expr, SyntaxError> {
+        let mut left = operand(self)?;
+        while let Some((op, rank)) = self.operator_from(least) {
             self.operators += 1;
             if self.operators > MOST_OPERATORS {
                 return Err(self.too_deep());
@@ -29,17 +27,21 @@ impl Builder<'_> {
             self.pass_space();
             self.take();
             self.pass_space();
-            left = binary(op, left, self.level(level + 1)?);
+            let right = self.joined(rank + 1, operand)?;
+            left = binary(op, left, right);
         }
         Ok(left)
     }
 
-    fn operator_of(&self, level: u8) -> Option<BinaryOp> {
+    /// The next operator and its rank, if that is high enough.
+    fn operator_from(&self, least: u8) -> Option<(BinaryOp, u8)> {
         let by = usize::from(self.kind() == Lex::Space);
-        if self.ahead(by) != Lex::Operator {
+        if !matches!(self.ahead(by), Lex::Operator | Lex::Join) {
             return None;
         }
-        operator(self.span_ahead(by).of(self.source)).filter(|op| level_of(*op) == level)
+        let op = operator(self.span_ahead(by).of(self.source))?;
+        let rank = (self.rank)(op);
+        (rank >= least).then_some((op, rank))
     }
 
     /// An operand with the sign before it.
@@ -90,18 +92,7 @@ impl Builder<'_> {
     /// `[#1 EQ #2]`, and several joined: `[#1 EQ #2] AND [#3 EQ #4]`.
     pub fn condition(&mut self) -> Result<Expr, SyntaxError> {
         self.pass_space();
-        let mut left = self.group()?;
-        while self.meets(Lex::Join) {
-            let span = self.take();
-            let op = operator(span.of(self.source)).ok_or_else(|| self.misfit())?;
-            self.operators += 1;
-            if self.operators > MOST_OPERATORS {
-                return Err(self.too_deep());
-            }
-            self.pass_space();
-            left = binary(op, left, self.group()?);
-        }
-        Ok(left)
+        self.joined(0, Self::group)
     }
 
     fn call(&mut self) -> Result<Expr, SyntaxError> {
@@ -175,11 +166,23 @@ fn binary(op: BinaryOp, left: Expr, right: Expr) -> Expr {
     Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span }
 }
 
-fn level_of(op: BinaryOp) -> u8 {
+/// How close an operator binds where AND is a product and OR and XOR are sums.
+pub fn bits_among_arithmetic(op: BinaryOp) -> u8 {
     match op {
         BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Modulo | BinaryOp::And => 2,
         BinaryOp::Add | BinaryOp::Subtract | BinaryOp::Or | BinaryOp::Xor => 1,
         _ => 0,
+    }
+}
+
+/// How close an operator binds where AND, OR and XOR join comparisons.
+pub fn bits_behind_relations(op: BinaryOp) -> u8 {
+    match op {
+        BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Modulo => 4,
+        BinaryOp::Add | BinaryOp::Subtract => 3,
+        BinaryOp::And => 1,
+        BinaryOp::Or | BinaryOp::Xor => 0,
+        _ => 2,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a dialect of the family fills in, and how its grammar is run.
 
 use super::lexeme::{self, Lex, Row};
+use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
 use crate::text::Span;
 use pest::error::ErrorVariant;
@@ -13,6 +14,8 @@ use pest::{Parser, RuleType};
 pub struct Rules {
     /// Runs the dialect's grammar over the text of one block.
     pub read: fn(text: &str, start: u32, row: &mut Row) -> Result<(), Reading>,
+    /// How close an operator binds; those of one rank go from left to right.
+    pub rank: fn(BinaryOp) -> u8,
     /// How deep brackets may nest, function brackets included; none for freely.
     pub bracket_depth: Option<u32>,
     /// Digits that an assigned constant may have, leading zeros included.

@@ -5,7 +5,7 @@
 
 use super::lexeme::{Lex, Lexeme};
 use crate::diag::Code;
-use crate::syntax::{Item, Number, SyntaxError};
+use crate::syntax::{BinaryOp, Item, Number, SyntaxError};
 use crate::text::Span;
 
 /// What a block says, and what is wrong with the numbers it is made of.
@@ -19,8 +19,8 @@ pub struct Tree {
 ///
 /// # Errors
 /// The place where a row of leaves makes no sense, or nests too deep.
-pub fn build(source: &[u8], row: &[Lexeme]) -> Result<Tree, SyntaxError> {
-    let mut builder = Builder { source, row, at: 0, errors: Vec::new(), operators: 0 };
+pub fn build(source: &[u8], row: &[Lexeme], rank: fn(BinaryOp) -> u8) -> Result<Tree, SyntaxError> {
+    let mut builder = Builder { source, row, rank, at: 0, errors: Vec::new(), operators: 0 };
     let mut items = Vec::new();
     builder.items(&mut items, 0)?;
     Ok(Tree { items, errors: builder.errors })
@@ -30,6 +30,8 @@ pub fn build(source: &[u8], row: &[Lexeme]) -> Result<Tree, SyntaxError> {
 pub struct Builder<'a> {
     pub source: &'a [u8],
     row: &'a [Lexeme],
+    /// How close an operator binds.
+    pub rank: fn(BinaryOp) -> u8,
     at: usize,
     pub errors: Vec<SyntaxError>,
     /// Operators met so far, which bounds how deep the trees can be.

@@ -261,8 +261,12 @@ fn the_block_skip_switch_is_a_slash() {
     fanuc(&program(on(), 2, 1, vec![], RETURN), &["/M99", "M30"]);
     // What a jump looks for is not skipped.
     fanuc(&program(on(), 2, 1, vec![], jump(0)), &["N10", "/GOTO 10", "M30"]);
-    fanuc(&program(on(), 2, 1, vec![mv(1.0), mv(2.0)], jump(2)), &["/GOTO 10", "X1.", "X2.", "N10 M30"]);
-    fanuc(&program(on(), 1, 2, vec![mv(1.0)], jump(2)), &["/GOTO 10", "GOTO 20", "N10 X1.", "N20 M30"]);
+    fanuc(
+        &program(on(), 2, 1, vec![mv(1.0), mv(2.0)], jump(2)),
+        &["/GOTO 10", "GOTO 20", "N10 X1.", "X2.", "N20 M30"],
+    );
+    // While the switch is on, the control passes over `/GOTO 10` and comes to what stands behind it.
+    fanuc(&program(on(), 1, 2, vec![mv(1.0)], jump(2)), &["/GOTO 10", "X1.", "N10 M30"]);
     fanuc(
         &blocks([
             (&[], vec![], branch(on(), 3, 1)),

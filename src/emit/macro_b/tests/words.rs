@@ -85,7 +85,8 @@ fn a_block_never_says_something_else() {
         vec![word(Role::X, call(Func::Round, [v(1)]))],
         vec![op(Dwell), word(Role::DwellMs, n(0.5))],
         vec![word(Role::X, Expr::Increments(0.5))],
-        vec![op(ScaleOn), word(Role::Scale, n(2.0))],
+        // With a speed beside it the code is another one.
+        vec![op(SetPosition), word(Role::Speed, n(1000.0))],
         vec![NcItem::Code('M', n(787.0))],
         vec![op(Return)],
     ] {

@@ -176,7 +176,7 @@ fn block_skip() {
     means(
         "fanuc",
         "Z-1.0/M08",
-        "0: branch switch 1 ? b2 : b1\n1: nc axis.z=-1 coolant.flood | jump b3\n2: nc axis.z=-1 | jump b3\n3: stray",
+        "0: branch switch 1 ? b1 : b2\n1: nc axis.z=-1 | jump b3\n2: nc axis.z=-1 coolant.flood | jump b3\n3: stray",
     );
     refuses("fanuc", "DO1\n/END1", &[Code::LoopNotPaired, Code::SkipUnclear]);
     refuses("fanuc", "/G0X1./M8", &[Code::SkipUnclear]);

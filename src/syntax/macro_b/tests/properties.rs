@@ -1,6 +1,6 @@
 //! Laws over random input.
 
-use super::super::{blocks, lexeme::Row, scanner, shape, tree};
+use super::super::{bits_among_arithmetic, blocks, lexeme::Row, scanner, shape, tree};
 use super::{BOTH, Dialect};
 use crate::syntax::Block;
 use crate::text::{Lines, Span};
@@ -85,7 +85,7 @@ fn scanner_agrees(dialect: &Dialect, source: &[u8]) -> usize {
                 continue;
             };
             accepted += 1;
-            assert!(tree::build(source, &row).is_ok());
+            assert!(tree::build(source, &row, bits_among_arithmetic).is_ok());
             assert_eq!(end, block.span.end, "{}", String::from_utf8_lossy(line.text.of(source)));
             assert_eq!(block, by_grammar(dialect, source, block.span, line.text));
         }

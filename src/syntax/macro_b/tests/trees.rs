@@ -61,7 +61,8 @@ const SHARED: &[(&str, &str)] = &[
     ("<O0001>", "program <O0001>"),
     ("&F=//CNC_MEM/USER/PATH1/", "outside<&F=//CNC_MEM/USER/PATH1/>"),
     ("#1=1+2*3-4", "#1:=Subtract(Add(1,Multiply(2,3)),4)"),
-    ("#1=#2+#3AND#4", "#1:=Add(#2,And(#3,#4))"),
+    ("#1=#2*#3AND#4", "#1:=And(Multiply(#2,#3),#4)"),
+    ("#1=-#2-#3-#4*5/#6", "#1:=Subtract(Subtract(neg(#2),#3),Divide(Multiply(#4,5),#6))"),
     ("#1=#2 OR #3 MOD 2", "#1:=Or(#2,Modulo(#3,2))"),
     ("#1=-#2*3", "#1:=Multiply(neg(#2),3)"),
     ("#1=#2*-1", "#1:=Multiply(#2,neg(1))"),
@@ -113,6 +114,36 @@ fn what_only_one_reads() {
             assert_eq!(show(&dialect.line(text.as_bytes()), text.as_bytes()), *tree, "{text}");
             let read_too = text.starts_with("IF [");
             assert_eq!(other.line(text.as_bytes())[0].errors.is_empty(), read_too, "{}: {text}", other.name);
+        }
+    }
+}
+
+/// Seed 001:1056 ranks AND with the products, OR and XOR with the sums; the table of Haas has them behind the
+/// comparisons, as true and false are numbers there.
+#[test]
+fn bit_operators_have_their_own_ranks() {
+    for (text, fanuc, haas) in [
+        ("#1=#2+#3AND#4", "#1:=Add(#2,And(#3,#4))", "#1:=And(Add(#2,#3),#4)"),
+        ("#1=#2OR#3+#4", "#1:=Add(Or(#2,#3),#4)", "#1:=Or(#2,Add(#3,#4))"),
+        ("#1=#2XOR#3AND#4", "#1:=Xor(#2,And(#3,#4))", "#1:=Xor(#2,And(#3,#4))"),
+        (
+            "IF[#1EQ2AND#3GT4]GOTO5",
+            "if [Greater(Equal(#1,And(2,#3)),4)] {goto 5}",
+            "if [And(Equal(#1,2),Greater(#3,4))] {goto 5}",
+        ),
+        (
+            "IF[#1]OR[#2]AND[#3]GOTO5",
+            "if Or([#1],And([#2],[#3])) {goto 5}",
+            "if Or([#1],And([#2],[#3])) {goto 5}",
+        ),
+    ] {
+        for (dialect, tree) in [(FANUC, fanuc), (HAAS, haas)] {
+            assert_eq!(
+                show(&dialect.line(text.as_bytes()), text.as_bytes()),
+                tree,
+                "{}: {text}",
+                dialect.name
+            );
         }
     }
 }

@@ -1,45 +1,59 @@
-//! What the conversion takes for granted of the target, where no maker's text says so.
+//! What the conversion takes for granted of the controls, where no maker's text says so.
 //!
-//! Runs last: what stands in a program then is what the target will be told. Each fact is said once a program,
+//! What concerns the target is looked for last: what stands in a program then is what the target will be told. Each fact is said once a program,
 //! at the first place that rests on it. Facts about vacancy matter only where a variable may be vacant; that is looked
 //! for by data flow.
 
 use super::Context;
-use crate::canon::{Func, Op};
+use crate::canon::{Func, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Behaviour, Control, Row};
+use crate::dialect::{Behaviour, CodeMeaning, Control, Row};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
-    BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, NcItem, Relation, StmtKind, TermKind, Var,
+    BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, Nc, NcItem, Relation, StmtKind, TermKind, Var,
 };
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports the unconfirmed facts of the target that programs rest on.
-pub fn run(module: &Module, context: &mut Context<'_>) {
+pub fn of_target(module: &Module, context: &mut Context<'_>) {
+    look(module, context, context.target, "target");
+}
+
+/// Reports the unconfirmed facts of the source about vacant variables that programs rest on: these
+/// hang on where a variable may be vacant, which lowering does not know.
+pub fn of_source(module: &mut Module, context: &mut Context<'_>) {
+    if context.source.is("vacancy") {
+        look(module, context, context.source, "source");
+    }
+}
+
+fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &str) {
     let summaries = Summaries::of(module);
     let own = context.source.is("vacancy");
     let given = given(module);
     let none = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
         let mut found =
-            Found { target: context.target, said: BTreeSet::new(), all: Vec::new(), home: program.site.span };
+            Found { control, side, said: BTreeSet::new(), all: Vec::new(), home: program.site.span };
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
         for (id, block) in program.ids().zip(&program.blocks) {
             found.home = program.site.span;
-            found.block(block);
+            if side == "target" {
+                found.block(block);
+            }
             if let Some(vacancy) = &vacancy {
                 found.vacant(id, block, vacancy);
             }
         }
         for (span, fact, message) in found.all {
             let help = format!(
-                "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the target"
+                "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}"
             );
             let finding = Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help);
-            context.add_once(index, &format!("target {fact}"), finding);
+            context.add_once(index, &format!("{side} {fact}"), finding);
         }
     }
 }
@@ -57,7 +71,8 @@ fn given(module: &Module) -> BTreeMap<&ProgramName, BTreeSet<Var>> {
 }
 
 struct Found<'c> {
-    target: &'c Control,
+    control: &'c Control,
+    side: &'c str,
     said: BTreeSet<String>,
     all: Vec<(Span, String, String)>,
     /// Where a finding goes whose statement has no place of its own.
@@ -71,16 +86,17 @@ impl Found<'_> {
         }
         let note = row.origin().note.as_deref().unwrap_or("no source says so");
         let message = format!(
-            "rests on the unconfirmed fact '{}' of the target, {}: {note}",
+            "rests on the unconfirmed fact '{}' of the {}, {}: {note}",
             row.fact(),
-            self.target.dialect().title
+            self.side,
+            self.control.dialect().title
         );
         self.all.push((span, row.fact(), message));
     }
 
     /// The behaviour must be confirmed, whatever its answer.
     fn behaviour(&mut self, name: &str, span: Span) {
-        let row: Option<Behaviour> = self.target.behaviour(name).cloned();
+        let row: Option<Behaviour> = self.control.behaviour(name).cloned();
         if let Some(row) = row {
             self.row(&row, span);
         }
@@ -96,6 +112,9 @@ impl Found<'_> {
         for (at, stmt) in block.stmts.iter().enumerate() {
             let span = self.span(block, at);
             stmt.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
+            if stmt.site.skip.is_some_and(|level| level > 1) {
+                self.behaviour("skip.levels", span);
+            }
             match &stmt.kind {
                 StmtKind::Nc(nc) => {
                     let operands = nc
@@ -108,6 +127,7 @@ impl Found<'_> {
                         .filter(|(role, _)| *role == crate::canon::Role::WorkOffset)
                         .collect();
                     nc.ops().for_each(|op| self.code(op, &operands, span));
+                    self.words(nc, span);
                 }
                 StmtKind::Output(_) => self.statement("output.formatted", span),
                 StmtKind::OpenPort => self.statement("output.open", span),
@@ -119,6 +139,7 @@ impl Found<'_> {
         let span = self.span(block, block.stmts.len());
         block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
         match &block.term.kind {
+            TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour("skip.levels", span),
             TermKind::Computed { .. } => self.statement("goto.computed", span),
             TermKind::Return { to: Some(_) } => self.statement("return.to.sequence", span),
             TermKind::Call { call, .. } if call.count.is_some() && !call.arguments.is_empty() => {
@@ -128,8 +149,38 @@ impl Found<'_> {
         }
     }
 
+    /// The letters of words that no code beside them explains, and what the words rest on.
+    fn words(&mut self, nc: &Nc, span: Span) {
+        let rows: Vec<&CodeMeaning> =
+            nc.ops().filter_map(|op| self.control.code_for(op, &Default::default())).collect();
+        for item in &nc.items {
+            let NcItem::Word(role, value) = item else { continue };
+            if let Some((letter, comma)) = self.control.letter(*role, None)
+                && let Some(row) = self.control.word(letter, comma).filter(|row| row.role == *role).cloned()
+                && !rows.iter().any(|code| code.words.values().any(|own| own == role))
+            {
+                self.row(&row, span);
+            }
+            match (role, value.constant()) {
+                (Role::ArcI | Role::ArcJ | Role::ArcK, _) => self.behaviour("arc.centre", span),
+                (Role::ArcRadius, radius) => {
+                    if radius.is_none_or(|radius| radius >= 0.0) {
+                        self.behaviour("arc.radius.positive", span);
+                    }
+                    if radius.is_none_or(|radius| radius < 0.0) {
+                        self.behaviour("arc.radius.negative", span);
+                    }
+                }
+                (Role::Repeat, count) if count.is_none_or(|count| count < 1.0) => {
+                    self.behaviour("cycle.l0.stores", span);
+                }
+                _ => {}
+            }
+        }
+    }
+
     fn statement(&mut self, name: &str, span: Span) {
-        if let Some(row) = self.target.statement(name).cloned() {
+        if let Some(row) = self.control.statement(name).cloned() {
             self.row(&row, span);
         }
     }
@@ -137,7 +188,7 @@ impl Found<'_> {
     fn code(&mut self, op: Op, operands: &std::collections::BTreeMap<crate::canon::Role, f64>, span: Span) {
         // Operands pick between spellings of one operation only where it has several.
         let some = if op == Op::SelectWork { operands.clone() } else { Default::default() };
-        if let Some(row) = self.target.code_for(op, &some).cloned() {
+        if let Some(row) = self.control.code_for(op, &some).cloned() {
             self.row(&row, span);
         }
     }
@@ -145,7 +196,7 @@ impl Found<'_> {
     fn value(&mut self, e: &Expr, span: Span) {
         match e {
             Expr::Call(function, arguments) => {
-                if let Some(row) = self.target.function(*function, arguments.len()).cloned() {
+                if let Some(row) = self.control.function(*function, arguments.len()).cloned() {
                     self.row(&row, span);
                 }
                 match function {
@@ -163,7 +214,9 @@ impl Found<'_> {
                 self.behaviour("mod.rounds.operands", span);
                 self.behaviour("mod.sign", span);
             }
-            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, ..) => self.behaviour("bits.of.fraction", span),
+            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, a, b) if !a.is_whole() || !b.is_whole() => {
+                self.behaviour("bits.of.fraction", span);
+            }
             _ => {}
         }
     }

@@ -1,0 +1,329 @@
+//! Variables whose number is computed, where numbers mean other things on the target.
+//!
+//! Law: such a variable stays as it is where both controls mean the same by every number that it may have; in a
+//! run of system variables that the target keeps elsewhere in the same order, the distance is added. Side
+//! condition, for a reviewer: the number stays in the run in which its constant part lies.
+//! Counter-example: `#[2000+#1]` with `#1` = 3 is a length offset on one control and a wear on another.
+
+use super::{Context, rewrite_program};
+use crate::canon::Sys;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::analysis::{Constant, Summaries, values_at};
+use crate::ir::eval::whole;
+use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Place, Program, StmtKind};
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// Values of plain variables are looked up for so many computed numbers of a program; others are not known.
+const MOST_LOOKED_UP: usize = 200;
+
+/// Checks and shifts computed numbers.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let indirect = |program: &Program| {
+        let mut any = false;
+        each_index(program, &mut |_, _, _, _| any = true);
+        any
+    };
+    if !module.programs.iter().any(indirect) {
+        return;
+    }
+    let mut numbers = Numbers::new(context.source, context.target);
+    if numbers.all_alike() {
+        return;
+    }
+    let summaries = Summaries::of(module);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut found: Vec<(Span, Finding)> = Vec::new();
+        let mut looked_up = 0;
+        each_index(program, &mut |number, span, id, at| {
+            looked_up += 1;
+            let known = match number {
+                Expr::Var(var) if looked_up <= MOST_LOOKED_UP => {
+                    values_at(program, &summaries, *var, id, at).and_then(all_numbers)
+                }
+                _ => None,
+            };
+            let finding = match known {
+                Some(all) => all.into_iter().find(|n| !numbers.alike(*n)).map(Finding::Other),
+                None => Some(numbers.of(number).clone()),
+            };
+            found.extend(finding.map(|finding| (span, finding)));
+        });
+        shift(program, &mut numbers);
+        for (span, finding) in found {
+            let (code, what) = finding.told(context, &numbers);
+            context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
+        }
+    }
+}
+
+/// Numbers of axes repeat at this distance.
+const GAP: u32 = 20;
+
+/// What is known of a computed number.
+#[derive(Clone, Debug)]
+enum Finding {
+    /// It starts in these numbers, by each of which both controls mean the same.
+    Alike(u32, u32),
+    /// It starts in this run of a state, to whose numbers this is added.
+    Shifted(Sys, u32, u32, i64),
+    /// It may be this number, which the target uses for something else, or not at all.
+    Other(u32),
+    /// Nothing.
+    Any,
+}
+
+impl Finding {
+    fn told(self, context: &Context<'_>, numbers: &Numbers<'_>) -> (Code, String) {
+        let title = &context.target.dialect().title;
+        match self {
+            Finding::Alike(first, last) => (
+                Code::Conditional,
+                format!(
+                    "the number of a variable is computed: it must stay in #{first} to #{last}, outside of which numbers mean other variables on {title}"
+                ),
+            ),
+            Finding::Shifted(state, first, last, by) => {
+                let there = |n: u32| i64::from(n) + by;
+                (
+                    Code::Conditional,
+                    format!(
+                        "the number of a variable is computed: it must stay in #{first} to #{last} ('{state}'), which are #{} to #{} on {title}",
+                        there(first),
+                        there(last)
+                    ),
+                )
+            }
+            Finding::Other(number) => (
+                Code::NoEquivalent,
+                format!(
+                    "the number of a variable is computed, and #{number}, which it starts from or may be, is not the same variable on {title}"
+                ),
+            ),
+            Finding::Any => (
+                Code::Conditional,
+                format!(
+                    "which variable is meant is known only when the program runs: it must be one of {}, which mean the same on {title}",
+                    numbers.list()
+                ),
+            ),
+        }
+    }
+}
+
+/// What a number means.
+#[derive(PartialEq)]
+enum Meaning {
+    Local,
+    Shared,
+    State(Sys, Vec<u32>),
+}
+
+fn meaning(control: &Control, number: u32) -> Option<Meaning> {
+    if let Some(row) = control.variable_class("#", number) {
+        return Some(if row.class == "local" { Meaning::Local } else { Meaning::Shared });
+    }
+    control.read_system("#", Some(number)).map(|(state, subscripts, _)| Meaning::State(state, subscripts))
+}
+
+/// What both controls mean by the numbers of variables.
+struct Numbers<'c> {
+    source: &'c Control,
+    target: &'c Control,
+    /// By number: true where both mean the same, none where neither means anything.
+    alike: Vec<Option<bool>>,
+    /// By the constant part of a number.
+    known: BTreeMap<u32, Finding>,
+}
+
+impl<'c> Numbers<'c> {
+    fn new(source: &'c Control, target: &'c Control) -> Self {
+        let same = |number: u32| {
+            let (here, there) = (meaning(source, number), meaning(target, number));
+            let access = |control: &'c Control| {
+                control.read_system("#", Some(number)).map_or("", |(.., row)| row.access.as_str())
+            };
+            match &here {
+                None if there.is_none() => None,
+                Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
+                Some(Meaning::State(..)) => {
+                    Some(here == there && access(source).chars().all(|c| access(target).contains(c)))
+                }
+                _ => Some(here == there && !target.is_reserved("#", number)),
+            }
+        };
+        let alike = (0..=last_number(source)).map(same).collect();
+        Self { source, target, alike, known: BTreeMap::new() }
+    }
+
+    fn alike(&self, number: u32) -> bool {
+        self.alike.get(number as usize).copied().flatten().unwrap_or(false)
+    }
+
+    /// True where no number of the source means another thing on the target.
+    fn all_alike(&self) -> bool {
+        let has = |number: usize| meaning(self.source, number as u32).is_some();
+        self.alike.iter().enumerate().all(|(number, alike)| *alike != Some(false) || !has(number))
+    }
+
+    /// What is known of a computed number by its constant part: the run that it lies in, or that begins behind it.
+    fn of(&mut self, number: &Expr) -> &Finding {
+        let start = constant_part(number).filter(|start| *start >= 100.0);
+        let start = start.and_then(whole);
+        let key = start.unwrap_or(0);
+        if !self.known.contains_key(&key) {
+            let finding = start.map_or(Finding::Any, |start| self.look_up(start));
+            self.known.insert(key, finding);
+        }
+        self.known.get(&key).unwrap_or(&Finding::Any)
+    }
+
+    fn look_up(&self, start: u32) -> Finding {
+        let first = match (meaning(self.source, start), meaning(self.source, start.saturating_add(1))) {
+            (None, None) => return Finding::Other(start),
+            (None, Some(_)) => start.saturating_add(1),
+            (Some(_), _) => start,
+        };
+        if self.alike(first) {
+            let around = self.runs().into_iter().find(|(from, to)| (*from..=*to).contains(&first));
+            return around.map_or(Finding::Any, |(from, to)| Finding::Alike(from, to));
+        }
+        self.distance(first).unwrap_or(Finding::Other(first))
+    }
+
+    /// The run of a state as far as the target has it at one distance.
+    fn distance(&self, number: u32) -> Option<Finding> {
+        let (state, _, row) = self.source.read_system("#", Some(number))?;
+        let (first, last) = span_of(row)?;
+        let distance = |number: u32| {
+            let (name, there, found) = self.target.system_address(state, &row.subscripts_of(number)?)?;
+            let fits = name == "#" && row.access.chars().all(|c| found.access.contains(c));
+            Some(i64::from(there.filter(|_| fits)?) - i64::from(number))
+        };
+        let by = distance(first)?;
+        let inside = |number: &u32| row.subscripts_of(*number).is_some();
+        let reached =
+            (first..=last).filter(inside).take_while(|number| distance(*number) == Some(by)).last()?;
+        (number <= reached).then_some(Finding::Shifted(state, first, reached, by))
+    }
+
+    /// Runs of numbers that mean the same, over gaps that stand for axes that are not there.
+    fn runs(&self) -> Vec<(u32, u32)> {
+        let mut runs: Vec<(u32, u32)> = Vec::new();
+        let mut broken = true;
+        for (number, alike) in (0..).zip(&self.alike).skip(1) {
+            match (alike, runs.last_mut()) {
+                (Some(true), Some((_, last))) if !broken && number - *last < GAP => *last = number,
+                (Some(true), _) => runs.push((number, number)),
+                _ => {}
+            }
+            broken = *alike == Some(false) || broken && *alike != Some(true);
+        }
+        runs
+    }
+
+    /// The numbers that mean the same, as people write them.
+    fn list(&self) -> String {
+        let written = |(first, last): (u32, u32)| match first == last {
+            true => format!("#{first}"),
+            false => format!("#{first}-#{last}"),
+        };
+        self.runs().into_iter().map(written).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The largest number that the control has.
+fn last_number(control: &Control) -> u32 {
+    let dialect = control.dialect();
+    let system =
+        dialect.system.iter().filter(|row| row.name == "#").filter_map(span_of).map(|(_, last)| last);
+    let own = control.classes().iter().filter(|row| row.name == "#").map(|row| row.last);
+    system.chain(own).max().unwrap_or(0).min(100_000)
+}
+
+/// The first and the last number of a run.
+fn span_of(row: &crate::dialect::SystemVariable) -> Option<(u32, u32)> {
+    let first = row.first?;
+    let far = |last: u32, s: &crate::dialect::Subscript| {
+        last.saturating_add(s.step.saturating_mul(s.count.saturating_sub(1)))
+    };
+    Some((first, row.subscripts.iter().fold(first, far)))
+}
+
+/// The sum of the constants that are added up in a number.
+fn constant_part(number: &Expr) -> Option<f64> {
+    match number {
+        Expr::Number(value) => Some(*value),
+        Expr::Binary(BinOp::Add, a, b) => match (constant_part(a), constant_part(b)) {
+            (Some(a), Some(b)) => Some(a + b),
+            (a, b) => a.or(b),
+        },
+        Expr::Binary(BinOp::Sub, a, b) => match (constant_part(a), constant_part(b)) {
+            (Some(a), Some(b)) => Some(a - b),
+            (a, b) => a.or(b.map(|b| -b)),
+        },
+        _ => None,
+    }
+}
+
+fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
+    let number = |constant| match constant {
+        Constant::Number(value) if value.fract() == 0.0 => whole(value),
+        _ => None,
+    };
+    constants.into_iter().map(number).collect()
+}
+
+/// Calls `f` on each computed number, with its place and the statement that it stands in.
+fn each_index(program: &Program, f: &mut dyn FnMut(&Expr, Span, BlockId, usize)) {
+    for (id, block) in program.ids().zip(&program.blocks) {
+        let mut look = |e: &Expr, span: Span, at: usize| {
+            e.walk(&mut |e| {
+                if let Expr::Indirect(Bank::Numbered, number) = e {
+                    f(number, span, id, at);
+                }
+            });
+        };
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            stmt.kind.exprs(&mut |e| look(e, stmt.site.span, at));
+            if let Some(place) = stmt.kind.target() {
+                look(&place.read(), stmt.site.span, at);
+            }
+        }
+        block.term.kind.exprs(&mut |e| look(e, block.term.site.span, block.stmts.len()));
+    }
+}
+
+/// Adds the distance to computed numbers that the target has elsewhere.
+fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
+    let mut moved = |number: Expr| match numbers.of(&number) {
+        Finding::Shifted(.., by) => add(number, *by as f64),
+        _ => number,
+    };
+    for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+        if let StmtKind::Assign { target: Place::Indirect(Bank::Numbered, number), .. }
+        | StmtKind::Input { target: Place::Indirect(Bank::Numbered, number), .. } = &mut stmt.kind
+        {
+            **number = moved(std::mem::replace(number.as_mut(), Expr::Vacant));
+        }
+    }
+    rewrite_program(program, &mut |e, _, _| match e {
+        Expr::Indirect(Bank::Numbered, number) => Expr::Indirect(Bank::Numbered, Box::new(moved(*number))),
+        other => other,
+    });
+}
+
+/// Adds to the first constant of a sum.
+fn add(number: Expr, by: f64) -> Expr {
+    match number {
+        Expr::Number(value) => Expr::Number(value + by),
+        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), a, b) if constant_part(&a).is_some() => {
+            Expr::Binary(op, Box::new(add(*a, by)), b)
+        }
+        Expr::Binary(BinOp::Add, a, b) if constant_part(&b).is_some() => {
+            Expr::Binary(BinOp::Add, a, Box::new(add(*b, by)))
+        }
+        number => Expr::Binary(BinOp::Add, Box::new(number), Box::new(Expr::Number(by))),
+    }
+}
