@@ -85,7 +85,10 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
         subs.push(extract(&program, entry, &body, Some(name.clone()), Site::default()));
     }
     let main = reachable(&program, BlockId(0));
-    let keep = program.ids().filter(|id| main.contains(id) || !outlined.contains(id)).collect();
+    // What nothing reaches stays, and with it what that could jump to.
+    let strays = program.ids().filter(|id| !main.contains(id) && !outlined.contains(id));
+    let strays: BTreeSet<BlockId> = strays.flat_map(|id| reachable(&program, id)).collect();
+    let keep = &main | &strays;
     let (name, site) = (program.name.take(), std::mem::take(&mut program.site));
     let mut all = vec![extract(&program, BlockId(0), &keep, name, site)];
     all.extend(subs);
