@@ -22,10 +22,20 @@ pub enum Setting {
     Unknown,
 }
 
-/// What is in force of every group, and the modal calls that are open.
+/// The number of the last feed word.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Feed {
+    #[default]
+    Unreached,
+    Known(f64),
+    Unknown,
+}
+
+/// What is in force of every group, the feed, and the modal calls that are open.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Modal {
     settings: [Setting; Group::ALL.len()],
+    feed: Feed,
     /// The open modal calls, innermost last; absent where paths disagree.
     pub calls: Option<Vec<Call>>,
 }
@@ -33,7 +43,7 @@ pub struct Modal {
 impl Modal {
     /// Nothing known: how a main program starts.
     pub fn unknown() -> Self {
-        Self { settings: [Setting::Unknown; Group::ALL.len()], calls: Some(Vec::new()) }
+        Self { settings: [Setting::Unknown; Group::ALL.len()], feed: Feed::Unknown, calls: Some(Vec::new()) }
     }
 
     /// What is in force of a group.
@@ -45,6 +55,14 @@ impl Modal {
     pub fn op(&self, group: Group) -> Option<Op> {
         match self.of(group) {
             Setting::Known(op, _) => Some(op),
+            _ => None,
+        }
+    }
+
+    /// The number of the last feed word, where it is known and counts the same as it did there.
+    pub fn feed(&self) -> Option<f64> {
+        match self.feed {
+            Feed::Known(feed) => Some(feed),
             _ => None,
         }
     }
@@ -63,13 +81,16 @@ impl Modal {
                     match item {
                         NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
                         // A computed code may be any of its letter.
-                        NcItem::Code('G', _) => self.settings = [Setting::Unknown; Group::ALL.len()],
+                        NcItem::Code('G', _) => self.forget(),
                         NcItem::Code(..) | NcItem::Word(..) => {}
                     }
                 }
+                if let Some(feed) = nc.word(Role::Feed) {
+                    self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
+                }
                 if nc.moves() && self.calls.as_ref().is_none_or(|calls| !calls.is_empty()) {
                     // The modal call runs now, and may leave anything in force.
-                    self.settings = [Setting::Unknown; Group::ALL.len()];
+                    self.forget();
                 }
             }
             StmtKind::ModalCall(call) => self.calls.iter_mut().for_each(|calls| calls.push(call.clone())),
@@ -81,7 +102,15 @@ impl Modal {
         }
     }
 
+    fn forget(&mut self) {
+        self.settings = [Setting::Unknown; Group::ALL.len()];
+        self.feed = Feed::Unknown;
+    }
+
     fn set(&mut self, op: Op, number: Option<f64>) {
+        if matches!(op.group(), Group::Units | Group::FeedMode) && self.op(op.group()) != Some(op) {
+            self.feed = Feed::Unknown;
+        }
         let number = number.filter(|_| op == Op::SelectWork).map(|n| n as u32);
         if op.group() != Group::OneShot {
             self.settings[op.group() as usize] = Setting::Known(op, number);
@@ -106,6 +135,10 @@ impl Modal {
                 *mine = Setting::Unknown;
                 changed = true;
             }
+        }
+        if self.feed != other.feed && self.feed != Feed::Unknown {
+            self.feed = Feed::Unknown;
+            changed = true;
         }
         if self.calls != other.calls && self.calls.is_some() {
             self.calls = None;

@@ -2,12 +2,15 @@
 //!
 //! Law: a tap that turns S times a minute and advances the lead p each turn feeds S * p a minute. Side conditions:
 //! the block has both words; feed is per minute on the target. Counter-example: under feed per turn the
-//! feed word is the lead itself.
+//! feed word is the lead itself. The feed that was in force is said again where the cycle ends, for the source's
+//! tap leaves it alone; where it is not a known number, that is a review diagnostic.
 
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind};
+
+const STAYS: &str = "the feed of the tapping cycle stays in force behind it: write the feed again there";
 
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -24,9 +27,20 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
+                let tapped = state.op(Group::Cycle).is_some_and(is_tap);
+                let feed = state.feed();
                 state.step(stmt);
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 if !nc.ops().any(is_tap) {
+                    let ends = tapped && !state.op(Group::Cycle).is_some_and(is_tap);
+                    if ends && nc.word(Role::Feed).is_none() {
+                        match feed {
+                            Some(feed) => nc.items.push(NcItem::Word(Role::Feed, Expr::Number(feed))),
+                            None => {
+                                context.add(index, Diagnostic::new(Code::Conditional, stmt.site.span, STAYS))
+                            }
+                        }
+                    }
                     continue;
                 }
                 let (speed, lead) = (nc.word(Role::Speed).cloned(), nc.word(Role::Lead).cloned());
@@ -36,7 +50,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         set_feed(nc, speed, lead);
                         (
                             Code::Conditional,
-                            "the cycle's feed is its speed times its lead, in feed per minute; it stays the feed in force behind the cycle",
+                            "the cycle's feed is its speed times its lead, in feed per minute",
                         )
                     }
                     _ => (

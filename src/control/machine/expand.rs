@@ -5,7 +5,7 @@ use super::cycle::{Cycle, Planes};
 use super::state::axes_of;
 use crate::canon::Op;
 use crate::control::scenario::Axes;
-use crate::control::trace::{Happening, Position, Spindle, Trace};
+use crate::control::trace::{FeedMode, Happening, Position, Spindle, Trace};
 
 /// Drills where the machine stands over the hole.
 pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
@@ -119,6 +119,11 @@ impl<'a> Driver<'a> {
 
     fn tap(&mut self, cycle: &Cycle) {
         let Planes { r, bottom, .. } = self.planes;
+        // A tap by its lead follows the spindle; the feed in force is for the moves behind the cycle.
+        let in_force = (self.machine.feed, self.machine.feed_mode);
+        if let Some(lead) = cycle.lead {
+            (self.machine.feed, self.machine.feed_mode) = (lead * self.machine.speed, FeedMode::PerMinute);
+        }
         self.feed(bottom);
         let (before, back) = match (self.machine.spindle, cycle.op) {
             (Spindle::CounterClockwise, _) | (_, Op::CycleTapLeft) => {
@@ -130,6 +135,7 @@ impl<'a> Driver<'a> {
         self.turn(back);
         self.feed(r);
         self.turn(before);
+        (self.machine.feed, self.machine.feed_mode) = in_force;
     }
 
     /// Moves the tool off the wall by the cycle's shift, or back.

@@ -159,3 +159,18 @@ fn words_stand_before_the_dwell_and_the_gear_suffix_is_no_speed() {
     assert!(run.events.iter().any(|event| speed(&event.what)));
     assert!(run.events.iter().any(|event| event.what == Happening::Dwell { seconds: 1.5 }));
 }
+
+/// The cycle takes its speed from F and its lead from Q: 400 turns of 0.05 are 20 a minute.
+#[test]
+fn a_tap_advances_its_lead_each_turn_and_leaves_the_feed_alone() {
+    let run = lines("G90 G1 F300. X1. S500 M3\nG84 G99 Z-1. R0+.1 F400. Q.05 X2.\nG80\nG1 X5.\nM2\n");
+    let feeds: Vec<f64> = run
+        .events
+        .iter()
+        .filter_map(|event| match &event.what {
+            Happening::Feed { feed, .. } => Some(*feed),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(feeds, [300.0, 20.0, 20.0, 300.0]);
+}
