@@ -64,6 +64,7 @@ enum Finding {
     LastTool,
     ReadOnly(Sys),
     Table(Sys),
+    TargetTable,
 }
 
 impl Finding {
@@ -94,6 +95,10 @@ impl Finding {
                     "a modal code is read, and {code} of its group has another number on {title}: it must not be in force here, nor be compared with"
                 );
                 context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+            }
+            Finding::TargetTable => {
+                let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
+                context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
             }
             Finding::Wiring => {
                 let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
@@ -150,18 +155,18 @@ fn read(
 ) -> Expr {
     if let Some(row) = held(state, &subscripts, target).filter(|_| shared(state, source, target)) {
         note(state, row, span, found);
-        settled(state, state, 1.0, source, span, found);
+        let factor = settled((state, state), 1.0, (source, target), span, found);
         if let (Sys::Modal, Some(group)) = (state, subscripts.first().and_then(Expr::constant)) {
             let code = super::codes::renumbered(group, source, target);
             found.extend(code.map(|code| (span, Finding::Renumbered(code))));
         }
-        return Expr::System(state, subscripts);
+        return scaled(Expr::System(state, subscripts), 1.0 / factor);
     }
     for (_, other, factor) in SCALED.iter().filter(|(from, ..)| *from == state) {
         if let Some(row) = held(*other, &subscripts, target) {
             note(*other, row, span, found);
             let value = Expr::System(*other, subscripts);
-            return scaled(value, 1.0 / settled(state, *other, *factor, source, span, found));
+            return scaled(value, 1.0 / settled((state, *other), *factor, (source, target), span, found));
         }
     }
     match state {
@@ -182,23 +187,29 @@ fn read(
     }
 }
 
-/// By what a state is multiplied to give the other, where that hangs on what the source's table holds.
+/// By what a state is multiplied to give the other, where that hangs on what the cutter table of either
+/// control holds. Factors are those of a table of diameters.
 fn settled(
-    state: Sys,
-    other: Sys,
+    (state, other): (Sys, Sys),
     factor: f64,
-    source: &Control,
+    (source, target): (&Control, &Control),
     span: Span,
     found: &mut Vec<(Span, Finding)>,
 ) -> f64 {
-    if state != Sys::DiameterOrRadius {
-        return factor;
-    }
-    match source.behaviour("radius.offset.table").map(|row| row.value.as_str()) {
-        Some("diameter") => factor,
-        Some("radius") => 2.0 * factor,
+    let radii = |control: &Control| match control.behaviour("radius.offset.table")?.value.as_str() {
+        "radius" => Some(true),
+        "diameter" => Some(false),
+        _ => None,
+    };
+    let either = Sys::DiameterOrRadius;
+    let ours = if state == either { radii(source) } else { Some(false) };
+    let theirs = if other == either { radii(target) } else { Some(false) };
+    match (ours, theirs) {
+        (Some(true), Some(false)) => 2.0 * factor,
+        (Some(false), Some(true)) => 0.5 * factor,
+        (Some(_), Some(_)) => factor,
         _ => {
-            found.push((span, Finding::Table(other)));
+            found.push((span, if state == either { Finding::Table(other) } else { Finding::TargetTable }));
             factor
         }
     }
@@ -230,7 +241,8 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
     let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else { return };
     if let Some(row) = held(*state, subscripts, target).filter(|_| shared(*state, source, target)) {
         note(*state, row, span, found);
-        settled(*state, *state, 1.0, source, span, found);
+        let factor = settled((*state, *state), 1.0, (source, target), span, found);
+        *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
         if !row.access.contains('w') {
             found.push((span, Finding::ReadOnly(*state)));
         }
@@ -239,7 +251,7 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
     for (_, other, factor) in SCALED.iter().filter(|(from, ..)| from == state) {
         if let Some(row) = held(*other, subscripts, target).filter(|row| row.access.contains('w')) {
             note(*other, row, span, found);
-            let factor = settled(*state, *other, *factor, source, span, found);
+            let factor = settled((*state, *other), *factor, (source, target), span, found);
             *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
             *state = *other;
             return;

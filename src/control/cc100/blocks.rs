@@ -111,6 +111,24 @@ impl<'r> Interpreter<'r, '_> {
         Some(String::from_utf8_lossy(text).trim().to_owned())
     }
 
+    /// The end of a called part; that of a cycle where the code is M2.
+    fn go_back(&mut self, of_cycle: bool) -> Flow<Next> {
+        if of_cycle && !self.in_cycle() {
+            self.session.trace.doubt("machine:cycle.end.in.program");
+            return Err(Halt::Ended(Op::End));
+        }
+        if self.depth > 0 {
+            return Ok(Next::Back);
+        }
+        if of_cycle && self.session.scenario.called {
+            return Err(Halt::Ended(Op::Return));
+        }
+        if !of_cycle {
+            self.session.trace.doubt("machine:return.without.call");
+        }
+        Err(Halt::Ended(Op::End))
+    }
+
     fn flow(&mut self, read: &Read<'r>, words: &[Spoken]) -> Flow<Next> {
         for &op in &read.flow {
             let label = read.command.number(Role::Sequence);
@@ -130,11 +148,7 @@ impl<'r> Interpreter<'r, '_> {
                     let number = numbers.rev().find(|number| (1.0..100.0).contains(number));
                     self.call_cycle(number.unwrap_or(0.0) as u32)?;
                 }
-                Op::Return if self.depth > 0 => return Ok(Next::Back),
-                Op::Return => {
-                    self.session.trace.doubt("machine:return.without.call");
-                    return Err(Halt::Ended(Op::End));
-                }
+                Op::Return => return self.go_back(words.iter().any(|word| word.letter == 'M')),
                 Op::End | Op::EndRewind => return Err(Halt::Ended(op)),
                 _ => {}
             }

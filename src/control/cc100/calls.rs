@@ -8,6 +8,14 @@ use crate::control::trace::Happening;
 use crate::syntax::{ItemKind, Label};
 use std::collections::HashMap;
 
+/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`.
+fn cycle_number(file: &str) -> Option<u32> {
+    let name = file.rsplit(['/', '\\']).next()?.to_ascii_lowercase();
+    let rest = name.strip_prefix("cycle")?;
+    let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
+    rest.get(..end)?.parse().ok()
+}
+
 /// How deep calls nest before the emulation gives up.
 const DEEPEST: u32 = 40;
 
@@ -49,19 +57,21 @@ impl Interpreter<'_, '_> {
 
     /// G8nn: runs a cycle.
     pub(super) fn call_cycle(&mut self, number: u32) -> Flow<()> {
-        let named = format!("cycle{number:02}");
-        let file = self.session.library.iter().position(|file| {
-            let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default().to_ascii_lowercase();
-            let rest = name.strip_prefix(&named);
-            rest.is_some_and(|rest| !rest.starts_with(|next: char| next.is_ascii_digit()))
-        });
+        let file = self.session.library.iter().position(|file| cycle_number(file.name) == Some(number));
         let Some(file) = file else {
             return Err(Halt::Error(format!(
-                "cycle {number} is not in the library, in a file named {named}"
+                "cycle {number} is not in the library, in a file named cycle{number:02}"
             )));
         };
         let section = self.session.section_of(ProgramRef { file, program: 0 })?;
         self.call(At { section, index: 0 }, 1)
+    }
+
+    /// True while the blocks of a cycle run.
+    pub(super) fn in_cycle(&self) -> bool {
+        let file = self.session.sections.all().get(self.at.section).map(|section| section.file);
+        let file = file.and_then(|file| self.session.library.get(file));
+        file.is_some_and(|file| cycle_number(file.name).is_some())
     }
 
     fn call(&mut self, to: At, count: u32) -> Flow<()> {

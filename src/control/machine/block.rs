@@ -15,6 +15,9 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     for &op in &command.ops {
         one_shot(machine, op, command, trace)?;
     }
+    if command.has_axes() {
+        machine.place_by_offset(trace);
+    }
     motion::run(machine, command, trace)?;
     tooling::after(machine, command, trace);
     for &op in &command.ops {

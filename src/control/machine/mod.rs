@@ -44,6 +44,8 @@ pub struct Machine {
     /// Machine position at the end of the last block that moved.
     probed: Axes,
     frame: Frame,
+    /// True where the work offset in force was written since it was selected.
+    stale: bool,
     /// Program coordinates, millimetres, at which the last rotation found the machine: without
     /// the rotation before it.
     unturned: Axes,
@@ -91,6 +93,7 @@ impl Machine {
             position: scenario.start,
             probed: scenario.start,
             frame: Frame::new(scenario),
+            stale: false,
             unturned: scenario.start,
             work_offsets: scenario.work_offsets.clone(),
             inch: scenario.inch.unwrap_or(control.units() == Some(Units::Inch)),

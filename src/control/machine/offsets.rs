@@ -48,8 +48,19 @@ impl Machine {
             return;
         };
         self.work_offsets.entry(number).or_insert([0.0; AXES])[axis] = value;
-        if number == self.frame.number && self.rules.offset_acts_at_once.ask(trace) {
-            self.frame.work[axis] = value;
+        if number == self.frame.number && self.frame.work[axis] != value {
+            // Nobody can tell before something is placed by it, if it is not selected anew until then.
+            self.stale = true;
+            if self.rules.offset_acts_at_once.peek() {
+                self.frame.work[axis] = value;
+            }
+        }
+    }
+
+    /// Notes what a changed offset in force rests on, where something is placed by it.
+    pub(super) fn place_by_offset(&mut self, trace: &mut Trace) {
+        if std::mem::take(&mut self.stale) {
+            self.rules.offset_acts_at_once.ask(trace);
         }
     }
 

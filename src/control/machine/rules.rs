@@ -81,9 +81,9 @@ pub struct Rules {
     pub motion_ends_cycle: Fact<bool>,
     pub offset_acts_at_once: Fact<bool>,
     pub radius_table: Fact<RadiusTable>,
-    pub tool_word_changes: bool,
-    pub tool_word_selects_length: bool,
-    pub cutter_takes_tool: bool,
+    pub tool_word_changes: Fact<bool>,
+    pub tool_word_selects_length: Fact<bool>,
+    pub cutter_takes_tool: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
     /// True where length and radius share a table.
@@ -109,9 +109,12 @@ impl Rules {
             "straight" => Some(NoCentre::Straight),
             _ => None,
         };
+        let negative_is_long = fact(control, "arc.radius.negative", word("long", "short"), true);
+        // Where only the minus is known, the plus is the other arc.
+        let plus = negative_is_long.peek();
         Self {
-            negative_radius_is_long: fact(control, "arc.radius.negative", word("long", "short"), true),
-            positive_radius_is_short: fact(control, "arc.radius.positive", word("short", "long"), true),
+            positive_radius_is_short: fact(control, "arc.radius.positive", word("short", "long"), plus),
+            negative_radius_is_long: negative_is_long,
             no_centre: fact(control, "arc.without.centre", no_centre, NoCentre::Alarm),
             centre_is_incremental: fact(control, "arc.centre", word("incremental", "absolute"), true),
             planes_frozen: yes(control, "cycle.planes.frozen", true),
@@ -122,10 +125,11 @@ impl Rules {
             rotation_is_ccw: fact(control, "rotation.direction", word("ccw", "cw"), true),
             motion_ends_cycle: motion_ends_cycle(control),
             offset_acts_at_once: yes(control, "offset.active.immediately", true),
-            radius_table: fact(control, "radius.offset.table", table, RadiusTable::Radius),
-            tool_word_changes: control.behaviour("tool.change.word").is_some_and(|row| row.value == "t"),
-            tool_word_selects_length: control.is("tool.word.selects.length"),
-            cutter_takes_tool: control.is("radius.offset.active.tool"),
+            // Where it is a setting nobody stated, as conversions take it.
+            radius_table: fact(control, "radius.offset.table", table, RadiusTable::Diameter),
+            tool_word_changes: fact(control, "tool.change.word", |value| Some(value == "t"), false),
+            tool_word_selects_length: yes(control, "tool.word.selects.length", false),
+            cutter_takes_tool: yes(control, "radius.offset.active.tool", false),
             end_cancels_length: yes(control, "end.cancels.length", false),
             reference_takes_all: yes(control, "reference.all.axes", false),
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),

@@ -132,6 +132,7 @@ impl Machine {
     /// Selects a work offset without a trace.
     pub(super) fn select(&mut self, number: u32) {
         self.frame.number = number;
+        self.stale = false;
         self.frame.work = self.work_offsets.get(&number).copied().unwrap_or([0.0; AXES]);
     }
 

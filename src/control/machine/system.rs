@@ -28,6 +28,9 @@ impl Machine {
     /// words, variables) it answers itself. Reading a timer lets it move on.
     pub fn read(&mut self, state: Sys, subscripts: &[u32], trace: &mut Trace) -> Option<f64> {
         let passed = self.clock;
+        if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
+            self.place_by_offset(trace);
+        }
         match state {
             Sys::TimerMs => {
                 self.clock += self.tick;
@@ -45,6 +48,7 @@ impl Machine {
                 self.rules.radius_table.ask(trace);
             }
             Sys::AxisPosition => trace.doubt("system:position.frame"),
+            Sys::ActiveTool => self.active_tool_asked(trace),
             _ => {}
         }
         self.peek(state, subscripts)

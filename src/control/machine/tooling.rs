@@ -36,22 +36,34 @@ fn coolant(machine: &mut Machine, op: Op, trace: &mut Trace) {
 }
 
 fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    if let Some(tool) = command.word(Role::Tool) {
+    let word = command.word(Role::Tool);
+    let changes = word.is_some() && machine.rules.tool_word_changes.peek();
+    if let Some(tool) = word {
         machine.tool_ready = tool;
-        if !command.has(Op::ToolChange) && !machine.rules.tool_word_changes {
+        if !command.has(Op::ToolChange) && !changes {
             trace.push(Happening::ToolReady { tool });
         }
     }
-    let changes = command.has(Op::ToolChange)
-        || (machine.rules.tool_word_changes && command.word(Role::Tool).is_some());
+    if !changes && !command.has(Op::ToolChange) {
+        return;
+    }
     if changes {
-        machine.tool = machine.tool_ready;
-        trace.push(Happening::ToolChange { tool: machine.tool });
-        if machine.rules.tool_word_selects_length {
-            machine.length_op = Op::LengthPlus;
-            machine.length_offset = machine.tool as u32;
-            apply_length(machine, trace);
-        }
+        machine.rules.tool_word_changes.ask(trace);
+    }
+    let selects = changes && machine.rules.tool_word_selects_length.peek();
+    if selects && machine.tool_ready == 0.0 {
+        // Tool 0 takes the length away; the tool stays where it is.
+        machine.rules.tool_word_selects_length.ask(trace);
+        machine.length_op = Op::LengthOff;
+        return apply_length(machine, trace);
+    }
+    machine.tool = machine.tool_ready;
+    trace.push(Happening::ToolChange { tool: machine.tool });
+    if selects {
+        machine.rules.tool_word_selects_length.ask(trace);
+        machine.length_op = Op::LengthPlus;
+        machine.length_offset = machine.tool as u32;
+        apply_length(machine, trace);
     }
 }
 
@@ -113,7 +125,9 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     });
     if let Some(number) = command.number(Role::RadiusOffset) {
         machine.radius_offset = number;
-    } else if side.is_some() && machine.rules.cutter_takes_tool {
+    } else if side.is_some_and(|side| side != Side::Off) && machine.rules.cutter_takes_tool.peek() {
+        machine.rules.cutter_takes_tool.ask(trace);
+        machine.active_tool_asked(trace);
         machine.radius_offset = machine.tool as u32;
     }
     let renewed = command.word(Role::RadiusOffset).is_some() && machine.side != Side::Off;
@@ -135,6 +149,13 @@ impl Machine {
             Op::LengthPlus => value,
             Op::LengthMinus => -value,
             _ => 0.0,
+        }
+    }
+
+    /// Notes that the active tool matters: no source says which it is once tool 0 took the length away.
+    pub(super) fn active_tool_asked(&self, trace: &mut Trace) {
+        if self.rules.tool_word_selects_length.peek() && self.tool_ready != self.tool {
+            trace.doubt("machine:tool.zero");
         }
     }
 

@@ -97,6 +97,8 @@ impl<'c> Runner<'c> {
             addresses: [0.0; 27],
             cycle: None,
         };
+        // The program before this one called for the tool that is in the spindle.
+        runner.addresses[20] = f64::from(scenario.tool);
         runner.start_modes();
         runner
     }

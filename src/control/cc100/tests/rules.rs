@@ -1,5 +1,7 @@
 //! Rules of the language that no program of the course shows alone.
 
+use crate::canon::Op;
+use crate::control::scenario::Tool;
 use crate::control::testing::*;
 use crate::control::trace::Happening;
 use crate::control::{End, Run, Scenario};
@@ -85,4 +87,82 @@ fn endless_jumps_end_at_the_budget_and_endless_calls_by_an_alarm() {
 fn a_stop_without_a_comment_is_a_plain_stop() {
     let run = lines("M0\nG1 X1 F10\nM30\n");
     assert!(run.events.iter().any(|event| event.what == Happening::Stop));
+}
+
+/// A cycle returns by M2; elsewhere no source says what M2 is.
+#[test]
+fn m2_returns_from_a_cycle_only() {
+    let called = Scenario { called: true, ..given(&[]) };
+    let end = |file: &str, text: &str| {
+        let run = run("cc100", &[(file, text.as_bytes())], &called);
+        ended(&run);
+        let by = run.events.iter().rev().find_map(|event| match event.what {
+            Happening::End { by } => Some(by),
+            _ => None,
+        });
+        (by, doubts(&run).contains(&"machine:cycle.end.in.program"))
+    };
+    assert_eq!(end("cycle7.nc", "G55\nM2\n"), (Some(Op::Return), false));
+    assert_eq!(end("cycle7.nc", "G55\nM30\n"), (Some(Op::EndRewind), false));
+    assert_eq!(end("part.nc", "G55\nM2\n"), (Some(Op::End), true));
+    // In a called part too.
+    assert_eq!(end("part.nc", "G22 P1\nG0 X1\nM30\n$1\nM2\nG99\n"), (Some(Op::End), true));
+    let files: [(&str, &[u8]); 2] = [("part.nc", b"G827\nG1 X1 F100\nM30\n"), ("Cycle27b.nc", b"G91\nM2\n")];
+    let run = run("cc100", &files, &given(&[]));
+    ended(&run);
+    near(feeds(&run)[0], [1.0, 0.0, 0.0]);
+}
+
+/// T01 adds the length of tool 1 (80), T00 takes it away and changes no tool.
+#[test]
+fn tool_words_bring_their_length() {
+    let mut scenario = given(&[]);
+    scenario.tools.insert(1, Tool { length: 80.0, ..Tool::default() });
+    let run = run("cc100", &[("t.nc", b"G90\nG1 Z5 F100 T01\nZ5 T00\nV1=T\nM30\n")], &scenario);
+    ended(&run);
+    let heights: Vec<f64> = feeds(&run).iter().map(|at| at[2]).collect();
+    assert_eq!(heights, [85.0, 5.0]);
+    let changes: Vec<f64> = run
+        .events
+        .iter()
+        .filter_map(|event| match event.what {
+            Happening::ToolChange { tool } => Some(tool),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(changes, [1.0]);
+    let found = doubts(&run);
+    for fact in ["behaviour:tool.change.word", "behaviour:tool.word.selects.length", "machine:tool.zero"] {
+        assert!(found.contains(&fact), "{fact}");
+    }
+}
+
+/// From (10, 0) to (0, 10) about the zero: minus is the quarter, so plus is taken for the other three.
+#[test]
+fn the_sign_of_a_radius_tells_two_arcs_apart() {
+    let sweep = |word: &str| {
+        let run = lines(&format!("G90\nG1 X10 Y0 F100\nG3 X0 Y10 {word}\nM30\n"));
+        ended(&run);
+        let sweep = run.events.iter().find_map(|event| match event.what {
+            Happening::Arc { sweep, .. } => Some(sweep),
+            _ => None,
+        });
+        (sweep.unwrap().round(), doubts(&run).contains(&"behaviour:arc.radius.positive"))
+    };
+    assert_eq!(sweep("R-10"), (90.0, false));
+    assert_eq!(sweep("R10"), (270.0, true));
+}
+
+#[test]
+fn an_offset_written_while_it_is_in_force_is_unsure_once_it_places_something() {
+    let fact = "behaviour:offset.active.immediately";
+    let run = lines("G90\nG54\nV1=10\nTRF=G54 X=V1\nG1 X1 F100\nM30\n");
+    assert!(doubts(&run).contains(&fact));
+    for text in [
+        "G90\nG54\nV1=10\nTRF=G54 X=V1\nG54\nG1 X1 F100\nM30\n",
+        "G90\nG55\nV1=10\nTRF=G54 X=V1\nG1 X1 F100\nM30\n",
+        "G90\nG54\nG1 X1 F100\nV1=10\nTRF=G54 X=V1\nM30\n",
+    ] {
+        assert!(!doubts(&lines(text)).contains(&fact), "{text}");
+    }
 }
