@@ -141,6 +141,8 @@ pub struct Words<'c> {
     pub words: Vec<Word>,
     /// What they mean; absent where a code is computed.
     pub meaning: Option<Meaning<'c>>,
+    /// The text that a stop among them shows.
+    pub shown: Option<String>,
 }
 
 /// A word.

@@ -53,6 +53,10 @@ impl<'c> Runner<'c> {
         self.gather(words, meaning, call, &values);
         let mut command = std::mem::take(&mut self.command);
         let moves = command.has_axes() && !command.ops.iter().any(|op| keeps_axes(*op));
+        let shown = words.shown.as_ref().filter(|_| command.has(Op::Stop));
+        if shown.is_some() {
+            command.ops.retain(|op| *op != Op::Stop);
+        }
         let done = if command.is_empty() {
             Ok(())
         } else {
@@ -61,6 +65,9 @@ impl<'c> Runner<'c> {
         command.clear();
         self.command = command;
         done?;
+        if let Some(text) = shown {
+            self.session.trace.push(Happening::Message { text: text.clone() });
+        }
         match call {
             Some(call) => self.call_macro(words, call),
             None => self.flow(words, meaning, &values, moves),

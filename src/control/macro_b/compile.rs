@@ -30,6 +30,7 @@ struct Gather<'c> {
     steps: Vec<Step<'c>>,
     words: Vec<Word>,
     facts: Vec<String>,
+    shown: Option<String>,
 }
 
 /// A loop head or end met so far.
@@ -77,7 +78,7 @@ impl<'c> Compiler<'c, '_> {
     }
 
     fn block(&mut self, block: &syntax::Block, sequence: Option<u32>) -> Block<'c> {
-        let mut gather = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new() };
+        let mut gather = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new(), shown: None };
         let fault = block.errors.iter().find(|error| error.code.severity() == Severity::Error);
         if let Some(fault) = fault {
             let step = match self.style.alarm_of(fault.code) {
@@ -87,6 +88,7 @@ impl<'c> Compiler<'c, '_> {
             gather.steps.push(step);
         } else {
             let text = self.comment(&block.items);
+            gather.shown = self.shown(&block.items);
             self.items(&block.items, &text, &mut gather);
             self.flush(&mut gather);
             self.shared_block(&block.items, &mut gather.facts);
@@ -103,6 +105,17 @@ impl<'c> Compiler<'c, '_> {
             _ => None,
         });
         texts.collect::<Vec<_>>().join(" ")
+    }
+
+    /// The comment behind the words of a block, which a stop shows.
+    fn shown(&self, items: &[Item]) -> Option<String> {
+        let words = items.iter().rposition(|item| matches!(item.kind, ItemKind::Word(_)))?;
+        items.iter().skip(words).find_map(|item| match &item.kind {
+            ItemKind::Comment(comment) if self.control.is("message.shows.comment") => {
+                Some(self.text(comment.text))
+            }
+            _ => None,
+        })
     }
 
     fn text(&self, span: Span) -> String {
@@ -247,7 +260,8 @@ impl<'c> Compiler<'c, '_> {
         }
         let branch = self.branch(condition.span);
         let condition = Expressions::new(self.control, &mut gather.facts).condition(condition);
-        let mut inner = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new() };
+        let shown = self.shown(body);
+        let mut inner = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new(), shown };
         let own = self.comment(body);
         self.items(body, if own.is_empty() { text } else { &own }, &mut inner);
         self.flush(&mut inner);
@@ -270,7 +284,7 @@ impl<'c> Compiler<'c, '_> {
         if let Some(meaning) = &mut meaning {
             gather.facts.append(&mut meaning.facts);
         }
-        gather.steps.push(Step::Words(Words { words, meaning }));
+        gather.steps.push(Step::Words(Words { words, meaning, shown: gather.shown.clone() }));
     }
 }
 

@@ -76,6 +76,20 @@ fn alarms_and_messages_show_their_text() {
     assert_eq!(alarm(&haas("O1\n#3000=1\n")), "1001");
 }
 
+/// The comment behind the stop, none before it.
+#[test]
+fn a_stop_shows_its_comment() {
+    let texts = |text: &str| -> Vec<Happening> {
+        let events = fanuc(text).events.into_iter().map(|event| event.what);
+        events.filter(|what| matches!(what, Happening::Message { .. } | Happening::Stop)).collect()
+    };
+    let message = |text: &str| Happening::Message { text: text.into() };
+    assert_eq!(texts("O1\nN4 (LABEL) M0 (TURN THE PART)\nM30\n"), [message("TURN THE PART")]);
+    assert_eq!(texts("O1\nN4 (LABEL) M0\n(NEXT)\nM30\n"), [Happening::Stop]);
+    assert_eq!(texts("O1\nG0 X1. (NO STOP)\nM30\n"), []);
+    assert_eq!(texts("O1\nIF[1EQ1]THEN M0 (HERE)\nM30\n"), [message("HERE")]);
+}
+
 #[test]
 fn output_has_its_places() {
     let run = haas("O1\n#1=1.5\n#2=-12.3456\nDPRNT[X#1[53]*Y#2[32]Z#1[40]]\nM30\n");
