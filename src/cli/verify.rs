@@ -7,6 +7,7 @@ use crate::dialect::Control;
 use crate::library::{Input, Lock, Output, write_all};
 use crate::syntax::{ParsedFile, parse_file};
 use crate::verify::{Certificate, Effort, Job, Names, Outcome, Side, verify};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -62,7 +63,11 @@ fn names(target: &Path, from: &Control, to: &Control) -> Result<Names, u8> {
     }
     let folder = if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) };
     let lock = Lock::load(&folder.join(Lock::NAME), from.name(), to.name()).map_err(complain)?;
-    Ok(Names { variables: lock.variables, programs: lock.programs })
+    Ok(Names {
+        variables: lock.variables,
+        scratch: lock.scratch.into_iter().collect(),
+        programs: lock.programs,
+    })
 }
 
 fn certify(
@@ -78,7 +83,9 @@ fn certify(
     let (ours_parsed, theirs_parsed) = (parsed(ours, source), parsed(theirs, target));
     let (ours, theirs) = (loaded(ours, &ours_parsed), loaded(theirs, &theirs_parsed));
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
-    Ok(verify(&Job { source: &from, target: &to, names, effort: Effort::default() }, &[]))
+    let reported = BTreeMap::new();
+    let job = Job { source: &from, target: &to, names, reported: &reported, effort: Effort::default() };
+    Ok(verify(&job, &[]))
 }
 
 fn parsed<'a>(inputs: &'a [Input], control: &Control) -> Vec<ParsedFile<'a>> {

@@ -155,5 +155,11 @@ fn value<'c>(
         // The fraction picks the gear range.
         value = value.trunc();
     }
+    if role.is_integer() && value.fract() != 0.0 {
+        if let Some(row) = control.behaviour("integer.word.rounds") {
+            trace.rest_on(row);
+        }
+        value = value.round();
+    }
     read.command.words.push((role, value));
 }

@@ -29,18 +29,27 @@ pub struct Diagnostic {
     pub message: String,
     /// What to do about it here, where that is more than the catalogue says.
     pub help: Option<String>,
+    /// The unconfirmed fact that it reports, as machine profiles confirm it.
+    pub fact: Option<String>,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
-        Self { code, span, message: message.into(), help: None }
+        Self { code, span, message: message.into(), help: None, fact: None }
     }
 
     /// Adds what to do about it.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
+        self
+    }
+
+    /// Names the unconfirmed fact that it reports.
+    #[must_use]
+    pub fn with_fact(mut self, fact: impl Into<String>) -> Self {
+        self.fact = Some(fact.into());
         self
     }
 

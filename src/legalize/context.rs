@@ -51,7 +51,7 @@ impl<'a> Context<'a> {
 
     /// Adds, once a program, that it rests on an unconfirmed fact.
     pub fn unconfirmed(&mut self, program: usize, span: Span, fact: &str, what: impl Into<String>) {
-        self.add_once(program, fact, Diagnostic::new(Code::UnconfirmedFact, span, what));
+        self.add_once(program, fact, Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(fact));
     }
 
     /// Says, once a program, that it rests on how the source behaves, where no maker's text confirms that.

@@ -39,7 +39,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         if let (Some((_, span)), false) = (asked, known) {
             let what =
                 "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
-            context.add_once(index, "dwell.expression", Diagnostic::new(Code::UnconfirmedFact, *span, what));
+            context.unconfirmed(index, *span, "behaviour:dwell.expression", what);
         }
     }
 }

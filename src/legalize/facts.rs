@@ -52,7 +52,8 @@ fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &st
             let help = format!(
                 "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}"
             );
-            let finding = Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help);
+            let finding =
+                Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help).with_fact(fact.clone());
             context.add_once(index, &format!("{side} {fact}"), finding);
         }
     }

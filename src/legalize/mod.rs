@@ -115,15 +115,16 @@ pub fn legalize(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
-/// Gives every variable its register, and does what needs to know them; `locked` are the choices of
-/// earlier runs. Nothing changes the variables of the module after this.
+/// Gives every variable its register, and does what needs to know them; `locked` and `scratch` are the
+/// choices of earlier runs. Nothing changes the variables of the module after this.
 pub fn assign_registers(
     module: &mut Module,
     locked: &BTreeMap<String, u32>,
+    scratch: &[u32],
     context: &mut Context<'_>,
 ) -> Registers {
     temporaries::run(module, context);
-    let registers = allocate(module, locked, context);
+    let registers = allocate(module, locked, scratch, context);
     clear::run(module, &registers, context);
     retention::check(module, &registers, context);
     // Questions name the register that the answer goes to, and take up the print before them.

@@ -157,7 +157,13 @@ pub struct ModalFacts {
 impl ModalFacts {
     /// Analyses a library whose runs begin in the state `entry`.
     pub fn of(module: &Module, entry: &Modal) -> Self {
-        Analysis::new(module).run(entry)
+        Analysis::new(module, false).run(entry)
+    }
+
+    /// The same where the macro of a modal call that stands inside another is a copy of its own: then its
+    /// program runs only where something else calls it.
+    pub fn with_copies(module: &Module, entry: &Modal) -> Self {
+        Analysis::new(module, true).run(entry)
     }
 
     /// The state at the start of a block.
@@ -172,6 +178,8 @@ type Routine = (usize, BlockId);
 
 struct Analysis<'m> {
     module: &'m Module,
+    /// True where nested modal calls do not enter the program that they name.
+    copies: bool,
     by_name: BTreeMap<&'m ProgramName, usize>,
     entries: Vec<Vec<Modal>>,
     exits: BTreeMap<Routine, Modal>,
@@ -182,9 +190,10 @@ struct Analysis<'m> {
 }
 
 impl<'m> Analysis<'m> {
-    fn new(module: &'m Module) -> Self {
+    fn new(module: &'m Module, copies: bool) -> Self {
         Self {
             module,
+            copies,
             by_name: module
                 .programs
                 .iter()
@@ -246,7 +255,10 @@ impl<'m> Analysis<'m> {
         let Some(block) = self.module.programs[index].block(id) else { return };
         let mut state = self.entries[index][id.index()].clone();
         for stmt in &block.stmts {
-            if let StmtKind::ModalCall(call) = &stmt.kind {
+            let nested = state.calls.as_ref().is_some_and(|calls| !calls.is_empty());
+            if let StmtKind::ModalCall(call) = &stmt.kind
+                && !(self.copies && nested)
+            {
                 // It runs behind moves yet to come, under the modal calls outside its own.
                 let inside = Modal { calls: state.calls.clone(), ..Modal::unknown() };
                 self.call(index, id, call, &inside);

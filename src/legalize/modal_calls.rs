@@ -17,15 +17,14 @@ use crate::syntax::ProgramName;
 
 /// Replaces modal calls by explicit ones.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let modal = |program: &Program| {
-        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-        stmts.any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff))
-    };
-    if !module.programs.iter().any(modal) {
+    if !module.programs.iter().any(is_modal) {
         return;
     }
     let native = context.target.statement("call.modal").is_some();
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = match native {
+        true => ModalFacts::of(module, &context.entry),
+        false => ModalFacts::with_copies(module, &context.entry),
+    };
     let mut expansion = Expansion { module: module.clone(), facts, native, copies: Vec::new() };
     let count = module.programs.len();
     for index in 0..count {
@@ -37,6 +36,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         module.programs.push(copy);
         context.origins.push(context.origins[origin]);
     }
+}
+
+/// True where a program opens or ends a modal call.
+fn is_modal(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff))
 }
 
 struct Expansion {
@@ -160,6 +165,11 @@ impl Expansion {
             _ => None,
         };
         match found {
+            Some((at, _)) if is_modal(&self.module.programs[at]) => {
+                let why =
+                    "modal calls are nested here, and the macro of the inner one opens or ends one itself";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+            }
             Some((at, name)) if calls.len() < DEEPEST => {
                 let written = |name: &ProgramName| match name {
                     ProgramName::Number(n) => format!("O{n}"),

@@ -30,10 +30,26 @@ pub struct Registers {
     pub of: BTreeMap<Var, Register>,
     /// What was chosen, by the variable's name on the source.
     pub chosen: BTreeMap<String, u32>,
+    /// The registers of temporaries.
+    pub scratch: BTreeSet<u32>,
 }
 
-/// Chooses registers for everything in the library. `locked` are the choices of earlier runs.
-pub fn allocate(module: &mut Module, locked: &BTreeMap<String, u32>, context: &mut Context<'_>) -> Registers {
+impl Registers {
+    /// The registers of variables that a program of the source has.
+    pub fn held(&self) -> impl Iterator<Item = u32> + '_ {
+        let named = self.of.iter().filter(|(var, _)| var.class != Class::Temp);
+        named.map(|(_, register)| register.number)
+    }
+}
+
+/// Chooses registers for everything in the library. `locked` are the choices of earlier runs, `scratch`
+/// the registers that their programs have temporaries in.
+pub fn allocate(
+    module: &mut Module,
+    locked: &BTreeMap<String, u32>,
+    scratch: &[u32],
+    context: &mut Context<'_>,
+) -> Registers {
     let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
     for (index, program) in module.programs.iter().enumerate() {
         variables_of(program, &mut |var| {
@@ -49,7 +65,7 @@ pub fn allocate(module: &mut Module, locked: &BTreeMap<String, u32>, context: &m
             users.entry(Var { class: class_of(*bank), number }).or_insert(*place);
         }
     }
-    let mut pool = Pool::new(context.target, locked);
+    let mut pool = Pool::new(context.target, locked, scratch);
     let mut registers = Registers::default();
     keep_numbers(&users, &mut pool, &mut registers, context);
     let runs: Vec<(Bank, u32)> =
@@ -61,7 +77,9 @@ pub fn allocate(module: &mut Module, locked: &BTreeMap<String, u32>, context: &m
         let name = name_of(var, module, context.source);
         match pool.take(var.class, name.as_deref()) {
             Some(number) => {
-                if let Some(name) = name.filter(|_| var.class != Class::Temp) {
+                if var.class == Class::Temp {
+                    registers.scratch.insert(number);
+                } else if let Some(name) = name {
                     registers.chosen.insert(name, number);
                 }
                 registers.of.insert(var, Register { name: pool.name.clone(), number });
@@ -242,22 +260,27 @@ struct Pool<'a> {
     rows: Vec<&'a VariableClass>,
     used: BTreeSet<u32>,
     locked: &'a BTreeMap<String, u32>,
+    /// Where temporaries go first, and nothing else ever.
+    scratch: BTreeSet<u32>,
     target: &'a Control,
 }
 
 impl<'a> Pool<'a> {
-    fn new(target: &'a Control, locked: &'a BTreeMap<String, u32>) -> Self {
+    fn new(target: &'a Control, locked: &'a BTreeMap<String, u32>, scratch: &[u32]) -> Self {
         let mut rows: Vec<&VariableClass> =
             target.classes().iter().filter(|row| row.class != "local" && row.class != "letter").collect();
         // What every control of the kind has comes before what must be bought.
         rows.sort_by_key(|row| (row.option.is_some(), row.first));
         let name = rows.first().map_or_else(|| "#".into(), |row| row.name.clone());
         let used = locked.values().copied().collect();
-        Self { name, rows, used, locked, target }
+        let scratch = scratch.iter().copied().collect();
+        Self { name, rows, used, locked, scratch, target }
     }
 
     fn free(&self, number: u32) -> bool {
-        !self.used.contains(&number) && !self.target.is_reserved(&self.name, number)
+        !self.used.contains(&number)
+            && !self.scratch.contains(&number)
+            && !self.target.is_reserved(&self.name, number)
     }
 
     fn take(&mut self, class: Class, name: Option<&str>) -> Option<u32> {
@@ -268,7 +291,13 @@ impl<'a> Pool<'a> {
         let volatile = matches!(class, Class::Temp | Class::Register | Class::Common | Class::Local);
         let preferred = self.rows.iter().filter(|row| keeps(row) != volatile);
         let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
-        let number = preferred.chain(rest).flat_map(|row| row.first..=row.last).find(|n| self.free(*n))?;
+        let again = |number: &u32| {
+            let taken = self.used.contains(number) || self.target.is_reserved(&self.name, *number);
+            class == Class::Temp && !taken
+        };
+        let number = self.scratch.iter().copied().find(again).or_else(|| {
+            preferred.chain(rest).flat_map(|row| row.first..=row.last).find(|number| self.free(*number))
+        })?;
         self.used.insert(number);
         Some(number)
     }

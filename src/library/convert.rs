@@ -13,6 +13,7 @@ use crate::syntax::{ProgramName, parse_file};
 use crate::text::Span;
 use crate::verify;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// What became of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -201,9 +202,12 @@ pub(super) fn make(
     legalize(&mut module, &mut context);
     let tidied = opt::run(&mut module, opt::Options { level, legalized: true, ..Default::default() });
     fault = fault.or(tidied.err());
-    let registers = assign_registers(&mut module, &lock.variables, &mut context);
+    let registers = assign_registers(&mut module, &lock.variables, &lock.scratch, &mut context);
     let names = number_programs(&module, &mut lock, target, &mut context);
     lock.variables.extend(registers.chosen.clone());
+    let held: BTreeSet<u32> = registers.held().collect();
+    let scratch: BTreeSet<u32> = registers.scratch.iter().chain(&lock.scratch).copied().collect();
+    lock.scratch = scratch.difference(&held).copied().collect();
     let naming = naming(&module, &registers, &names);
     let origins = context.origins.clone();
     let legal = context.into_findings();

@@ -15,6 +15,9 @@ pub struct Lock {
     pub from: String,
     /// The target's dialect.
     pub to: String,
+    /// Registers of the target for values in between: no program may rely on what they hold.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scratch: Vec<u32>,
     /// Register numbers on the target, by the variable's name on the source.
     #[serde(default)]
     pub variables: BTreeMap<String, u32>,
@@ -47,9 +50,10 @@ pub enum LockError {
 const VERSION: u32 = 1;
 
 const HEAD: &str = "\
-# Which register of the target holds which variable of the source, and which
-# number each program got that had none there. Written by macroglot, honoured by
-# its next run; keep it with the converted programs.
+# Which register of the target holds which variable of the source, which hold
+# values in between (scratch), and which number each program got that had none
+# there. Written by macroglot, honoured by its next run; keep it with the
+# converted programs.
 
 ";
 

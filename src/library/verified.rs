@@ -8,6 +8,7 @@ use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
 use crate::verify::{self, Certificate, Effort, Job, Names, ProgramCertificate, Side};
 use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A program that is to be judged: its report among the conversion's, and the program on its control.
 type Wanted = (usize, ProgramRef);
@@ -40,8 +41,17 @@ pub fn judge(
         .collect();
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
     let lock = &conversion.lock;
-    let names = Names { variables: lock.variables.clone(), programs: lock.programs.clone() };
-    let job = Job { source: &from, target: &to, names: &names, effort };
+    let names = Names {
+        variables: lock.variables.clone(),
+        scratch: lock.scratch.iter().copied().collect(),
+        programs: lock.programs.clone(),
+    };
+    let mut reported: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for program in &conversion.programs {
+        let facts = program.diagnostics.iter().filter_map(|diagnostic| diagnostic.fact.clone());
+        reported.entry(inputs[program.file].name.clone()).or_default().extend(facts);
+    }
+    let job = Job { source: &from, target: &to, names: &names, reported: &reported, effort };
     let wanted = wanted(conversion, &from.programs(), inputs.len());
     let verified: Vec<Option<Certificate>> = wanted
         .par_iter()

@@ -104,6 +104,8 @@ pub enum Why {
     Endless,
     /// The source stops with an alarm of its control where the target goes on, or stops elsewhere.
     SourceAlarms,
+    /// The target cannot do what the source does, and does something else or nothing in its place.
+    Substituted,
     /// A branch went one way only.
     NotReached,
     /// Something rests on a fact that no source confirms.

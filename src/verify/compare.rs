@@ -1,7 +1,10 @@
 //! Whether two runs amount to the same.
 
 use super::names::{Names, Side, class_of};
-use super::observe::observe;
+use super::observe::{Act, observe, returns};
+use super::paths::{apart, arcs_apart, ends, goes_nowhere, leaves};
+use super::substitutes::{is_builders, is_idle, is_left_out, stands_for};
+use super::texts::say_the_same;
 use crate::control::trace::{Event, Happening, Position};
 use crate::control::{End, Run, Stop};
 use std::collections::BTreeSet;
@@ -9,8 +12,6 @@ use std::collections::BTreeSet;
 /// How far numbers may lie apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Positions that are computed and not rounded on the way, millimetres.
-    pub computed: f64,
     /// Positions that words rounded: the coarser least increment of the two controls, millimetres.
     pub rounded: f64,
 }
@@ -22,19 +23,25 @@ impl Tolerance {
             let numbers = side.control.numbers();
             numbers.increment_mm.max(numbers.increment_inch * 25.4)
         };
-        Self { computed: 1e-6, rounded: increment(source).max(increment(target)) * 1.0001 }
+        Self { rounded: increment(source).max(increment(target)) * 1.0001 }
     }
 }
 
+/// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
+/// the end, and the centre in two axes, each by a half.
+const ARC_ROUNDINGS: f64 = 2.0;
+
 /// What a comparison found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Comparison<'r> {
     /// The first difference.
     pub difference: Option<Difference<'r>>,
     /// The largest distance between positions that counted as the same, millimetres.
     pub largest: f64,
-    /// Texts that differ: messages, outputs, alarm numbers.
+    /// Texts that are written differently: messages, outputs, alarm numbers.
     pub texts: BTreeSet<(String, String)>,
+    /// What the target cannot do and did otherwise, or left out.
+    pub substituted: BTreeSet<String>,
 }
 
 /// A difference: the events that should be the same, where there are any, and what is wrong.
@@ -55,33 +62,108 @@ pub fn compare<'r>(
     names: &Names,
     tolerance: Tolerance,
 ) -> Comparison<'r> {
-    let (ours, theirs) = (observe(source.1), observe(target.1));
-    let mut found = Comparison { difference: None, largest: 0.0, texts: BTreeSet::new() };
-    let mut pairs = ours.iter().zip(&theirs);
-    found.difference = pairs.find_map(|(a, b)| {
-        let what = differ(&a.what, &b.what, tolerance, &mut found.largest, &mut found.texts)?;
-        Some(Difference { source: Some(a), target: Some(b), what })
-    });
+    let (ours, theirs) = (observe(source.0, source.1), observe(target.0, target.1));
+    let found = Comparison::default();
+    let mut pairs = Pairs { target: target.0, tolerance, found, at: [None; 2] };
+    pairs.walk(&ours, &theirs, is_cut(source.1) || is_cut(target.1));
+    let mut found = pairs.found;
     if found.difference.is_some() || is_cut(source.1) || is_cut(target.1) {
         return found;
     }
-    let beyond = (ours.get(theirs.len()), theirs.get(ours.len()));
-    found.difference = match beyond {
-        (Some(event), _) => Some(Difference {
-            source: Some(event),
-            target: None,
-            what: "the target does less than the source".into(),
-        }),
-        (None, Some(event)) => Some(Difference {
-            source: None,
-            target: Some(event),
-            what: "the target does more than the source".into(),
-        }),
-        (None, None) => end_differs(&source.1.end, &target.1.end)
-            .or_else(|| variables_differ(source, target, names))
-            .map(|what| Difference { source: None, target: None, what }),
-    };
+    found.difference = end_differs(&source.1.end, &target.1.end)
+        .or_else(|| variables_differ(source, target, names))
+        .map(|what| Difference { source: None, target: None, what });
     found
+}
+
+/// Two runs side by side.
+struct Pairs<'p, 'r> {
+    target: &'p Side<'p>,
+    tolerance: Tolerance,
+    found: Comparison<'r>,
+    /// Where each side's tool is; none before its first move.
+    at: [Option<Position>; 2],
+}
+
+impl<'r> Pairs<'_, 'r> {
+    /// Pairs the acts of both sides up to the first difference; behind the last of a run that was `cut`
+    /// nothing is missed.
+    fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) {
+        let (mut i, mut j) = (0, 0);
+        loop {
+            let (a, b) = (ours.get(i), theirs.get(j));
+            let what = match (a, b) {
+                (None, None) => return,
+                (Some(a), Some(b)) => match self.differ(a, b) {
+                    None => {
+                        self.moved(0, &a.what);
+                        self.moved(1, &b.what);
+                        (i, j) = (i + 1, j + 1);
+                        continue;
+                    }
+                    Some(what) => what,
+                },
+                _ if cut => return,
+                (Some(_), None) => "the target does less than the source".to_owned(),
+                (None, Some(_)) => "the target does more than the source".to_owned(),
+            };
+            if a.is_some_and(|a| self.passes(0, &a.what)) {
+                i += 1;
+            } else if b.is_some_and(|b| self.passes(1, &b.what)) {
+                j += 1;
+            } else {
+                let (source, target) = (a.map(|a| a.event), b.map(|b| b.event));
+                self.found.difference = Some(Difference { source, target, what });
+                return;
+            }
+        }
+    }
+
+    fn moved(&mut self, side: usize, what: &Happening) {
+        if let Some(to) = leaves(what) {
+            self.at[side] = Some(to);
+        }
+    }
+
+    /// True where one side's act has no counterpart and needs none: a move within the least increment that
+    /// leaves the tool where the other side's is, a limit on reading ahead, or what the target cannot do and
+    /// no axis moves for.
+    fn passes(&mut self, side: usize, what: &Happening) -> bool {
+        if let Some((_, to)) = ends(what) {
+            let near = self.at[1 - side].is_some_and(|other| apart(&to, &other) <= self.tolerance.rounded);
+            let passes = near && goes_nowhere(what, self.tolerance.rounded);
+            if passes {
+                self.moved(side, what);
+            }
+            return passes;
+        }
+        if side == 1 {
+            return is_idle(what);
+        }
+        let left_out = is_left_out(self.target, what);
+        self.found.substituted.extend(left_out.clone());
+        left_out.is_some()
+    }
+
+    /// What differs between two acts, if anything does.
+    fn differ(&mut self, source: &Act<'r>, target: &Act<'r>) -> Option<String> {
+        let stands = stands_for(self.target, &source.what, &target.what);
+        let (a, b) = (&source.what, &target.what);
+        if let Some(text) = stands.or_else(|| is_builders(a, b).filter(|_| a != b)) {
+            self.found.substituted.insert(text);
+            return None;
+        }
+        let mut largest = self.found.largest;
+        let what = differ((&source.what, &target.what), target.room, self.tolerance, &mut largest);
+        match what {
+            None => {
+                self.found.largest = largest;
+                self.found.texts.extend(texts(&source.what, &target.what));
+                None
+            }
+            Some(what) => Some(what.to_owned()),
+        }
+    }
 }
 
 /// True where the run was stopped from outside.
@@ -93,7 +175,6 @@ fn end_differs(source: &End, target: &End) -> Option<String> {
     let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
     (!same).then(|| "one of them ends with an alarm, the other does not".to_owned())
 }
-
 /// Compares the final values of variables that both sides keep from program to program.
 fn variables_differ(source: (&Side<'_>, &Run), target: (&Side<'_>, &Run), names: &Names) -> Option<String> {
     if matches!(source.1.end, End::Alarm { .. }) {
@@ -125,121 +206,120 @@ fn variables_differ(source: (&Side<'_>, &Run), target: (&Side<'_>, &Run), names:
     None
 }
 
-/// The events' difference, if they have one.
+/// The events' difference, if they have one; `room` is what the target's text could have had more.
 fn differ(
-    source: &Happening,
-    target: &Happening,
+    (source, target): (&Happening, &Happening),
+    room: Option<usize>,
     tolerance: Tolerance,
     largest: &mut f64,
-    texts: &mut BTreeSet<(String, String)>,
-) -> Option<String> {
+) -> Option<&'static str> {
     use Happening::*;
-    let mut far = |a: &Position, b: &Position| {
-        let most = a.0.iter().zip(b.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        *largest = largest.max(if most <= tolerance.rounded { most } else { 0.0 });
-        // What is no number is as far as can be.
-        exceeds(most, tolerance.rounded)
+    let allowed = tolerance.rounded;
+    let mut beyond = |most: f64| {
+        *largest = largest.max(if most <= allowed { most } else { 0.0 });
+        most > allowed
     };
-    let apart = |a: f64, b: f64| exceeds((a - b).abs(), 1e-6 * a.abs().max(b.abs()).max(1.0));
-    let about = |a: f64, b: f64| exceeds((a - b).abs(), tolerance.rounded.max(1e-4 * a.abs()));
-    let wrong = match (source, target) {
-        (Rapid { from, to }, Rapid { from: other_from, to: other }) => {
-            (far(from, other_from) || far(to, other)).then_some("the rapid move goes elsewhere")
-        }
+    let far = |a: &Position, b: &Position| apart(a, b);
+    let differs = |a: f64, b: f64| exceeds((a - b).abs(), 1e-6 * a.abs().max(b.abs()).max(1.0));
+    let about = |a: f64, b: f64| exceeds((a - b).abs(), allowed.max(1e-4 * a.abs()));
+    match (source, target) {
+        (Rapid { from, to }, Rapid { from: other_from, to: other }) => (beyond(far(from, other_from))
+            || beyond(far(to, other)))
+        .then_some("the rapid move goes elsewhere"),
         (Feed { to, feed, mode, .. }, Feed { to: other, feed: other_feed, mode: other_mode, .. }) => {
-            if far(to, other) {
-                Some("the feed move goes elsewhere")
-            } else {
-                (about(*feed, *other_feed) || mode != other_mode).then_some("the feed is another")
+            if beyond(far(to, other)) {
+                return Some("the feed move goes elsewhere");
             }
+            (about(*feed, *other_feed) || mode != other_mode).then_some("the feed is another")
         }
         (
-            Arc { to, centre, radius, plane, sweep, feed, mode, .. },
-            Arc {
-                to: other,
-                centre: other_centre,
-                radius: other_radius,
-                plane: other_plane,
-                sweep: other_sweep,
-                feed: other_feed,
-                mode: other_mode,
-                ..
-            },
+            Arc { to, feed, mode, sweep, .. },
+            Arc { to: other, feed: other_feed, mode: other_mode, sweep: other_sweep, .. },
         ) => {
-            if far(to, other) {
+            if beyond(far(to, other)) {
                 Some("the arc ends elsewhere")
-            } else if far(centre, other_centre) || about(*radius, *other_radius) || plane != other_plane {
-                Some("the arc is another")
-            } else if (sweep - other_sweep).abs() > 0.1 {
-                Some("the arc goes the other way or another number of turns")
+            } else if exceeds(arcs_apart(source, target), ARC_ROUNDINGS * allowed) {
+                Some(match exceeds((sweep - other_sweep).abs(), 90.0) {
+                    true => "the arc goes the other way or another number of turns",
+                    false => "the arc is another",
+                })
             } else {
                 (about(*feed, *other_feed) || mode != other_mode).then_some("the feed is another")
             }
         }
         (Thread { to, lead, .. }, Thread { to: other, lead: other_lead, .. }) => {
-            (far(to, other) || about(*lead, *other_lead)).then_some("the thread is another")
+            (beyond(far(to, other)) || about(*lead, *other_lead)).then_some("the thread is another")
         }
         (
             Probe { aim, to, hit, feed, .. },
             Probe { aim: other_aim, to: other, hit: other_hit, feed: other_feed, .. },
-        ) => (far(aim, other_aim) || far(to, other) || hit != other_hit || about(*feed, *other_feed))
-            .then_some("the probe move is another"),
+        ) => {
+            let apart = beyond(far(aim, other_aim)) || beyond(far(to, other));
+            (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move is another")
+        }
         (Dwell { seconds }, Dwell { seconds: other }) => {
-            ((seconds - other).abs() > 1e-3).then_some("the wait is another")
+            exceeds((seconds - other).abs(), 1e-3).then_some("the wait is another")
         }
         (
             Spindle { direction, speed, surface },
             Spindle { direction: other, speed: other_speed, surface: other_surface },
-        ) => (direction != other || (speed - other_speed).abs() > 0.5 || surface != other_surface)
+        ) => (direction != other || exceeds((speed - other_speed).abs(), 0.5) || surface != other_surface)
             .then_some("the spindle turns otherwise"),
+        (Coolant { state }, Coolant { state: other }) => (state != other).then_some("another coolant is on"),
+        (ToolChange { tool }, ToolChange { tool: other })
+        | (ToolReady { tool }, ToolReady { tool: other }) => (tool != other).then_some("it is another tool"),
         (ToolLength { value, .. }, ToolLength { value: other, .. }) => {
-            apart(*value, *other).then_some("another tool length is in force")
+            differs(*value, *other).then_some("another tool length is in force")
         }
         (CutterRadius { side, value, .. }, CutterRadius { side: other_side, value: other, .. }) => {
-            (side != other_side || apart(*value, *other)).then_some("another cutter radius is in force")
+            (side != other_side || differs(*value, *other)).then_some("another cutter radius is in force")
+        }
+        (WorkOffset { number }, WorkOffset { number: other }) => {
+            (number != other).then_some("another work offset is in force at the return")
         }
         (
             Write { state, subscripts, value },
             Write { state: other_state, subscripts: other_subscripts, value: other },
-        ) => (state != other_state || subscripts != other_subscripts || apart(*value, *other))
+        ) => (state != other_state || subscripts != other_subscripts || differs(*value, *other))
             .then_some("another state of the machine is written"),
         (Message { text }, Message { text: other }) | (Output { text }, Output { text: other }) => {
-            if text.trim() != other.trim() {
-                texts.insert((text.clone(), other.clone()));
-            }
-            None
+            (!say_the_same(text, other, room)).then_some("the text is another")
         }
-        (Alarm(stop), Alarm(other)) => alarm_differs(stop, other, texts),
-        (End { .. }, End { .. }) => end_code_differs(source, target),
+        (Asked { answer }, Asked { answer: other }) => {
+            differs(*answer, *other).then_some("the answer is another")
+        }
+        (Alarm(stop), Alarm(other)) => alarm_differs(stop, other, room),
+        (End { .. }, End { .. }) => {
+            (returns(source) != returns(target)).then_some("one ends, the other returns to its caller")
+        }
         _ => (source != target).then_some("they do different things"),
-    };
-    wrong.map(str::to_owned)
+    }
 }
 
-/// An alarm of the program's own must be one on the target too; its number and text may be the target's.
-fn alarm_differs(
-    source: &Stop,
-    target: &Stop,
-    texts: &mut BTreeSet<(String, String)>,
-) -> Option<&'static str> {
-    if source.program_number.is_some() != target.program_number.is_some() {
-        return Some("one alarm is the program's own, the other the control's");
-    }
-    if source.program_number.is_some() && source != target {
-        let show = |stop: &Stop| format!("{} {}", stop.program_number.unwrap_or(0.0), stop.text);
-        texts.insert((show(source), show(target)));
-    }
-    None
+/// Texts that count as the same and are written differently.
+fn texts(source: &Happening, target: &Happening) -> Option<(String, String)> {
+    let show = |what: &Happening| match what {
+        Happening::Message { text } | Happening::Output { text } => Some(text.trim().to_owned()),
+        Happening::Alarm(stop) => {
+            stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
+        }
+        _ => None,
+    };
+    Some((show(source)?, show(target)?)).filter(|(a, b)| a != b)
 }
 
-/// Which codes end a program alike: those that end it, and those that return from it.
-fn end_code_differs(source: &Happening, target: &Happening) -> Option<&'static str> {
-    use crate::canon::Op;
-    let returns = |what: &Happening| match what {
-        Happening::End { by } => matches!(by, Op::Return | Op::SubEnd),
-        _ => false,
-    };
-    (returns(source) != returns(target)).then_some("one ends, the other returns to its caller")
+/// An alarm of the program's own must be one on the target too, of the same number and text.
+fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'static str> {
+    match (source.program_number, target.program_number) {
+        (None, None) => None,
+        (Some(number), Some(other)) if exceeds((number - other).abs(), 1e-6) => {
+            Some("the alarm has another number")
+        }
+        (Some(_), Some(_)) => {
+            (!say_the_same(&source.text, &target.text, room)).then_some("the alarm's text is another")
+        }
+        _ => Some("one alarm is the program's own, the other the control's"),
+    }
 }
 
 /// True where a difference is larger than allowed, or no number at all.

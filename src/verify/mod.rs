@@ -18,11 +18,14 @@ mod compare;
 mod inputs;
 mod names;
 mod observe;
+mod paths;
 mod program;
 mod random;
 mod scenarios;
+mod substitutes;
 #[cfg(test)]
 mod tests;
+mod texts;
 
 pub use branches::NotReached;
 pub use certificate::{Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness};

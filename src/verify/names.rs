@@ -3,7 +3,7 @@
 use crate::control::{Execute, LoadedFile, ProgramRef, library::Sections};
 use crate::dialect::{Control, VariableClass};
 use crate::syntax::ProgramName;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// One side of a comparison: a library and the control that runs it.
 pub struct Side<'a> {
@@ -50,6 +50,8 @@ impl<'a> Side<'a> {
 pub struct Names {
     /// Register numbers: `V12` to 512; `V(..)` to what is added to every number.
     pub variables: BTreeMap<String, u32>,
+    /// Registers of the target that hold values in between and that nobody may rely on.
+    pub scratch: BTreeSet<u32>,
     /// Program numbers, by `O1234` or the program's name.
     pub programs: BTreeMap<String, u32>,
 }
@@ -84,7 +86,8 @@ impl Names {
             return Some(format!("{prefix}{}", base.checked_add(number)?));
         }
         let (from, to) = (class_of(source, name)?, class_of(target, name)?);
-        let taken = self.variables.values().any(|number| name == format!("{prefix}{number}"));
+        let mut others = self.variables.values().chain(&self.scratch);
+        let taken = others.any(|number| name == format!("{prefix}{number}"));
         ((from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
     }
 

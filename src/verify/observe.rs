@@ -1,8 +1,21 @@
 //! What an observer of the machine could tell of a run.
 
+use super::names::Side as Library;
 use crate::canon::Op;
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Side, Spindle};
+use std::borrow::Cow;
+
+/// Something that an observer could tell.
+#[derive(Clone, Debug)]
+pub struct Act<'r> {
+    /// The event.
+    pub event: &'r Event,
+    /// What the observer tells of it: a stop at which the operator enters a value is a text and a question.
+    pub what: Cow<'r, Happening>,
+    /// Of a text, how many characters more the control would have shown; none where it knows no limit.
+    pub room: Option<usize>,
+}
 
 /// A group of settings, of which only what is in force at the next action counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,42 +55,88 @@ fn initial() -> Vec<Happening> {
 
 /// The observable events of a run: calls and variables left out, moves that go nowhere and waits of no
 /// time left out, and of the settings between two actions only those that changed, in one order.
-pub fn observe(run: &Run) -> Vec<&Event> {
-    let mut out: Vec<&Event> = Vec::new();
-    let mut waiting: Vec<(Setting, &Event)> = Vec::new();
-    let mut held: Vec<(Setting, Happening)> =
-        initial().into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
-    for event in run.events.iter().filter(|event| is_observable(&event.what)) {
+///
+/// Which work offset is selected shows in the machine coordinates of the moves, every offset having
+/// values of its own; so the selection itself counts only where a program returns, for its caller.
+pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
+    let mut seen = Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new() };
+    seen.held = initial().into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
+    for (at, event) in run.events.iter().enumerate().filter(|(_, event)| is_observable(&event.what)) {
         if let Some(kind) = setting(&event.what) {
-            waiting.retain(|(other, _)| *other != kind);
-            waiting.push((kind, event));
+            seen.waiting.retain(|(other, _)| *other != kind);
+            seen.waiting.push((kind, event));
             continue;
         }
-        settle(&mut waiting, &mut held, &mut out);
-        out.push(event);
+        seen.settle(returns(&event.what));
+        seen.act(event, run.events.get(at + 1));
     }
-    settle(&mut waiting, &mut held, &mut out);
-    out
+    seen.settle(false);
+    seen.out
 }
 
-/// Lets the settings that changed take their places.
-fn settle<'r>(
-    waiting: &mut Vec<(Setting, &'r Event)>,
-    held: &mut Vec<(Setting, Happening)>,
-    out: &mut Vec<&'r Event>,
-) {
-    waiting.sort_by_key(|(kind, _)| *kind);
-    for (kind, event) in waiting.drain(..) {
-        let old = held.iter_mut().find(|(other, _)| *other == kind);
-        if old.as_ref().is_some_and(|(_, what)| *what == event.what) {
-            continue;
+struct Observer<'o, 'r> {
+    side: &'o Library<'o>,
+    out: Vec<Act<'r>>,
+    waiting: Vec<(Setting, &'r Event)>,
+    held: Vec<(Setting, Happening)>,
+}
+
+impl<'r> Observer<'_, 'r> {
+    /// Lets the settings that changed take their places; the work offset only at the `end`.
+    fn settle(&mut self, end: bool) {
+        self.waiting.sort_by_key(|(kind, _)| *kind);
+        let (now, later) = std::mem::take(&mut self.waiting)
+            .into_iter()
+            .partition(|(kind, _)| end || *kind != Setting::Work);
+        self.waiting = later;
+        let now: Vec<(Setting, &'r Event)> = now;
+        for (kind, event) in now {
+            let old = self.held.iter_mut().find(|(other, _)| *other == kind);
+            if old.as_ref().is_some_and(|(_, what)| *what == event.what) {
+                continue;
+            }
+            match old {
+                Some((_, what)) => *what = event.what.clone(),
+                None => self.held.push((kind, event.what.clone())),
+            }
+            self.out.push(Act { event, what: Cow::Borrowed(&event.what), room: None });
         }
-        match old {
-            Some((_, what)) => *what = event.what.clone(),
-            None => held.push((kind, event.what.clone())),
-        }
-        out.push(event);
     }
+
+    fn act(&mut self, event: &'r Event, next: Option<&Event>) {
+        let room = |limit: &str, text: &str| {
+            let limit = self.side.control.limit(limit)? as usize;
+            Some(limit.saturating_sub(text.chars().count()))
+        };
+        let (what, room) = match &event.what {
+            Happening::Message { text } => {
+                let room = room("message", text);
+                let asks = next.is_some_and(|next| matches!(next.what, Happening::Asked { .. }));
+                match asks.then(|| prompt(text)) {
+                    Some("") => return,
+                    Some(text) => (Cow::Owned(Happening::Output { text: text.to_owned() }), room),
+                    None => (Cow::Borrowed(&event.what), room),
+                }
+            }
+            Happening::Alarm(stop) => (Cow::Borrowed(&event.what), room("message.alarm", &stop.text)),
+            what => (Cow::Borrowed(what), None),
+        };
+        self.out.push(Act { event, what, room });
+    }
+}
+
+/// The question in a message that names the variable of the answer first: `#100 DEPTH`, `SET #100`.
+fn prompt(text: &str) -> &str {
+    let rest = text.trim().trim_start_matches("SET ").trim_start();
+    match rest.strip_prefix('#') {
+        Some(rest) => rest.trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start(),
+        None => rest,
+    }
+}
+
+/// True for the end of a program that others call.
+pub fn returns(what: &Happening) -> bool {
+    matches!(what, Happening::End { by: Op::Return | Op::SubEnd })
 }
 
 fn is_observable(what: &Happening) -> bool {

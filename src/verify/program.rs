@@ -5,8 +5,7 @@ use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha25
 use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::inputs::inputs;
 use super::names::{Names, Side};
-use super::observe::observe;
-use super::scenarios::{Proposals, on_target};
+use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Effort, Outcome};
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, ProgramRef, Run, Scenario};
@@ -22,6 +21,9 @@ pub struct Job<'j> {
     pub target: &'j Side<'j>,
     /// What is called what.
     pub names: &'j Names,
+    /// The unconfirmed facts that the conversion has reported, by the names of files: a person looks at them
+    /// whatever is found here.
+    pub reported: &'j BTreeMap<String, BTreeSet<String>>,
     /// How much may be done.
     pub effort: Effort,
 }
@@ -33,7 +35,7 @@ const FEWER_DIGITS: u32 = 13;
 const FEWEST: usize = 16;
 
 /// Runs that come to no end before a program is given up.
-const ENDLESS: usize = 2;
+const ENDLESS: usize = 4;
 
 /// Verifies programs of the source; all of them where none is named.
 pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
@@ -47,7 +49,8 @@ struct Verifier<'v, 'j> {
     program: ProgramRef,
     coverage: Coverage,
     reasons: BTreeMap<Why, BTreeSet<String>>,
-    unconfirmed: BTreeSet<String>,
+    /// Unconfirmed facts that mattered; true for those that nobody reported.
+    unconfirmed: BTreeMap<String, bool>,
     texts: BTreeSet<(String, String)>,
     tolerance: Tolerance,
     largest: f64,
@@ -65,7 +68,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             program,
             coverage: Coverage::new(job.source, program),
             reasons: BTreeMap::new(),
-            unconfirmed: BTreeSet::new(),
+            unconfirmed: BTreeMap::new(),
             texts: BTreeSet::new(),
             tolerance: Tolerance::of(job.source, job.target),
             largest: 0.0,
@@ -92,7 +95,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let found = inputs(self.job.source, self.program);
         let mut proposals = Proposals::new(&found, self.job.effort);
         let mut endless = 0;
-        while let Some(scenario) = proposals.next() {
+        while let Some(mut scenario) = proposals.next() {
+            scenario.inch = unit(self.job.source, self.job.target);
             let run = (self.job.source.execute)(
                 self.job.source.files,
                 self.program,
@@ -127,9 +131,13 @@ impl<'v, 'j> Verifier<'v, 'j> {
 
     fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
         let Job { source, target, names, .. } = self.job;
-        let circumstances = on_target(scenario, names, source, target);
+        let mut circumstances = on_target(scenario, names, source, target);
+        if is_cut(run) {
+            // Only what both did so far is compared.
+            circumstances.steps = scenario.steps.saturating_mul(3);
+        }
         let other = (target.execute)(target.files, there, target.control, &circumstances);
-        for (side, run) in [("source", run), ("target", &other)] {
+        for (side, library, run) in [("source", source, run), ("target", target, &other)] {
             match &run.end {
                 End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
                 End::StepBudget | End::TimeBudget => {
@@ -139,13 +147,20 @@ impl<'v, 'j> Verifier<'v, 'j> {
             }
             for event in &run.events {
                 if let Happening::Unsure { fact } = &event.what {
-                    self.unconfirmed.insert(fact.clone());
+                    let file = run.programs.get(event.at.program as usize).map(|program| program.file);
+                    let file = file.and_then(|file| library.files.get(file));
+                    let reported = file.and_then(|file| self.job.reported.get(file.name));
+                    let is_new = reported.is_none_or(|facts| !facts.contains(fact));
+                    *self.unconfirmed.entry(fact.clone()).or_default() |= is_new;
                 }
             }
         }
         let found = compare((source, run), (target, &other), names, self.tolerance);
         self.largest = self.largest.max(found.largest);
         self.texts.extend(found.texts);
+        for text in found.substituted {
+            self.because(Why::Substituted, &text);
+        }
         self.compared += usize::from(!is_cut(run) && !is_cut(&other));
         match found.difference {
             // Where the source's control itself stops the program, the program says nothing.
@@ -193,7 +208,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             let text = format!("{} ways of branches were not gone", not_reached.len());
             self.because(Why::NotReached, &text);
         }
-        for fact in self.unconfirmed.clone() {
+        for (fact, _) in self.unconfirmed.clone().iter().filter(|(_, is_new)| **is_new) {
             self.because(Why::Unconfirmed, &format!("{fact} is not confirmed"));
         }
         let outcome = match (&self.witness, self.reasons.is_empty()) {
@@ -225,7 +240,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             tolerance_mm: self.tolerance.rounded,
             largest_difference_mm: self.largest,
             rounding_sensitive: self.sensitive,
-            unconfirmed: self.unconfirmed.into_iter().collect(),
+            unconfirmed: self.unconfirmed.into_keys().collect(),
             texts: self.texts.into_iter().take(20).collect(),
             witness: self.witness,
         }
@@ -239,8 +254,8 @@ fn faults(run: &Run) -> bool {
 
 /// True where the difference lies at the alarm that ended the source, not before it.
 fn at_the_end(run: &Run, difference: &Difference<'_>) -> bool {
-    match (difference.source, observe(run).last()) {
-        (Some(event), Some(last)) => std::ptr::eq(event, *last),
+    match (difference.source, run.events.last()) {
+        (Some(event), Some(last)) => std::ptr::eq(event, last),
         (None, _) => true,
         _ => false,
     }

@@ -6,6 +6,7 @@ use super::{Effort, Names, Side};
 use crate::canon::Sys;
 use crate::control::Scenario;
 use crate::control::scenario::{AXES, Axes, Probe, StateValue, Tool};
+use crate::dialect::Units;
 use std::collections::BTreeMap;
 
 /// Proposes scenarios, the telling ones first.
@@ -17,6 +18,9 @@ pub struct Proposals<'i> {
     /// Single values that are still to be tried, by variable and by which of the two ground states.
     singles: Vec<(usize, Option<f64>, bool)>,
 }
+
+/// Answers that the operator has ready.
+const ANSWERS: u32 = 48;
 
 /// The ground states that come before anything is drawn.
 const GROUNDS: usize = 6;
@@ -99,9 +103,10 @@ impl<'i> Proposals<'i> {
         }
         let near =
             if self.inputs.numbers.is_empty() { vec![0.0, 1.0, 2.5] } else { self.inputs.numbers.clone() };
-        scenario.answers = (0..16)
+        scenario.answers = (0..ANSWERS)
             .map(|at| match count {
-                0 => 0.0,
+                // An empty answer, then ones that a loop until a sensible answer takes.
+                0 => f64::from(at % 4),
                 1 => f64::from(at) + 1.0,
                 _ if self.random.one_in(2) => self.random.between(-20, 20),
                 _ => self.random.pick(&near).copied().unwrap_or(1.0),
@@ -177,9 +182,16 @@ fn machine(random: &mut Random) -> Scenario {
     scenario
 }
 
+/// Both machines are set to the unit of the one that states any: what a program does not say itself is for
+/// the shop to see to.
+pub fn unit(side: &Side<'_>, other: &Side<'_>) -> Option<bool> {
+    side.control.units().or(other.control.units()).map(|units| units == Units::Inch)
+}
+
 /// The same circumstances on the target: variables by their names there. One that has none is left out.
 pub fn on_target(scenario: &Scenario, names: &Names, source: &Side<'_>, target: &Side<'_>) -> Scenario {
     let mut out = scenario.clone();
+    out.inch = unit(target, source);
     out.variables.clear();
     for (name, value) in &scenario.variables {
         if let Some(name) = names.variable(name, source.control, target.control) {

@@ -21,8 +21,10 @@ fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
     let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
-    let names = Names { variables, programs: BTreeMap::new() };
-    let job = Job { source: &source, target: &target, names: &names, effort: Effort::default() };
+    let names = Names { variables, ..Names::default() };
+    let reported = BTreeMap::new();
+    let effort = Effort::default();
+    let job = Job { source: &source, target: &target, names: &names, reported: &reported, effort };
     let mut certificate = verify(&job, &[]);
     assert_eq!(certificate.programs.len(), 1, "one program");
     certificate.programs.remove(0)

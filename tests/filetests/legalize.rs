@@ -25,7 +25,7 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
     let mut after = before;
     let mut context = Context::new(&source, &target, after.programs.len());
     let registers = if pass == "registers" {
-        assign_registers(&mut after, &locked(options)?, &mut context)
+        assign_registers(&mut after, &locked(options)?, &[], &mut context)
     } else {
         let names: Vec<&str> = pass.split('+').collect();
         let passes: Vec<_> = PASSES.iter().filter(|p| names.contains(&p.name)).collect();

@@ -27,6 +27,8 @@ impl Interpreter<'_, '_> {
             ItemKind::Input { targets, .. } => {
                 // The run waits here, so that nothing is under way behind it.
                 self.moving = false;
+                // What was printed to ask for it is on the screen by now.
+                self.flush();
                 for target in targets {
                     let answer = self.session.answer();
                     self.assign(target, answer)?;

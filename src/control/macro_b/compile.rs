@@ -98,13 +98,14 @@ impl<'c> Compiler<'c, '_> {
         Block { span: block.span, sequence, steps: gather.steps, facts: gather.facts, told: Cell::new(false) }
     }
 
-    /// The text of the block's comments, which alarms and messages show.
+    /// The text that an alarm or a message of the block shows: the first comment behind the statement.
     fn comment(&self, items: &[Item]) -> String {
-        let texts = items.iter().filter_map(|item| match &item.kind {
+        let statement = items.iter().position(|item| !matches!(item.kind, ItemKind::Comment(_)));
+        let mut texts = items.iter().skip(statement.unwrap_or(0)).filter_map(|item| match &item.kind {
             ItemKind::Comment(comment) => Some(self.text(comment.text)),
             _ => None,
         });
-        texts.collect::<Vec<_>>().join(" ")
+        texts.next().unwrap_or_default()
     }
 
     /// The comment behind the words of a block, which a stop shows.

@@ -67,7 +67,7 @@ impl<'c> Findings<'c> {
         let message = format!("rests on the unconfirmed fact '{fact}' of {table}{why}");
         let help =
             format!("check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile");
-        self.add(Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help));
+        self.add(Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help).with_fact(fact));
     }
 
     /// The findings, in the order of their places.

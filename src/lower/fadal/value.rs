@@ -39,7 +39,12 @@ impl<'b> Lowering<'b> {
                 }
                 self.nc_value(inner, role).map(negate)
             }
-            ExprKind::Variable(var) if var.name == "R" => self.read(var),
+            ExprKind::Variable(var) if var.name == "R" => {
+                if role.is_some_and(Role::is_integer) {
+                    let _ = self.rely("integer.word.rounds", var.span);
+                }
+                self.read(var)
+            }
             ExprKind::Variable(var) => {
                 self.refuse(var.span, format!("{} cannot stand in an NC word, only R0 to R9 can", var.name))
             }

@@ -1,0 +1,46 @@
+//! What the target cannot do, and what a conversion may do in its place.
+//!
+//! None of it moves an axis, and all of it a machinist would notice: so it makes no difference that a
+//! verifier could blame on the conversion, and none that it could pass over in silence either. A program that
+//! needs it is undecided, and the certificate names what a person must accept.
+
+use super::names::Side;
+use crate::canon::{Group, Op};
+use crate::control::trace::Happening;
+use std::collections::BTreeMap;
+
+/// One coolant for the other, where the target has no such coolant.
+pub fn stands_for(target: &Side<'_>, source: &Happening, there: &Happening) -> Option<String> {
+    let (Happening::Coolant { state }, Happening::Coolant { state: other }) = (source, there) else {
+        return None;
+    };
+    let both = matches!((state, other), (Op::Mist, Op::Flood) | (Op::Flood, Op::Mist));
+    (both && lacks(target, *state)).then(|| format!("the target has no {state}: it does {other}"))
+}
+
+/// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
+pub fn is_left_out(target: &Side<'_>, source: &Happening) -> Option<String> {
+    let Happening::Other { operation, .. } = source else { return None };
+    let quiet = operation.group() == Group::PathMode || *operation == Op::LimitLookahead;
+    (quiet && lacks(target, *operation)).then(|| format!("the target has no {operation}: it is left out"))
+}
+
+/// What the target does and nobody could tell: it reads ahead less far.
+pub fn is_idle(target: &Happening) -> bool {
+    matches!(target, Happening::Other { operation: Op::LimitLookahead, .. })
+}
+
+/// A code that the source's tables do not know, written alike on both sides: nothing says what either does.
+pub fn is_builders(source: &Happening, target: &Happening) -> Option<String> {
+    match (source, target) {
+        (
+            Happening::Other { operation: Op::Builder, code: Some(code) },
+            Happening::Other { code: Some(other), .. },
+        ) if code == other => Some(format!("what {code} does is the machine builder's matter")),
+        _ => None,
+    }
+}
+
+fn lacks(target: &Side<'_>, op: Op) -> bool {
+    target.control.code_for(op, &BTreeMap::new()).is_none() && target.control.word_for(op).is_none()
+}
