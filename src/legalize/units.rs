@@ -4,16 +4,18 @@
 //! to be in one unit (its table or the shop's profile says so), the target is told at the head of each main program.
 //! Side condition: where it is not known, the target must be set as the source was; that is a review diagnostic.
 
-use super::Context;
 use super::emptied::drop_emptied;
+use super::exposed::roots;
+use super::{Context, reachable};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Units;
-use crate::ir::{Class, Module, Nc, NcItem, Program, Site, Stmt, StmtKind};
+use crate::ir::{BlockId, Class, Module, Nc, NcItem, Program, Site, Stmt, StmtKind, TermKind};
 
 /// Tells the target the unit of each main program.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let checks = |op: Op| matches!(op, Op::CheckInch | Op::CheckMetric);
+    let roots = roots(module);
     let same_family = context.source.dialect().family == context.target.dialect().family;
     for (index, program) in module.programs.iter_mut().enumerate() {
         let names = |wanted: &dyn Fn(Op) -> bool| {
@@ -37,8 +39,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
             drop_emptied(block);
         }
-        let is_main = program.ends() && !program.returns() && moves(program);
-        if named || same_family || !is_main {
+        if named || same_family || !is_main(program, roots.contains(&index)) || !moves(program) {
             continue;
         }
         match context.source.units().or(checked) {
@@ -49,6 +50,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+/// True for a program that ends the run, unless others call it and it may return to them. What only its
+/// subroutines do, or what nothing reaches, says nothing of it.
+fn is_main(program: &Program, is_root: bool) -> bool {
+    let own = reachable(program, BlockId(0));
+    let (mut end, mut back) = (false, false);
+    for kind in own.into_iter().filter_map(|id| program.block(id)).map(|block| &block.term.kind) {
+        end |= matches!(kind, TermKind::End { .. } | TermKind::Stray);
+        back |= matches!(kind, TermKind::Return { .. });
+    }
+    end && (is_root || !back)
 }
 
 fn moves(program: &Program) -> bool {

@@ -50,3 +50,12 @@ fn a_profile_gives_codes_their_meaning() {
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(run.out.contains("P9020"), "{}", run.out);
 }
+
+/// The main part ends, so the program is a main one; what stands behind its end only returns.
+#[test]
+fn the_unit_of_a_profile_is_written_where_unused_subroutines_stand_too() {
+    let program = "G90\nG54\nG0 X5 Y0\nM30\n$1\nG0 X1\nG99\n";
+    let shop = Shop::with(&[("a.nc", program), ("m.toml", "dialect = \"cc100\"\nunits = \"metric\"\n")]);
+    let run = shop.run("convert a.nc --from cc100 --to haas --machine m.toml");
+    assert_eq!(run.out.matches("G21").count(), 1, "{}", run.out);
+}
