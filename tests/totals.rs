@@ -105,6 +105,10 @@ fn conversions(out: &mut String, pairs: &[Pair]) {
             out,
             "| {from} | {to} | {all} | {good} | {review} | {refused} | {same} | {undecided} | {different} |"
         );
+        assert_eq!(
+            different, 0,
+            "{from} to {to}: what differs is refused by its own reason, before it is run"
+        );
         for program in conversion.programs.iter().filter(|p| p.outcome != Outcome::Refused) {
             assert!(program.verdict.is_some(), "{from} to {to}: {:?} was not verified", program.name);
             assert!(
