@@ -145,6 +145,10 @@ pub fn convert(
             let outcome = outcome(&diagnostics);
             let mut map = Vec::new();
             if outcome != Outcome::Refused || options.draft {
+                // Nothing else shows where a program without a number begins.
+                if framed && written[index].is_none() && !text.is_empty() && same_family(source, target) {
+                    text.push_str("%\n");
+                }
                 for part in std::mem::take(&mut parts[index]) {
                     any |= !part.text.is_empty();
                     let base = text.len() + if framed { 2 } else { 0 };
@@ -167,10 +171,14 @@ pub fn convert(
     Conversion { programs: reports, texts, lock: made.lock }
 }
 
+fn same_family(source: &Control, target: &Control) -> bool {
+    source.dialect().family == target.dialect().family
+}
+
 /// On a control that knows programs by number each needs one. Programs without a name get that of their
 /// file, and a number by it; within a family a program without a number stays what it is.
 fn name_the_nameless(module: &mut Module, inputs: &[Input], source: &Control, target: &Control) {
-    if source.dialect().family == target.dialect().family {
+    if same_family(source, target) {
         return;
     }
     for program in module.programs.iter_mut().filter(|program| program.name.is_none()) {
@@ -315,7 +323,7 @@ pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {
 
 /// Whether the file is framed by `%`: as the source was within a family, else as the target's files are.
 pub(super) fn frames(source: &Control, target: &Control, tape: bool) -> bool {
-    tape || source.dialect().family != target.dialect().family
+    tape || !same_family(source, target)
 }
 
 pub(super) fn written_name(name: &ProgramName) -> String {

@@ -13,6 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A program that is to be judged: its report among the conversion's, and the program on its control.
 type Wanted = (usize, ProgramRef);
 
+/// The longest file that is verified beside its conversion, bytes: both are held in memory block by block.
+const LONGEST: usize = 8 << 20;
+
 /// Verifies every program that was converted, and lets its outcome rest on that. Yields a certificate
 /// for each file that has a conversion.
 pub fn judge(
@@ -26,10 +29,15 @@ pub fn judge(
         open(conversion).for_each(|program| undecided(program, "there is no emulated control to run it on"));
         return vec![None; inputs.len()];
     };
-    let texts: Vec<(usize, String)> =
-        conversion.texts.iter().enumerate().filter_map(|(at, text)| Some((at, text.clone()?))).collect();
+    let long: Vec<bool> = inputs.iter().map(|input| input.bytes.len() > LONGEST).collect();
+    open(conversion).filter(|program| long[program.file]).for_each(|program| {
+        undecided(program, "the file is too long to be verified on the way; run `macroglot verify` on it");
+    });
+    let texts = conversion.texts.iter().enumerate().filter(|(at, _)| !long[*at]);
+    let texts: Vec<(usize, String)> = texts.filter_map(|(at, text)| Some((at, text.clone()?))).collect();
+    let bytes = |at: usize| if long[at] { &[][..] } else { &inputs[at].bytes };
     let ours: Vec<ParsedFile<'_>> =
-        inputs.iter().map(|input| parse_file(&input.bytes, source.entry().parse)).collect();
+        (0..inputs.len()).map(|at| parse_file(bytes(at), source.entry().parse)).collect();
     let theirs: Vec<ParsedFile<'_>> =
         texts.iter().map(|(_, text)| parse_file(text.as_bytes(), target.entry().parse)).collect();
     let ours: Vec<LoadedFile<'_>> =
@@ -85,6 +93,9 @@ fn wanted(conversion: &mut Conversion, all: &[ProgramRef], files: usize) -> Vec<
         let sections = all.iter().filter(|program| program.file == file).copied();
         let reports: Vec<usize> =
             (0..conversion.programs.len()).filter(|at| conversion.programs[*at].file == file).collect();
+        if reports.iter().all(|at| conversion.programs[*at].verdict.is_some()) {
+            continue;
+        }
         // Both sides cut a file at its program words; where they disagree, nothing can be verified.
         if sections.clone().count() == reports.len() {
             let paired = reports.into_iter().zip(sections);

@@ -104,8 +104,15 @@ impl Names {
             // A program without a name is known by its file.
             let number = self.programs.get(name).map(|number| ProgramName::Number(*number));
             let is = |program: &&ProgramRef| target.name(**program) == number.as_ref();
+            // Of several the one at the same place among them.
+            let mut before = source.programs().into_iter().filter(|program| program.file == of.file);
+            let nth = before
+                .by_ref()
+                .take_while(|program| *program != of)
+                .filter(|p| source.name(*p).is_none())
+                .count();
             let mut found = all.iter().filter(here);
-            return found.clone().find(is).or_else(|| found.next()).copied();
+            return found.clone().filter(is).nth(nth).or_else(|| found.nth(nth)).copied();
         };
         let written = match name {
             ProgramName::Number(number) => format!("O{number:04}"),

@@ -34,6 +34,9 @@ const FEWER_DIGITS: u32 = 13;
 /// Scenarios that are compared even where nothing is left to be reached.
 const FEWEST: usize = 16;
 
+/// How often a run may execute each block of a long program, on the average.
+const EACH_BLOCK: u64 = 4;
+
 /// Runs that come to no end before a program is given up.
 const ENDLESS: usize = 4;
 
@@ -93,7 +96,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
     /// Tries the source in scenario after scenario, and compares in those that reach anything new.
     fn search(&mut self, there: ProgramRef) {
         let found = inputs(self.job.source, self.program);
-        let mut proposals = Proposals::new(&found, self.job.effort);
+        let blocks = self.job.source.blocks(self.program).len() as u64;
+        let steps = self.job.effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
+        let mut proposals = Proposals::new(&found, Effort { steps, ..self.job.effort });
         let mut endless = 0;
         while let Some(mut scenario) = proposals.next() {
             scenario.inch = unit(self.job.source, self.job.target);

@@ -24,6 +24,15 @@ fn a_clean_program_is_0_and_a_refused_one_is_1() {
     assert_eq!((run.code, run.out.as_str()), (1, ""));
 }
 
+/// Programs without a number stay apart, and each is verified against its own source.
+#[test]
+fn programs_without_a_number_stay_apart() {
+    let shop = Shop::with(&[("in/a.nc", "%\nG0X1.\nM30\n%\nG0X2.\nM30\n%\n")]);
+    let run = shop.run(&format!("convert in {TO} --out out"));
+    assert_eq!(shop.read("out/a.nc"), "%\nG0 X1.\nM30\n%\nG0 X2.\nM30\n%\n");
+    assert!(run.out.contains("2 verified"), "{}", run.out);
+}
+
 /// A draft stops the machine at the hole, keeps what stands around it, and stays refused.
 #[test]
 fn a_draft_has_an_alarm_at_the_hole() {
