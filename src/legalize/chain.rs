@@ -12,6 +12,9 @@ use crate::syntax::{Label, ProgramName};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Up to so many returns of a callee are told apart by comparisons.
+const FEW: usize = 4;
+
 /// The register that carries a return's sequence number, by its number in [`Class::Register`].
 const RETURN_TO: u32 = 1;
 
@@ -98,6 +101,11 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
     if numbers.is_empty() {
         return;
     }
+    for list in numbers.values_mut() {
+        list.sort_unstable();
+        list.dedup();
+    }
+    let computed = context.target.statement("goto.computed").is_some();
     for (index, program) in module.programs.iter_mut().enumerate() {
         let wanted = |call: &Call| match &call.callee {
             Callee::Program(name) => numbers.get(name),
@@ -127,6 +135,14 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 // Cleared at once, so that a plain return of this program carries no number.
                 builder.push(assign(temp, Expr::Var(register)), site());
                 builder.push(clear(), site());
+                // One jump finds its block by the number, as the return did.
+                if targets.len() > FEW && computed {
+                    let here = Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(0.0));
+                    let jump = builder.fresh();
+                    builder.end(TermKind::Branch { cond: here, yes: next, no: jump }, site());
+                    builder.start(jump);
+                    return builder.end(TermKind::Computed { value: Expr::Var(temp), targets }, site());
+                }
                 for (number, to) in targets {
                     let cond =
                         Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(f64::from(number)));

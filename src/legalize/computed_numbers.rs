@@ -16,7 +16,7 @@ use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// Values of plain variables are looked up for so many computed numbers of a program; others are not known.
-const MOST_LOOKED_UP: usize = 200;
+const MOST_LOOKED_UP: usize = 50;
 
 /// Checks and shifts computed numbers.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -48,7 +48,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 Some(all) => all.into_iter().find(|n| !numbers.alike(*n)).map(Finding::Other),
                 None => Some(numbers.of(number).clone()),
             };
-            found.extend(finding.map(|finding| (span, finding)));
+            if let Some(finding) = finding
+                && found.iter().all(|(_, other)| *other != finding)
+            {
+                found.push((span, finding));
+            }
         });
         shift(program, &mut numbers);
         for (span, finding) in found {
@@ -62,7 +66,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 const GAP: u32 = 20;
 
 /// What is known of a computed number.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Finding {
     /// It starts in these numbers, by each of which both controls mean the same.
     Alike(u32, u32),
@@ -180,16 +184,26 @@ impl<'c> Numbers<'c> {
     }
 
     fn look_up(&self, start: u32) -> Finding {
-        let first = match (meaning(self.source, start), meaning(self.source, start.saturating_add(1))) {
+        // People count from 1: `#[2400+#1]` means the run from #2401, though #2400 ends another.
+        let behind = start.saturating_add(1);
+        let first = match (self.begins(start), self.begins(behind)) {
             (None, None) => return Finding::Other(start),
-            (None, Some(_)) => start.saturating_add(1),
-            (Some(_), _) => start,
+            (None, _) | (Some(false), Some(true)) => behind,
+            _ => start,
         };
         if self.alike(first) {
             let around = self.runs().into_iter().find(|(from, to)| (*from..=*to).contains(&first));
             return around.map_or(Finding::Any, |(from, to)| Finding::Alike(from, to));
         }
         self.distance(first).unwrap_or(Finding::Other(first))
+    }
+
+    /// True for the first number of a run, false for another one in it; none outside of all.
+    fn begins(&self, number: u32) -> Option<bool> {
+        if let Some(row) = self.source.variable_class("#", number) {
+            return Some(row.first == number);
+        }
+        self.source.read_system("#", Some(number)).map(|(.., row)| row.first == Some(number))
     }
 
     /// The run of a state as far as the target has it at one distance.

@@ -215,10 +215,20 @@ impl Found<'_> {
                 self.behaviour("mod.rounds.operands", span);
                 self.behaviour("mod.sign", span);
             }
-            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, a, b) if !a.is_whole() || !b.is_whole() => {
-                self.behaviour("bits.of.fraction", span);
+            Expr::Binary(BinOp::And, a, b) if is_narrow(a) || is_narrow(b) => self.bits(a, b, span),
+            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, a, b) => {
+                if !is_narrow(a) || !is_narrow(b) {
+                    self.behaviour("bits.width", span);
+                }
+                self.bits(a, b, span);
             }
             _ => {}
+        }
+    }
+
+    fn bits(&mut self, a: &Expr, b: &Expr, span: Span) {
+        if !a.is_whole() || !b.is_whole() {
+            self.behaviour("bits.of.fraction", span);
         }
     }
 
@@ -274,4 +284,9 @@ fn computes_with(e: &Expr, may: &dyn Fn(&Expr) -> bool) -> bool {
         Expr::Call(_, arguments) => arguments.iter().any(may),
         _ => false,
     }
+}
+
+/// True for a constant of few bits.
+fn is_narrow(e: &Expr) -> bool {
+    e.constant().is_some_and(|value| (0.0..65_536.0).contains(&value))
 }

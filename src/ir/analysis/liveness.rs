@@ -50,7 +50,8 @@ impl<'p> Liveness<'p> {
         live.before = vec![live.universe.none(); live.cfg.len()];
         // Without variables there is nothing to find.
         if !live.universe.vars().is_empty() {
-            live.transfers = program.blocks.iter().map(|block| live.transfer(block)).collect();
+            let every = live.universe.classes(|_| true);
+            live.transfers = program.blocks.iter().map(|block| live.transfer(block, &every)).collect();
             live.solve();
         }
         live
@@ -99,13 +100,13 @@ impl<'p> Liveness<'p> {
     }
 
     /// What a block makes of what is live behind it: of nothing, and of everything.
-    fn transfer(&self, block: &Block) -> (Row, Row) {
+    fn transfer(&self, block: &Block, every: &Row) -> (Row, Row) {
         let through = |mut row: Row| {
             self.term(&block.term.kind, &mut row);
             block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut row));
             row
         };
-        (through(self.universe.none()), through(self.universe.classes(|_| true)))
+        (through(self.universe.none()), through(every.clone()))
     }
 
     /// Live behind a block's terminator.

@@ -68,6 +68,7 @@ impl<'a> Lowering<'a> {
             self.block(block, piece.head == Some(at));
         }
         self.close_loops();
+        self.close_hub();
     }
 
     fn block(&mut self, block: &'a Block, is_head: bool) {

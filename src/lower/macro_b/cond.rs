@@ -138,9 +138,24 @@ fn join(op: BinaryOp, a: Cond, b: Cond) -> Cond {
     match op {
         BinaryOp::And => flat(true, a, b),
         BinaryOp::Or => flat(false, a, b),
+        // Written out, the operands of a chain would be doubled again and again.
+        _ if !is_plain(&a) || !is_plain(&b) => {
+            let truth = |cond| Expr::Truth(Box::new(cond));
+            Cond::Compare(Relation::NotEqual, truth(a), truth(b))
+        }
         _ => {
             let (not_a, not_b) = (a.clone().negated(), b.clone().negated());
             Cond::Or(vec![Cond::And(vec![a, not_b]), Cond::And(vec![not_a, b])])
         }
     }
+}
+
+/// True for a comparison of values that hold no comparison.
+fn is_plain(cond: &Cond) -> bool {
+    let Cond::Compare(_, a, b) = cond else { return false };
+    let mut plain = true;
+    for side in [a, b] {
+        side.walk(&mut |e| plain &= !matches!(e, Expr::Truth(_)));
+    }
+    plain
 }

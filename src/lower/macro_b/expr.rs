@@ -19,8 +19,9 @@ pub(super) enum At {
     Argument,
 }
 
-/// How deep expressions may nest; far more than any control allows.
-pub(super) const MAX_DEPTH: u32 = 256;
+/// How deep expressions may nest: more than any control takes, and half of what the common form allows, since
+/// emulations nest deeper.
+pub(super) const MAX_DEPTH: u32 = 128;
 
 impl<'a> Lowering<'a> {
     /// The value of an expression. What has no meaning is reported, and the value is 0.
@@ -140,6 +141,9 @@ impl<'a> Lowering<'a> {
             None if e.is_whole() => e,
             None => Expr::Call(Func::Fix, vec![e]),
         };
+        if wide(op, &a, &b) && self.findings.behaviour("bits.width", span).is_none() {
+            self.unknown_behaviour("bits.width", span);
+        }
         let (a, b) = match rule {
             Some("truncate") => (cut(a), cut(b)),
             Some(_) => (a, b),
@@ -224,6 +228,12 @@ fn ranges(function: Func, arguments: usize) -> &'static [&'static str] {
 /// True for `ATAN[..]` without brackets round it.
 fn is_open_atan(expr: &syntax::Expr) -> bool {
     matches!(&expr.kind, ExprKind::Call { function: Func::Atan, arguments, .. } if arguments.len() == 1)
+}
+
+/// True where the result may need more bits than any control has for sure.
+fn wide(op: BinOp, a: &Expr, b: &Expr) -> bool {
+    let narrow = |e: &Expr| e.constant().is_some_and(|value| (0.0..65_536.0).contains(&value));
+    !(op == BinOp::And && (narrow(a) || narrow(b)) || narrow(a) && narrow(b))
 }
 
 /// The name of an operator in the tables.

@@ -6,9 +6,12 @@ use super::call::{Flow, Parts};
 use super::expr::At;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Cond, Expr, Relation, Site, TermKind};
+use crate::ir::{BinOp, Class, Cond, Expr, Place, Relation, Site, StmtKind, TermKind, Var};
 use crate::syntax::{self, Item, ItemKind, Target};
 use crate::text::Span;
+
+/// The number that the block of all computed jumps goes to.
+const HUB: Var = Var { class: Class::Temp, number: 1 };
 
 impl<'a> Lowering<'a> {
     /// `GOTO`.
@@ -32,12 +35,37 @@ impl<'a> Lowering<'a> {
     }
 
     /// A jump to a sequence number that is a value.
+    ///
+    /// Where a program has very many of both, a jump leaves its number in a temporary and goes on at one
+    /// block that jumps for all of them.
     fn jump_to(&mut self, value: Expr, span: Span, site: &Site) {
+        if value.constant().is_none() && (self.hub.is_some() || self.is_crowded()) {
+            let hub = *self.hub.get_or_insert_with(|| (self.builder.fresh(), span));
+            // A temporary is never vacant; what is vacant finds no block, as 0 does not.
+            let value = match value.may_be_vacant() {
+                true => Expr::Binary(BinOp::Add, Box::new(value), Box::new(Expr::Number(0.0))),
+                false => value,
+            };
+            self.builder.push(StmtKind::Assign { target: Place::Var(HUB), value }, site.clone());
+            return self.builder.end(TermKind::Jump(hub.0), Site { span, ..Site::default() });
+        }
         let kind = match value.constant().and_then(crate::ir::eval::whole) {
             Some(number) => TermKind::Jump(self.target(number, span)),
             None => TermKind::Computed { value, targets: self.all_targets(span) },
         };
         self.builder.end(kind, site.clone());
+    }
+
+    /// The block that jumps for all computed jumps, behind the program's text.
+    pub(super) fn close_hub(&mut self) {
+        let Some((hub, span)) = self.hub.take() else { return };
+        if self.builder.is_open() {
+            self.builder.end(TermKind::Stray, Site::default());
+        }
+        self.builder.start(hub);
+        let targets = self.all_targets(span);
+        let site = Site { span, ..Site::default() };
+        self.builder.end(TermKind::Computed { value: Expr::Var(HUB), targets }, site);
     }
 
     /// `IF [..]` and what is done when it holds.

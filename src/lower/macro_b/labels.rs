@@ -24,6 +24,9 @@ pub(super) struct Labels {
 /// Each computed jump lists every number; a program that would list more than this is refused.
 const MAX_LISTED: usize = 4_000_000;
 
+/// Where the lists grow longer than this, computed jumps share one.
+const MANY_LISTED: usize = 100_000;
+
 #[derive(Debug)]
 struct Label {
     number: u32,
@@ -122,6 +125,13 @@ impl Lowering<'_> {
             self.findings.add(Diagnostic::new(Code::JumpIntoLoop, span, message).with_help(help));
         }
         Label::id(index)
+    }
+
+    /// True where computed jumps must share a list of targets, and may: each number stands once.
+    pub(super) fn is_crowded(&self) -> bool {
+        let labels = &self.labels;
+        labels.listed.saturating_add(labels.by_number.len()) > MANY_LISTED
+            && labels.by_number.values().all(|places| places.len() == 1)
     }
 
     /// Every number and the block that a computed jump to it finds.

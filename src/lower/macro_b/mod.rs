@@ -36,6 +36,7 @@ use super::common::{Findings, remark_text};
 use crate::dialect::Control;
 use crate::ir::{BlockId, Builder, Remark, Site, Var};
 use crate::syntax::{ItemKind, ParsedFile, ProgramName};
+use crate::text::Span;
 use codes::{CodeId, Codes};
 use labels::Labels;
 use split::Piece;
@@ -84,6 +85,8 @@ struct Lowering<'a> {
     labels: Labels,
     findings: Findings<'a>,
     builder: Builder,
+    /// The block that computed jumps share, and where the first of them stands.
+    hub: Option<(BlockId, Span)>,
     /// The loops that are open here, innermost last.
     loops: Vec<Loop>,
     /// Modal calls that were begun and not ended, as the text has it.
@@ -143,6 +146,7 @@ impl<'a> Lowering<'a> {
             labels,
             findings: Findings::new(control),
             builder,
+            hub: None,
             loops: Vec::new(),
             modal_calls: 0,
             motion: Motion::default(),
