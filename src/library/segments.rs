@@ -2,20 +2,21 @@
 //!
 //! Law: a program without jumps, calls and variables is the pieces it is cut into, one behind the other, if each piece
 //! starts in the modal state that the last one left. Pieces are cut before blocks that name an interpolation, so that
-//! what a word means never depends on a block of another piece. Side conditions, looked for in every piece: plain words,
+//! what a word means never depends on a block of another piece; where none comes, the block that named the one in force
+//! is read once more at the head of the piece, and left out of it. Side conditions, looked for in every piece: plain words,
 //! comments and program ends only; one control family, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
 use super::convert::{Made, ProgramReport, drop_echoes, frames, make, outcome, written_name};
 use super::{Conversion, Input, Lock, Options, Outcome};
-use crate::canon::Op;
+use crate::canon::{Group, Op};
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::lower::Lowered;
 use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word};
-use crate::text::{Line, Lines};
+use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -58,15 +59,16 @@ fn convert_in(
     }
     let mut sink = Sink::default();
     let mut state = Modal::unknown();
+    let lines = Lines::new(&input.bytes);
     let mut pieces =
-        Pieces { source: &input.bytes, lines: Lines::new(&input.bytes), held: None, size: sizes.piece };
+        Pieces { source: &input.bytes, control: source, lines, held: None, mode: None, size: sizes.piece };
     loop {
-        let batch: Vec<Vec<Line>> = std::iter::from_fn(|| pieces.next()).take(BATCH).collect();
+        let batch: Vec<Piece> = std::iter::from_fn(|| pieces.next()).take(BATCH).collect();
         if batch.is_empty() {
             break;
         }
         let lowered: Option<Vec<Lowered>> =
-            batch.into_par_iter().map(|lines| lower(input, lines, source)).collect();
+            batch.into_par_iter().map(|piece| lower(input, piece, source)).collect();
         let entered: Vec<(Modal, Lowered)> = lowered?
             .into_iter()
             .map(|piece| {
@@ -84,49 +86,80 @@ fn convert_in(
     Some(sink.finish(source, target, lock.clone()))
 }
 
+/// A run of lines.
+struct Piece {
+    /// The line before them that named the interpolation in force, where none of theirs does before it is needed.
+    head: Option<Line>,
+    lines: Vec<Line>,
+}
+
 /// Cuts a file into runs of lines.
 struct Pieces<'s> {
     source: &'s [u8],
+    control: &'s Control,
     lines: Lines<'s>,
     held: Option<Line>,
+    /// The line that named the interpolation in force; none where that is not sure.
+    mode: Option<Line>,
     size: usize,
 }
 
 impl Pieces<'_> {
-    fn next(&mut self) -> Option<Vec<Line>> {
-        let mut piece: Vec<Line> = self.held.take().into_iter().collect();
-        let start = piece.first().map(|line| line.text.start);
-        for line in self.lines.by_ref() {
-            let length =
-                line.text.start - start.or(piece.first().map(|l| l.text.start)).unwrap_or(line.text.start);
-            if length as usize > self.size && names_interpolation(line.text.of(self.source)) {
-                self.held = Some(line);
+    fn next(&mut self) -> Option<Piece> {
+        let first = self.held.take().or_else(|| self.lines.next())?;
+        let start = first.text.start;
+        let (source, control) = (self.source, self.control);
+        let names = |line: Line| names_interpolation(line.text.of(source), control);
+        let (mut line, mut named) = (first, names(first));
+        let head = self.mode.filter(|_| named != Some(true));
+        let mut lines = Vec::new();
+        loop {
+            match named {
+                Some(true) => self.mode = Some(line),
+                Some(false) => {}
+                None => self.mode = None,
+            }
+            lines.push(line);
+            let Some(next) = self.lines.next() else { break };
+            named = names(next);
+            let length = (next.text.start - start) as usize;
+            let may_cut = named == Some(true) || length > 2 * self.size && self.mode.is_some();
+            if length > self.size && may_cut {
+                self.held = Some(next);
                 break;
             }
-            piece.push(line);
+            line = next;
         }
-        (!piece.is_empty()).then_some(piece)
+        Some(Piece { head, lines })
     }
 }
 
-/// True for a line with a word G0 to G3 and no comment: cheap, and sure where it says yes.
-fn names_interpolation(line: &[u8]) -> bool {
-    let code = |at: usize| {
+/// True for a line that names an interpolation, false for one that leaves it in force; none where a look at its bytes
+/// cannot tell: comments, skipped blocks, heads of programs, codes that are unknown or belong to cycles.
+fn names_interpolation(line: &[u8], control: &Control) -> Option<bool> {
+    if line.iter().any(|byte| matches!(byte, b'(' | b'/' | b'%' | b':' | b'O' | b'o')) {
+        return None;
+    }
+    let mut named = false;
+    for (at, _) in line.iter().enumerate().filter(|(_, byte)| byte.eq_ignore_ascii_case(&b'G')) {
         let rest = &line[at + 1..];
-        let rest = rest.strip_prefix(b"0").unwrap_or(rest);
-        let whole = |rest: &[u8]| rest.first().is_none_or(|b| !b.is_ascii_digit() && *b != b'.');
-        // G0 with its zero taken off, or one of G1 to G3.
-        line[at].eq_ignore_ascii_case(&b'G')
-            && (line.get(at + 1) == Some(&b'0') && whole(rest)
-                || rest.first().is_some_and(|b| (b'0'..=b'3').contains(b)) && whole(&rest[1..]))
-    };
-    !line.contains(&b'(') && (0..line.len()).any(code)
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count();
+        let number = std::str::from_utf8(&rest[..digits]).ok()?.parse().ok()?;
+        let op = control.code('G', number, &[])?.op;
+        match op.group() {
+            Group::Motion if matches!(op, Op::Rapid | Op::Linear | Op::ArcCw | Op::ArcCcw) => named = true,
+            Group::Motion | Group::Cycle => return None,
+            _ => {}
+        }
+    }
+    Some(named)
 }
 
 /// Reads and lowers a piece; none where it is not plain.
-fn lower(input: &Input, lines: Vec<Line>, source: &Control) -> Option<Lowered> {
+fn lower(input: &Input, piece: Piece, source: &Control) -> Option<Lowered> {
     let entry = source.entry();
     let mut blocks = Vec::new();
+    let lines: Vec<Line> = piece.head.into_iter().chain(piece.lines).collect();
     lines.iter().for_each(|line| (entry.parse)(&input.bytes, line.text, &mut blocks));
     let plain = blocks
         .iter()
@@ -134,7 +167,13 @@ fn lower(input: &Input, lines: Vec<Line>, source: &Control) -> Option<Lowered> {
     if !plain {
         return None;
     }
-    let lowered = (entry.lower)(&ParsedFile { source: &input.bytes, lines, blocks }, 0, &input.name, source);
+    let parsed = ParsedFile { source: &input.bytes, lines, blocks };
+    let mut lowered = (entry.lower)(&parsed, 0, &input.name, source);
+    if let (Some(head), Some((program, found))) = (piece.head, lowered.programs.first_mut()) {
+        let is_head = |span: Span| head.text.start <= span.start && span.end <= head.text.end;
+        program.blocks.iter_mut().for_each(|block| block.stmts.retain(|stmt| !is_head(stmt.site.span)));
+        found.retain(|diagnostic| !is_head(diagnostic.span));
+    }
     let straight = |program: &Program| {
         program.blocks.iter().all(|block| {
             matches!(block.term.kind, TermKind::Jump(_) | TermKind::End { .. } | TermKind::Stray)
@@ -266,6 +305,7 @@ mod tests {
         let mut text = String::from("%\nO1234 (PLATE)\nG21 G90 G17\n");
         for n in 0..lines {
             text += &match n % 11 {
+                _ if (700..1200).contains(&n) => format!("X{n}. I1. F{n}.\n"),
                 0 => format!("N{n} G0 X{} Y-.{n} (RAPID {n})\n", n % 97),
                 1 => format!("G1 Z-{}. F100\n", n % 7),
                 2 => "X1 Y2\n".into(),
@@ -325,23 +365,30 @@ mod tests {
     }
 
     #[test]
-    fn pieces_are_cut_where_an_interpolation_is_named() {
-        for (line, cut) in [
-            ("N10 G01 X1.", true),
-            ("g0x1", true),
-            ("G00", true),
-            ("G0", true),
-            ("G3 X1. R2.", true),
-            ("X1. G03", true),
-            ("G17", false),
-            ("G028 X0", false),
-            ("G1.1", false),
-            ("G10 L2", false),
-            ("X1. Y2.", false),
-            ("(G1) X1.", false),
-            ("G", false),
+    fn pieces_are_cut_where_an_interpolation_is_sure() {
+        let control = crate::dialect::registry::all().iter().filter(|entry| entry.emit.is_some());
+        let control = control.filter_map(|entry| Control::plain(entry.name)).next().unwrap();
+        for (line, named) in [
+            ("N10 G01 X1.", Some(true)),
+            ("g0x1", Some(true)),
+            ("G00", Some(true)),
+            ("G0", Some(true)),
+            ("G3 X1. R2.", Some(true)),
+            ("X1. G03", Some(true)),
+            ("G17 G1", Some(true)),
+            ("G17", Some(false)),
+            ("G10 L2", None),
+            ("X1. Y2.", Some(false)),
+            ("", Some(false)),
+            ("/G1 X1.", None),
+            ("(G1) X1.", None),
+            ("O1234", None),
+            ("%", None),
+            ("G81 X1.", None),
+            ("G1.1", None),
+            ("G", None),
         ] {
-            assert_eq!(names_interpolation(line.as_bytes()), cut, "{line}");
+            assert_eq!(names_interpolation(line.as_bytes(), &control), named, "{line}");
         }
     }
 }
