@@ -35,6 +35,8 @@ enum Feed {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Modal {
     settings: [Setting; Group::ALL.len()],
+    /// True where some way here cancelled all zero shifts and selected none since.
+    pub may_be_cancelled: bool,
     feed: Feed,
     /// The open modal calls, innermost last; absent where paths disagree.
     pub calls: Option<Vec<Call>>,
@@ -43,7 +45,12 @@ pub struct Modal {
 impl Modal {
     /// Nothing known: how a main program starts.
     pub fn unknown() -> Self {
-        Self { settings: [Setting::Unknown; Group::ALL.len()], feed: Feed::Unknown, calls: Some(Vec::new()) }
+        Self {
+            settings: [Setting::Unknown; Group::ALL.len()],
+            may_be_cancelled: false,
+            feed: Feed::Unknown,
+            calls: Some(Vec::new()),
+        }
     }
 
     /// What is in force of a group.
@@ -115,6 +122,9 @@ impl Modal {
         if op.group() != Group::OneShot {
             self.settings[op.group() as usize] = Setting::Known(op, number);
         }
+        if op.group() == Group::WorkOffset {
+            self.may_be_cancelled = op == Op::ShiftCancel;
+        }
         if op.group() == Group::Motion {
             self.settings[Group::Cycle as usize] = Setting::Known(Op::CycleOff, None);
         }
@@ -138,6 +148,10 @@ impl Modal {
         }
         if self.feed != other.feed && self.feed != Feed::Unknown {
             self.feed = Feed::Unknown;
+            changed = true;
+        }
+        if other.may_be_cancelled && !self.may_be_cancelled {
+            self.may_be_cancelled = true;
             changed = true;
         }
         if self.calls != other.calls && self.calls.is_some() {

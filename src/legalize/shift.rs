@@ -6,10 +6,11 @@
 //! machine-coordinate block is. Counter-example: a cut at feed with shifts cancelled, which is refused.
 
 use super::emptied::drop_emptied;
+use super::modal::reachable;
 use super::{Context, Modal, ModalFacts};
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Module, NcItem, Stmt, StmtKind};
+use crate::ir::{BlockId, Module, NcItem, Stmt, StmtKind, TermKind};
 use std::collections::BTreeMap;
 
 /// Marks the moves under cancelled shifts.
@@ -22,6 +23,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let facts = ModalFacts::of(module, &context.entry);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        let main = reachable(program, BlockId(0));
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
@@ -29,6 +31,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if let Some((code, what)) = mark(stmt, &state) {
                     context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));
                 }
+            }
+            if matches!(block.term.kind, TermKind::Return { .. })
+                && state.may_be_cancelled
+                && main.contains(&BlockId(at as u32))
+            {
+                let what = "it returns with all zero shifts cancelled, where the target has a work offset: its callers must be converted together with it";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, block.term.site.span, what));
             }
             drop_emptied(block);
         }
@@ -54,7 +63,12 @@ fn mark(stmt: &mut Stmt, state: &Modal) -> Option<(Code, &'static str)> {
             nc.items.insert(at.or(first_word).unwrap_or(0), NcItem::Op(Op::MachineOnce));
             match (state.op(Group::Motion), state.op(Group::Distance)) {
                 (Some(Op::Rapid), Some(Op::Absolute)) => match state.op(Group::LengthComp) {
+                    _ if nc.word(Role::Z).is_none() => None,
                     Some(Op::LengthOff) => None,
+                    Some(_) => Some((
+                        Code::NoEquivalent,
+                        "a move with all zero shifts cancelled and a tool length in force: the target's machine coordinates leave the length out",
+                    )),
                     _ => Some((
                         Code::Conditional,
                         "the move is marked as one in machine coordinates, which on the target also leaves tool length compensation out for the block",
@@ -71,6 +85,10 @@ fn mark(stmt: &mut Stmt, state: &Modal) -> Option<(Code, &'static str)> {
             }
         }
         Some(_) => None,
+        None if state.may_be_cancelled => Some((
+            Code::NoEquivalent,
+            "all zero shifts are cancelled on some of the ways that lead to this move, on others not: the target's machine coordinates are for a block, not for a way",
+        )),
         None => Some((
             Code::Conditional,
             "which work offset is in force here depends on what ran before; the target keeps the one it has",

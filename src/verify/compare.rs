@@ -3,7 +3,7 @@
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe, returns};
 use super::paths::{apart, arcs_apart, ends, goes_nowhere, leaves};
-use super::substitutes::{is_builders, is_idle, is_left_out, stands_for};
+use super::substitutes::{cannot_cancel, is_builders, is_idle, is_left_out, stands_for};
 use super::texts::say_the_same;
 use crate::control::trace::{Event, Happening, Position};
 use crate::control::{End, Run, Stop};
@@ -64,7 +64,7 @@ pub fn compare<'r>(
 ) -> Comparison<'r> {
     let (ours, theirs) = (observe(source.0, source.1), observe(target.0, target.1));
     let found = Comparison::default();
-    let mut pairs = Pairs { target: target.0, tolerance, found, at: [None; 2] };
+    let mut pairs = Pairs { target: target.0, tolerance, found, at: [None; 2], uncancelled: false };
     pairs.walk(&ours, &theirs, is_cut(source.1) || is_cut(target.1));
     let mut found = pairs.found;
     if found.difference.is_some() || is_cut(source.1) || is_cut(target.1) {
@@ -83,6 +83,8 @@ struct Pairs<'p, 'r> {
     found: Comparison<'r>,
     /// Where each side's tool is; none before its first move.
     at: [Option<Position>; 2],
+    /// True where the source returns without a work offset, which the target cannot.
+    uncancelled: bool,
 }
 
 impl<'r> Pairs<'_, 'r> {
@@ -138,7 +140,12 @@ impl<'r> Pairs<'_, 'r> {
             return passes;
         }
         if side == 1 {
-            return is_idle(what);
+            return is_idle(what) || (self.uncancelled && matches!(what, Happening::WorkOffset { .. }));
+        }
+        if let Some(text) = cannot_cancel(self.target, what) {
+            self.found.substituted.insert(text);
+            self.uncancelled = true;
+            return true;
         }
         let left_out = is_left_out(self.target, what);
         self.found.substituted.extend(left_out.clone());
@@ -285,6 +292,8 @@ fn differ(
         (Message { text }, Message { text: other }) | (Output { text }, Output { text: other }) => {
             (!say_the_same(text, other, room)).then_some("the text is another")
         }
+        // The operator is shown more than before.
+        (Stop, Message { .. }) => None,
         (Asked { answer }, Asked { answer: other }) => {
             differs(*answer, *other).then_some("the answer is another")
         }
@@ -300,6 +309,7 @@ fn differ(
 fn texts(source: &Happening, target: &Happening) -> Option<(String, String)> {
     let show = |what: &Happening| match what {
         Happening::Message { text } | Happening::Output { text } => Some(text.trim().to_owned()),
+        Happening::Stop => Some(String::new()),
         Happening::Alarm(stop) => {
             stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
         }

@@ -25,6 +25,13 @@ pub fn is_left_out(target: &Side<'_>, source: &Happening) -> Option<String> {
     (quiet && lacks(target, *operation)).then(|| format!("the target has no {operation}: it is left out"))
 }
 
+/// A return with no work offset in force, where the target always has one. The conversion marks the moves of the
+/// callers that it knows, and each of them is compared.
+pub fn cannot_cancel(target: &Side<'_>, source: &Happening) -> Option<String> {
+    let none = matches!(source, Happening::WorkOffset { number: 0 }) && lacks(target, Op::ShiftCancel);
+    none.then(|| "it returns with all zero shifts cancelled, which the target cannot do".to_owned())
+}
+
 /// What the target does and nobody could tell: it reads ahead less far.
 pub fn is_idle(target: &Happening) -> bool {
     matches!(target, Happening::Other { operation: Op::LimitLookahead, .. })

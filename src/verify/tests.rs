@@ -16,8 +16,9 @@ fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32
         .zip(&controls)
         .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse))
         .collect();
-    let ours = [LoadedFile { name: "a.nc", parsed: &parsed[0] }];
-    let theirs = [LoadedFile { name: "b.nc", parsed: &parsed[1] }];
+    // As subprograms are named where the file's name says what they are.
+    let ours = [LoadedFile { name: "cycle1.nc", parsed: &parsed[0] }];
+    let theirs = [LoadedFile { name: "cycle2.nc", parsed: &parsed[1] }];
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
     let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
@@ -228,4 +229,34 @@ fn fadal_programs() {
         #V1=V1+1\n#:A\n#R1=V1\nG1 X+R1 F10.\nM5\nM30\n%\n";
     differs("fadal", program, &program.replace("G1 X+R1", "G1 X-R1"), "elsewhere");
     differs("fadal", program, &program.replace("GT 2", "GE 2"), "elsewhere");
+}
+
+#[test]
+fn a_stop_may_show_more_and_not_less() {
+    let program = "O1\nG0X1.\nM0\nG0X2.\nM30\n";
+    let found = within("fanuc", program, &program.replace("M0\n", "M0(TURN)\n"));
+    assert_eq!(found.witness, None);
+    assert_eq!(found.texts, [(String::new(), "TURN".to_owned())]);
+    differs("fanuc", &program.replace("M0\n", "M0(TURN)\n"), program, "different things");
+    differs("fanuc", &program.replace("M0\n", "M0(TURN)\n"), &program.replace("M0\n", "M0(HOLD)\n"), "text");
+    differs("fanuc", program, &program.replace("M0\n", "(TURN)\n"), "");
+}
+
+#[test]
+fn a_return_without_a_work_offset_is_the_callers_matter() {
+    let across = |source: &str, target: &str| run("cc100", source, "fanuc", target, &[]);
+    let found = across("G53\nM2\n", "O1\nM99\n");
+    assert_eq!(found.outcome, Outcome::Undecided, "{found:#?}");
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("cancelled")), "{found:#?}");
+    // Any other work offset that the caller would get is a difference, and so are the moves here.
+    for (source, target) in [
+        ("G55\nM2\n", "O1\nM99\n"),
+        ("G54\nM2\n", "O1\nG55\nM99\n"),
+        ("G90\nG53\nG0 X1\nM2\n", "O1\nG90G0X1.\nM99\n"),
+        ("G90\nG53\nG0 X1\nM2\n", "O1\nM99\n"),
+    ] {
+        assert_eq!(across(source, target).outcome, Outcome::Different, "{source}{target}");
+    }
+    // On a control that can do without one it is to do without.
+    differs("cc100", "G53\nM2\n", "G90\nM2\n", "different things");
 }

@@ -5,7 +5,7 @@ use super::register::{self, Source};
 use super::words::Planned;
 use crate::canon::Func;
 use crate::diag::Diagnostic;
-use crate::ir::{BinOp, Expr, Place, Site, StmtKind, Var};
+use crate::ir::{BinOp, Cond, Expr, Nc, Place, Relation, Site, StmtKind, TermKind, Var};
 use crate::syntax::{
     Block, ExprKind, Index, Item, ItemKind, Label, TestSubject, VarRef, Word, for_each_expr,
 };
@@ -59,12 +59,26 @@ impl Lowering<'_> {
     }
 
     fn act(&mut self, planned: Planned, site: &Site) {
-        for nc in planned.blocks {
+        if let Some((change, number)) = planned.change {
+            self.change_tool(change, number, site);
+        }
+        if let Some(nc) = planned.block {
             self.push(StmtKind::Nc(nc), site);
         }
         if let Some(flow) = planned.flow {
             self.flow(flow, site);
         }
+    }
+
+    /// Changes the tool, unless its number turns out to be 0.
+    fn change_tool(&mut self, change: Nc, number: Option<Expr>, site: &Site) {
+        let Some(number) = number else { return self.push(StmtKind::Nc(change), site) };
+        let cond = Cond::Compare(Relation::NotEqual, number, Expr::Number(0.0));
+        let (yes, no) = (self.build.fresh(), self.build.fresh());
+        self.build.end(TermKind::Branch { cond, yes, no }, site.clone());
+        self.build.start(yes);
+        self.push(StmtKind::Nc(change), site);
+        self.build.start(no);
     }
 
     /// Lowers a statement; false where it says nothing.

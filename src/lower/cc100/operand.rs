@@ -99,8 +99,9 @@ impl Lowering<'_> {
         match changes {
             Some("t") if none && length => {}
             Some("t") => {
-                let change = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, tool.clone())];
-                plan.blocks.push(Nc { items: change });
+                let items = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, tool.clone())];
+                let may_be_none = length && self.whole(word).is_none_or(|number| number == 0.0);
+                plan.change = Some((Nc { items }, may_be_none.then(|| tool.clone())));
             }
             Some(_) => self.add(nc, NcItem::Word(Role::Tool, tool.clone()), span),
             None => self.findings.not_understood(span, "no source says what the tool word does"),

@@ -13,8 +13,10 @@ use crate::text::Span;
 /// What a block's words come to.
 #[derive(Default)]
 pub(super) struct Planned {
-    /// Blocks of operations, one after the other.
-    pub blocks: Vec<Nc>,
+    /// The tool change ahead of the rest, and the number that must not be 0 for it.
+    pub change: Option<(Nc, Option<Expr>)>,
+    /// The operations.
+    pub block: Option<Nc>,
     /// Where they send the control.
     pub flow: Option<Flow>,
 }
@@ -65,7 +67,7 @@ impl<'a> Lowering<'a> {
             }
         }
         if !nc.items.is_empty() {
-            plan.blocks.push(nc);
+            plan.block = Some(nc);
         }
         plan
     }
@@ -153,7 +155,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The constant that a word holds, its own or that of its variable.
-    fn whole(&self, word: &Word) -> Option<f64> {
+    pub(super) fn whole(&self, word: &Word) -> Option<f64> {
         let value = word.value.as_ref()?;
         constant(value).or_else(|| match &value.kind {
             ExprKind::Variable(variable) => self.constants.value(variable),
