@@ -11,7 +11,8 @@ use super::{Context, ModalFacts};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{
-    BlockId, Builder, Call, Callee, Class, Module, NcItem, Place, Program, Site, StmtKind, TermKind, Var,
+    BlockId, Builder, Call, Callee, Class, Expr, Module, NcItem, Place, Program, Site, StmtKind, TermKind,
+    Var,
 };
 use crate::syntax::ProgramName;
 
@@ -32,7 +33,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let done = expansion.expand(index, program, None, context);
         module.programs[index] = done;
     }
-    for (origin, copy) in expansion.copies {
+    for Copied { origin, copy, .. } in expansion.copies {
         module.programs.push(copy);
         context.origins.push(context.origins[origin]);
     }
@@ -44,12 +45,21 @@ fn is_modal(program: &Program) -> bool {
     stmts.any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff))
 }
 
+/// A macro with outer calls in it.
+struct Copied {
+    /// Which program it is of.
+    origin: usize,
+    /// The outer calls, outermost first.
+    under: Vec<Call>,
+    copy: Program,
+}
+
 struct Expansion {
     module: Module,
     facts: ModalFacts,
     native: bool,
-    /// Copies of macros with outer calls in them, and which programs they are of.
-    copies: Vec<(usize, Program)>,
+    /// Copies of macros with outer calls in them.
+    copies: Vec<Copied>,
 }
 
 /// How deep modal calls may nest: as deep as macro calls do anywhere.
@@ -157,6 +167,11 @@ impl Expansion {
         if calls.is_empty() || self.native {
             return call;
         }
+        if calls.iter().any(reads_locals) {
+            let why = "modal calls are nested here, and an outer one has arguments that are computed from variables of its level";
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+            return call;
+        }
         let found = match &call.callee {
             Callee::Program(name) => {
                 let at = self.module.programs.iter().position(|p| p.name.as_ref() == Some(name));
@@ -182,15 +197,23 @@ impl Expansion {
                         other => format!("{other:?}"),
                     })
                     .collect();
-                let name = ProgramName::Name(format!("{} UNDER {}", written(&name), under.join(" ")));
-                if !self.copies.iter().any(|(_, copy)| copy.name.as_ref() == Some(&name)) {
+                let text = format!("{} UNDER {}", written(&name), under.join(" "));
+                let same = |copied: &&Copied| copied.origin == at && copied.under == calls;
+                let known = self.copies.iter().find(same).and_then(|copied| copied.copy.name.clone());
+                let name = known.unwrap_or_else(|| {
+                    // The outer calls may differ in their arguments only.
+                    let taken = self.copies.len();
+                    let name = ProgramName::Name(match taken {
+                        0 => text,
+                        n => format!("{text} {n}"),
+                    });
                     let mut copy = self.module.programs[at].clone();
                     copy.name = Some(name.clone());
                     // Noted first: a macro that moves under itself would copy itself for ever.
-                    self.copies.push((at, copy.clone()));
-                    let slot = self.copies.len() - 1;
-                    self.copies[slot].1 = self.expand(at, &copy, Some(&calls), context);
-                }
+                    self.copies.push(Copied { origin: at, under: calls.clone(), copy: copy.clone() });
+                    self.copies[taken].copy = self.expand(at, &copy, Some(&calls), context);
+                    name
+                });
                 call.callee = Callee::Program(name);
             }
             _ => {
@@ -210,6 +233,17 @@ impl Expansion {
             call.arguments.iter().any(|argument| written.contains(&argument.local))
         })
     }
+}
+
+/// True where the arguments of a call mean another thing in a program that it runs under.
+fn reads_locals(call: &Call) -> bool {
+    let mut found = false;
+    for argument in &call.arguments {
+        argument.value.walk(&mut |e| {
+            found |= matches!(e, Expr::Indirect(..) | Expr::Var(Var { class: Class::Local, .. }));
+        });
+    }
+    found
 }
 
 /// Leaves of a block what people wrote in it.

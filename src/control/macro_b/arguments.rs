@@ -91,6 +91,10 @@ impl<'c> Runner<'c> {
         let Some(number) = value.filter(|value| word.form == Form::Bare && *value != 0.0) else {
             return Ok(value);
         };
+        let rows = &self.session.control.dialect().arguments;
+        if let Some(row) = rows.iter().find(|row| row.letter == word.letter && row.bare.is_some()) {
+            self.session.trace.rest_on(row);
+        }
         let role = self.session.control.word(word.letter, word.comma).map(|row| row.role);
         let increment = match role {
             Some(role) if role.is_integer() => return Ok(value),
