@@ -20,21 +20,28 @@ pub fn complain(message: impl std::fmt::Display) -> u8 {
 
 /// Reads the programs under the paths; faults are said, and any of them is fatal.
 pub fn read(paths: &[PathBuf]) -> Result<Vec<Input>, u8> {
-    let endings: Vec<String> = registry::all()
-        .iter()
-        .filter_map(|entry| entry.dialect().ok())
-        .flat_map(|dialect| dialect.extensions.clone())
-        .collect();
-    let (inputs, errors) = gather(paths, &endings);
-    if errors.is_empty() {
-        return Ok(inputs);
-    }
+    let (inputs, errors) = gather(paths, &endings());
+    fit(inputs, &errors)
+}
+
+/// Endings of program files, by the tables of all dialects.
+pub fn endings() -> Vec<String> {
+    let dialects = registry::all().iter().filter_map(|entry| entry.dialect().ok());
+    dialects.flat_map(|dialect| dialect.extensions.clone()).collect()
+}
+
+/// What was read of the programs, unless a fault among them is fatal.
+pub fn fit<T>(read: Vec<T>, errors: &[InputError]) -> Result<Vec<T>, u8> {
     let harmless = |error: &InputError| matches!(error, InputError::Empty(_) | InputError::Binary(..));
-    for error in &errors {
+    for error in errors {
         complain(error);
     }
     // In a folder of good programs one that is no program is left out; alone it is all there was.
-    if inputs.is_empty() || !errors.iter().all(harmless) { Err(UNUSABLE) } else { Ok(inputs) }
+    if errors.is_empty() || (!read.is_empty() && errors.iter().all(harmless)) {
+        Ok(read)
+    } else {
+        Err(UNUSABLE)
+    }
 }
 
 /// The control of a dialect, with a machine profile where one is given for it.

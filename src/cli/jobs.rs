@@ -2,7 +2,7 @@
 
 use super::common::{complain, control, controls, dialect_of, names, own_profile, read};
 use crate::dialect::Control;
-use crate::library::{Input, Lock, Project, plan, same_file};
+use crate::library::{Files, Input, Lock, Project, plan};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -39,13 +39,14 @@ pub struct Wish<'a> {
 /// The jobs, planned: every place is known, and no two files go to one.
 pub fn jobs(wish: &Wish<'_>) -> Result<Vec<Job>, u8> {
     let jobs = if wish.paths.is_empty() { of_project(wish)? } else { vec![of_paths(wish)?] };
+    let inputs = Files::of(jobs.iter().flat_map(|job| &job.inputs).map(|input| input.path.as_path()));
     let mut taken = BTreeSet::new();
     for place in jobs.iter().flat_map(|job| job.places.iter().flatten().chain(&job.lock_path)) {
         if !taken.insert(place) {
             let what = "several libraries would be written there; nothing was written";
             return Err(complain(format!("{}: {what}", place.display())));
         }
-        if jobs.iter().flat_map(|job| &job.inputs).any(|input| same_file(&input.path, place)) {
+        if inputs.holds(place) {
             return Err(complain(format!("{} is an input and would be overwritten", place.display())));
         }
     }

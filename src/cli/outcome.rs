@@ -43,25 +43,26 @@ pub fn check_reports(reports: &[PathBuf], jobs: &[Job]) -> Result<(), u8> {
 }
 
 /// Everything that conversions write: programs, locks, reports.
-pub fn outputs(jobs: &[Job], parts: &[Part<'_>], reports: &[PathBuf]) -> Vec<Output> {
+pub fn outputs<'p>(jobs: &'p [Job], parts: &[Part<'p>], reports: &[PathBuf]) -> Vec<Output<'p>> {
     let mut outputs = Vec::new();
     for (job, part) in jobs.iter().zip(parts) {
         let Some(places) = &job.places else { continue };
         for ((text, place), input) in part.conversion.texts.iter().zip(places).zip(&job.inputs) {
             let bytes = match text {
-                _ if part.from == part.to => input.bytes.clone(),
-                Some(text) => text.clone().into_bytes(),
+                _ if part.from == part.to => input.bytes.as_slice(),
+                Some(text) => text.as_bytes(),
                 None => continue,
             };
-            outputs.push(Output { path: place.clone(), bytes });
+            outputs.push(Output { path: place.clone(), bytes: bytes.into() });
         }
         if let Some(path) = &job.lock_path {
-            outputs.push(Output { path: path.clone(), bytes: part.conversion.lock.print().into_bytes() });
+            outputs
+                .push(Output { path: path.clone(), bytes: part.conversion.lock.print().into_bytes().into() });
         }
     }
     for path in reports {
         if let Some(render) = renderer(path) {
-            outputs.push(Output { path: path.clone(), bytes: render(parts).into_bytes() });
+            outputs.push(Output { path: path.clone(), bytes: render(parts).into_bytes().into() });
         }
     }
     outputs
@@ -71,11 +72,11 @@ pub fn outputs(jobs: &[Job], parts: &[Part<'_>], reports: &[PathBuf]) -> Vec<Out
 pub fn certificates(
     targets: &[Vec<Option<PathBuf>>],
     certificates: &[Vec<Option<Certificate>>],
-) -> Vec<Output> {
+) -> Vec<Output<'static>> {
     let pairs = targets.iter().zip(certificates).flat_map(|(places, files)| places.iter().zip(files));
     let beside = pairs.filter_map(|(place, certificate)| {
         let path = certificate_of(place.as_ref()?);
-        Some(Output { path, bytes: certificate.as_ref()?.print().into_bytes() })
+        Some(Output { path, bytes: certificate.as_ref()?.print().into_bytes().into() })
     });
     beside.collect()
 }

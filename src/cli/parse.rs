@@ -2,8 +2,9 @@
 
 use super::{FOUND, WELL, common};
 use crate::dialect::registry;
+use crate::library::{Input, InputError, Source, sources};
 use crate::report::Sheet;
-use crate::syntax::{parse_file, parse_totals};
+use crate::syntax::{ParseTotals, Parser, parse_faults, parse_totals};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -41,41 +42,43 @@ struct Counts {
 }
 
 pub fn run(arguments: &Arguments) -> u8 {
-    let inputs = match common::read(&arguments.paths) {
-        Ok(inputs) => inputs,
-        Err(code) => return code,
-    };
-    let name = match common::dialect_of(arguments.dialect.as_deref(), &inputs) {
-        Ok(name) => name,
-        Err(code) => return code,
-    };
+    match work(arguments) {
+        Ok(code) | Err(code) => code,
+    }
+}
+
+fn work(arguments: &Arguments) -> Result<u8, u8> {
+    let (sources, errors) = sources(&arguments.paths, &common::endings());
+    let mut sources = common::fit(sources, &errors)?;
+    let heads = if arguments.dialect.is_some() { &mut [] } else { sources.as_mut_slice() };
+    // What cannot be read is said below.
+    let heads: Vec<Input> = heads.iter_mut().filter_map(|source| source.head().ok()).collect();
+    let name = common::dialect_of(arguments.dialect.as_deref(), &heads)?;
     let Some(parse) = registry::find(&name).map(|entry| entry.parse) else {
-        return common::complain(format!("no dialect is named '{name}': use one of {}", common::names()));
+        return Err(common::complain(format!(
+            "no dialect is named '{name}': use one of {}",
+            common::names()
+        )));
     };
     let start = Instant::now();
-    let mut counts = Counts {
-        files: inputs.len(),
-        bytes: 0,
-        blocks: 0,
-        unparsed: 0,
-        faulty: 0,
-        lossless: 0,
-        seconds: 0.0,
-    };
-    for input in &inputs {
-        let totals = parse_totals(&input.bytes, parse);
-        counts.bytes += input.bytes.len();
-        counts.blocks += totals.blocks;
-        counts.unparsed += totals.unparsed;
-        counts.faulty += totals.faulty;
-        counts.lossless += usize::from(totals.lossless);
-        if arguments.faults && totals.faulty > 0 {
-            let sheet = Sheet::new(&input.path.display().to_string(), &input.bytes);
-            for fault in parse_file(&input.bytes, parse).blocks.iter().flat_map(|block| &block.errors) {
-                eprint!("{}", sheet.draw(&fault.clone().into()));
+    let mut counts =
+        Counts { files: 0, bytes: 0, blocks: 0, unparsed: 0, faulty: 0, lossless: 0, seconds: 0.0 };
+    let (mut read, mut errors) = (Vec::new(), Vec::new());
+    for source in sources {
+        match totals(source, parse, arguments.faults) {
+            Ok((bytes, totals)) => {
+                counts.files += 1;
+                counts.bytes += bytes;
+                counts.blocks += totals.blocks;
+                counts.unparsed += totals.unparsed;
+                counts.faulty += totals.faulty;
+                counts.lossless += usize::from(totals.lossless);
+                read.push(bytes);
             }
+            Err(error) => errors.push(error),
         }
     }
+    common::fit(read, &errors)?;
     counts.seconds = start.elapsed().as_secs_f64();
     match arguments.format {
         Format::Json => common::print(&(serde_json::to_string(&counts).unwrap_or_default() + "\n")),
@@ -91,5 +94,20 @@ pub fn run(arguments: &Arguments) -> u8 {
             counts.seconds
         )),
     }
-    if counts.unparsed == 0 && counts.lossless == counts.files { WELL } else { FOUND }
+    Ok(if counts.unparsed == 0 && counts.lossless == counts.files { WELL } else { FOUND })
+}
+
+/// The length of a file and what it amounts to; with `draw`, every fault of it is drawn.
+fn totals(source: Source, parse: Parser, draw: bool) -> Result<(usize, ParseTotals), InputError> {
+    if !draw {
+        let mut totals = ParseTotals::none();
+        let bytes = source.pieces(&mut |piece| totals = totals.plus(parse_totals(piece, parse)))?;
+        return Ok((bytes, totals));
+    }
+    // Drawing a fault takes the text around it.
+    let input = source.read()?;
+    let faults = parse_faults(&input.bytes, parse);
+    let sheet = Sheet::new(&input.path.display().to_string(), &input.bytes);
+    faults.iter().for_each(|fault| eprint!("{}", sheet.draw(&fault.clone().into())));
+    Ok((input.bytes.len(), parse_totals(&input.bytes, parse)))
 }

@@ -78,7 +78,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         }
         let title = inputs.first().map_or_else(String::new, |input| input.name.clone());
         let bytes = backplot(&run.events, &title).into_bytes();
-        write_all(&[Output { path: path.clone(), bytes }]).map_err(complain)?;
+        write_all(&[Output { path: path.clone(), bytes: bytes.into() }]).map_err(complain)?;
     }
     let Some((at, finding)) = finding(&run) else { return Ok(WELL) };
     let file = run.programs.get(at.program as usize).map_or(0, |program| program.file);

@@ -50,7 +50,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         if ours.iter().chain(&theirs).any(|input| input.path == *path) {
             return Err(complain(format!("{} is an input and would be overwritten", path.display())));
         }
-        write_all(&[Output { path: path.clone(), bytes: text.clone().into_bytes() }]).map_err(complain)?;
+        write_all(&[Output { path: path.clone(), bytes: text.as_bytes().into() }]).map_err(complain)?;
     }
     print(&text);
     Ok(if certificate.outcome == Outcome::Same { WELL } else { FOUND })

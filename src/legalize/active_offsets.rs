@@ -9,7 +9,7 @@ use crate::canon::{Group, Op, Sys};
 use crate::ir::{BlockId, Module, Place, StmtKind};
 
 /// Reports writes to offsets that may be in force.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &Module, context: &mut Context<'_>) {
     const FACT: &str = "offset.active.immediately";
     let answer = |control: &crate::dialect::Control| {
         control.behaviour(FACT).filter(|row| row.value != "unknown").map(|row| row.value.clone())

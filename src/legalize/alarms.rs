@@ -10,7 +10,7 @@ use crate::ir::{Expr, Module, StmtKind};
 use crate::text::Span;
 
 /// Reports alarm numbers that are too large, no whole number above 0, or not known.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &Module, context: &mut Context<'_>) {
     let most = |control: &Control| {
         control.behaviour("alarm.max").and_then(|row| row.value.parse().ok()).unwrap_or(f64::INFINITY)
     };

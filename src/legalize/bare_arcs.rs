@@ -10,7 +10,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::{BlockId, Module, Nc, StmtKind};
 
 /// Refuses arcs that say nothing about their curve, and reports those that say it twice.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &Module, context: &mut Context<'_>) {
     let answer = |control: &crate::dialect::Control| {
         control
             .behaviour("arc.without.centre")

@@ -6,11 +6,11 @@
 //! Counter-example: a program outside the library that reads a variable which no program inside it names.
 
 use super::Context;
+use super::census::{Census, Thing};
 use super::registers::{Register, Registers};
 use super::rewrite::{Part, rebuild};
 use crate::ir::{
-    Bank, BinOp, Builder, Class, Cond, Expr, Module, Place, Program, Relation, Site, Stmt, StmtKind,
-    TermKind, Var,
+    Bank, BinOp, Builder, Class, Cond, Expr, Module, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
 };
 
 /// Counts through the registers of a run.
@@ -20,19 +20,12 @@ pub const COUNTER: Var = Var { class: Class::Register, number: 9 };
 const ROW: usize = 6;
 
 /// True where a library clears classes that the target cannot.
-pub fn is_needed(module: &Module, context: &Context<'_>) -> bool {
-    let clears = |program: &Program| {
-        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-        stmts.any(|stmt| matches!(stmt.kind, StmtKind::ClearAll(_)))
-    };
-    !context.target.is("clear.all") && module.programs.iter().any(clears)
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    census.has(Thing::Clear) && !context.target.is("clear.all")
 }
 
 /// Expands the clearing of a class; needs the registers, so it runs behind their allocation.
-pub fn run(module: &mut Module, registers: &Registers, context: &Context<'_>) {
-    if !is_needed(module, context) {
-        return;
-    }
+pub fn run(module: &mut Module, registers: &Registers) {
     for program in &mut module.programs {
         rebuild(program, &mut |builder, part| match part {
             Part::Stmt(Stmt { kind: StmtKind::ClearAll(class), site }) => {

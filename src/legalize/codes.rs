@@ -14,7 +14,7 @@ use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
 use crate::text::Span;
 
 /// Checks every code that is known by its number.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &Module, context: &mut Context<'_>) {
     let coded = |program: &Program| {
         let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.items.iter().any(|i| matches!(i, NcItem::Code(..)))))

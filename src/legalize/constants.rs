@@ -3,6 +3,7 @@
 //! Law: a constant of up to sixteen digits is `(a + b/10^8) * 10^k` with a and b of eight digits each. The arithmetic rounds
 //! twice more than the constant itself; where the result is another number of binary64, that is a review diagnostic.
 
+use super::census::is_long;
 use super::{Context, Position, rewrite_program};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, Expr, Module};
@@ -13,7 +14,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
         rewrite_program(program, &mut |e, position, rewriter| match e {
-            Expr::Number(value) if digits(value) > most && !matches!(position, Position::Argument(_)) => {
+            Expr::Number(value)
+                if is_long(value) && digits(value) > most && !matches!(position, Position::Argument(_)) =>
+            {
                 let (split, made) = split(value);
                 if made != value {
                     found.push((rewriter.span, value, made));

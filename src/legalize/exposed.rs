@@ -1,11 +1,10 @@
 //! Which shared variables a program may read before anything in it, or in what it calls, wrote them.
 
 use super::calls_of;
-use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, StmtKind, TermKind, Var};
+use crate::ir::analysis::{CallGraph, Row, Universe};
+use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
-
-type Set = BTreeSet<Var>;
 
 /// A routine: a program entered at a block.
 type Routine = (usize, BlockId);
@@ -16,47 +15,68 @@ type Routine = (usize, BlockId);
 /// off what every way through it writes; one outside the library adds nothing, because a diagnostic of
 /// its own speaks of it. The sets may be too large, never too small.
 pub struct Exposed {
-    live_in: Vec<Vec<Set>>,
+    universe: Universe,
+    live_in: Vec<Vec<Row>>,
 }
 
 impl Exposed {
     /// Analyses a library.
     pub fn of(module: &Module) -> Self {
+        let universe = universe(module);
         let callees = Callees::of(module);
-        let written = Written::of(module, &callees);
-        let mut live_in: Vec<Vec<Set>> =
-            module.programs.iter().map(|p| vec![Set::new(); p.blocks.len()]).collect();
-        let mut changed = true;
-        while changed {
-            changed = false;
-            for (index, program) in module.programs.iter().enumerate() {
+        let written = Written::of(module, &callees, &universe);
+        let transfers: Vec<Vec<(Row, Row)>> = module
+            .programs
+            .iter()
+            .map(|program| program.blocks.iter().map(|block| transfer(block, &universe)).collect())
+            .collect();
+        let mut live_in: Vec<Vec<Row>> =
+            module.programs.iter().map(|p| vec![universe.none(); p.blocks.len()]).collect();
+        let none = universe.none();
+        callees.graph(module).settle(|index| {
+            let program = &module.programs[index];
+            let mut any = false;
+            let mut changed = true;
+            while std::mem::take(&mut changed) {
                 for (at, block) in program.blocks.iter().enumerate().rev() {
-                    let mut live = Set::new();
+                    let mut live = none.clone();
                     for to in block.term.kind.successors() {
-                        live.extend(live_in[index].get(to.index()).into_iter().flatten());
+                        live.join(live_in[index].get(to.index()).unwrap_or(&none));
                     }
                     if let Some(sure) = written.by_end(index, block, &callees) {
-                        live.retain(|var| !sure.contains(var));
+                        live.subtract(sure);
                     }
                     for (i, entry) in calls_of(block).filter_map(|call| callees.routine(index, call)) {
-                        live.extend(live_in[i].get(entry.index()).into_iter().flatten());
+                        live.join(live_in[i].get(entry.index()).unwrap_or(&none));
                     }
-                    backward(block, &mut live);
-                    if live != live_in[index][at] {
-                        live_in[index][at] = live;
-                        changed = true;
-                    }
+                    let (reads, passes) = &transfers[index][at];
+                    live.intersect(passes);
+                    live.join(reads);
+                    changed |= live_in[index][at].join(&live);
                 }
+                any |= changed;
             }
-        }
-        Self { live_in }
+            any
+        });
+        Self { universe, live_in }
     }
 
     /// What is exposed at the entry of a program.
-    pub fn at_entry(&self, program: usize) -> &Set {
-        static NONE: Set = Set::new();
-        self.live_in.get(program).and_then(|p| p.first()).unwrap_or(&NONE)
+    pub fn at_entry(&self, program: usize) -> BTreeSet<Var> {
+        let row = self.live_in.get(program).and_then(|p| p.first());
+        row.into_iter().flat_map(|row| self.universe.members(row)).collect()
     }
+}
+
+/// The shared variables that programs read.
+fn universe(module: &Module) -> Universe {
+    let mut all = BTreeSet::new();
+    for block in module.programs.iter().flat_map(|program| &program.blocks) {
+        let mut note = |e: &Expr| read(e, &mut |var| all.extend([var]));
+        block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut note));
+        block.term.kind.exprs(&mut note);
+    }
+    Universe::new(&all)
 }
 
 /// Which routine a call runs.
@@ -66,6 +86,15 @@ impl<'m> Callees<'m> {
     fn of(module: &'m Module) -> Self {
         let named = module.programs.iter().enumerate().rev();
         Self(named.filter_map(|(i, p)| Some((p.name.as_ref()?, i))).collect())
+    }
+
+    /// Which program calls which.
+    fn graph(&self, module: &Module) -> CallGraph {
+        let of = |(index, program): (usize, &Program)| {
+            let routines = program.blocks.iter().flat_map(calls_of).filter_map(|c| self.routine(index, c));
+            routines.map(|(callee, _)| (callee, false)).collect()
+        };
+        CallGraph::new(module.programs.iter().enumerate().map(of).collect())
     }
 
     fn routine(&self, program: usize, call: &Call) -> Option<Routine> {
@@ -78,10 +107,10 @@ impl<'m> Callees<'m> {
 }
 
 /// What every way through a called routine writes; absent while no way through it is known.
-struct Written(BTreeMap<Routine, Option<Set>>);
+struct Written(BTreeMap<Routine, Option<Row>>);
 
 impl Written {
-    fn of(module: &Module, callees: &Callees<'_>) -> Self {
+    fn of(module: &Module, callees: &Callees<'_>, universe: &Universe) -> Self {
         let mut written = Self(BTreeMap::new());
         for (index, program) in module.programs.iter().enumerate() {
             for call in program.blocks.iter().flat_map(calls_of) {
@@ -91,23 +120,28 @@ impl Written {
             }
         }
         // From "all variables" down: each round can only take variables away.
-        let routines: Vec<Routine> = written.0.keys().copied().collect();
-        let mut changed = true;
-        while changed {
-            changed = false;
-            for &routine in &routines {
-                let now = written.through(module, routine, callees);
-                if written.0.get(&routine) != Some(&now) {
-                    written.0.insert(routine, now);
-                    changed = true;
+        callees.graph(module).settle(|index| {
+            let own = (index, BlockId(0))..(index + 1, BlockId(0));
+            let routines: Vec<Routine> = written.0.range(own).map(|(routine, _)| *routine).collect();
+            let mut any = false;
+            let mut changed = true;
+            while std::mem::take(&mut changed) {
+                for &routine in &routines {
+                    let now = written.through(module, routine, callees, universe);
+                    if written.0.get(&routine) != Some(&now) {
+                        written.0.insert(routine, now);
+                        changed = true;
+                    }
                 }
+                any |= changed;
             }
-        }
+            any
+        });
         written
     }
 
     /// What is surely written when a call at the end of a block comes back.
-    fn by_end(&self, program: usize, block: &Block, callees: &Callees<'_>) -> Option<&Set> {
+    fn by_end(&self, program: usize, block: &Block, callees: &Callees<'_>) -> Option<&Row> {
         match &block.term.kind {
             TermKind::Call { call, .. } if runs(call) => {
                 self.0.get(&callees.routine(program, call)?)?.as_ref()
@@ -116,17 +150,23 @@ impl Written {
         }
     }
 
-    fn through(&self, module: &Module, routine: Routine, callees: &Callees<'_>) -> Option<Set> {
+    fn through(
+        &self,
+        module: &Module,
+        routine: Routine,
+        callees: &Callees<'_>,
+        universe: &Universe,
+    ) -> Option<Row> {
         let program = module.programs.get(routine.0)?;
-        let mut at_start: BTreeMap<BlockId, Set> = BTreeMap::from([(routine.1, Set::new())]);
+        let mut at_start: BTreeMap<BlockId, Row> = BTreeMap::from([(routine.1, universe.none())]);
         let mut work = vec![routine.1];
-        let mut result: Option<Set> = None;
+        let mut result: Option<Row> = None;
         while let Some(id) = work.pop() {
             let (Some(block), Some(before)) = (program.block(id), at_start.get(&id)) else { continue };
             let mut after = before.clone();
             for stmt in block.stmts.iter().filter(|stmt| stmt.site.skip.is_none()) {
                 if let Some(Place::Var(var)) = stmt.kind.target() {
-                    after.insert(*var);
+                    universe.place(*var).iter().for_each(|at| after.insert(*at));
                 }
             }
             if let TermKind::Call { call, .. } = &block.term.kind
@@ -135,18 +175,24 @@ impl Written {
                 match self.0.get(&callee) {
                     // It is not known to come back so far.
                     Some(None) => continue,
-                    Some(Some(sure)) => after.extend(sure.iter().copied()),
+                    Some(Some(sure)) => {
+                        after.join(sure);
+                    }
                     None => {}
                 }
             }
             if let TermKind::Return { .. } = block.term.kind {
-                result = Some(result.map_or_else(|| after.clone(), |so_far| &so_far & &after));
+                match &mut result {
+                    None => result = Some(after.clone()),
+                    Some(so_far) => so_far.intersect(&after),
+                }
             }
             for to in block.term.kind.successors() {
                 match at_start.get_mut(&to) {
                     None => drop(at_start.insert(to, after.clone())),
                     Some(known) => {
-                        let both = &*known & &after;
+                        let mut both = known.clone();
+                        both.intersect(&after);
                         if both == *known {
                             continue;
                         }
@@ -165,29 +211,39 @@ fn runs(call: &Call) -> bool {
     call.count.as_ref().is_none_or(|count| count.constant().is_some_and(|n| n >= 1.0))
 }
 
-fn backward(block: &Block, live: &mut Set) {
-    if !matches!(block.term.kind, TermKind::Jump(_)) {
-        block.term.kind.exprs(&mut |e| read(e, live));
-    }
+/// What a block makes of what is live behind it: of nothing, and of everything.
+fn transfer(block: &Block, universe: &Universe) -> (Row, Row) {
+    let through = |mut live: Row| {
+        backward(block, &mut live, universe);
+        live
+    };
+    (through(universe.none()), through(universe.classes(|_| true)))
+}
+
+fn backward(block: &Block, live: &mut Row, universe: &Universe) {
+    let note = |e: &Expr, live: &mut Row| {
+        read(e, &mut |var| universe.place(var).iter().for_each(|at| live.insert(*at)));
+    };
+    block.term.kind.exprs(&mut |e| note(e, live));
     for stmt in block.stmts.iter().rev() {
         if let Some(Place::Var(var)) = stmt.kind.target()
             && stmt.site.skip.is_none()
         {
-            live.remove(var);
+            universe.place(*var).iter().for_each(|at| live.remove(*at));
         }
         if let StmtKind::ClearAll(class) = &stmt.kind {
-            live.retain(|var| var.class != *class);
+            live.subtract(&universe.classes(|c| c == *class));
         }
-        stmt.kind.exprs(&mut |e| read(e, live));
+        stmt.kind.exprs(&mut |e| note(e, live));
     }
 }
 
-fn read(e: &Expr, live: &mut Set) {
+fn read(e: &Expr, f: &mut dyn FnMut(Var)) {
     e.walk(&mut |e| {
         if let Expr::Var(var) = e
             && var.class.shared()
         {
-            live.insert(*var);
+            f(*var);
         }
     });
 }

@@ -5,6 +5,7 @@
 //! for by data flow.
 
 use super::Context;
+use super::census::{Census, Thing};
 use crate::canon::{Func, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Behaviour, CodeMeaning, Control, Row};
@@ -14,7 +15,8 @@ use crate::ir::{
 };
 use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::{BTreeMap, BTreeSet};
+use smallvec::SmallVec;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// Reports the unconfirmed facts of the target that programs rest on.
 pub fn of_target(module: &Module, context: &mut Context<'_>) {
@@ -23,20 +25,27 @@ pub fn of_target(module: &Module, context: &mut Context<'_>) {
 
 /// Reports the unconfirmed facts of the source about vacant variables that programs rest on: these
 /// hang on where a variable may be vacant, which lowering does not know.
-pub fn of_source(module: &mut Module, context: &mut Context<'_>) {
+pub fn of_source(module: &Module, context: &mut Context<'_>) {
     if context.source.is("vacancy") {
         look(module, context, context.source, "source");
     }
 }
 
 fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &str) {
-    let summaries = Summaries::of(module);
-    let own = context.source.is("vacancy");
+    // Where nothing is computed, nothing vacant is.
+    let own = context.source.is("vacancy") && Census::of(&module.programs).has(Thing::Computed);
+    let summaries = if own { Summaries::of(module) } else { Summaries::default() };
     let given = given(module);
     let none = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
-        let mut found =
-            Found { control, side, said: BTreeSet::new(), all: Vec::new(), home: program.site.span };
+        let mut found = Found {
+            control,
+            side,
+            said: BTreeSet::new(),
+            all: Vec::new(),
+            home: program.site.span,
+            seen: HashSet::new(),
+        };
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
         for (id, block) in program.ids().zip(&program.blocks) {
@@ -78,6 +87,25 @@ struct Found<'c> {
     all: Vec<(Span, String, String)>,
     /// Where a finding goes whose statement has no place of its own.
     home: Span,
+    /// Operations and words of blocks that were looked at.
+    seen: HashSet<Shape>,
+}
+
+/// The operations and words of a block of constants, each word by its role and the sign of its value.
+type Shape = SmallVec<[(u16, i8); 8]>;
+
+/// What a block rests on hangs on no more than this; none where it may.
+fn shape(nc: &Nc) -> Option<Shape> {
+    let part = |item: &NcItem| match item {
+        NcItem::Op(op) => Some((*op as u16, 0)),
+        NcItem::Word(Role::WorkOffset | Role::Repeat, _) | NcItem::Code(..) => None,
+        NcItem::Word(role, Expr::Number(value)) => Some((*role as u16, if *value < 0.0 { -1 } else { 1 })),
+        NcItem::Word(role, Expr::Negate(inner)) => {
+            matches!(**inner, Expr::Number(_)).then_some((*role as u16, -2))
+        }
+        NcItem::Word(..) => None,
+    };
+    nc.items.iter().map(part).collect()
 }
 
 impl Found<'_> {
@@ -111,6 +139,12 @@ impl Found<'_> {
 
     fn block(&mut self, block: &Block) {
         for (at, stmt) in block.stmts.iter().enumerate() {
+            if let StmtKind::Nc(nc) = &stmt.kind
+                && stmt.site.skip.is_none()
+                && shape(nc).is_some_and(|shape| !self.seen.insert(shape))
+            {
+                continue;
+            }
             let span = self.span(block, at);
             stmt.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
             if stmt.site.skip.is_some_and(|level| level > 1) {

@@ -10,7 +10,7 @@ use super::Context;
 use crate::canon::Op;
 use crate::dialect::Control;
 use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Gives each M code a block of its own, past those that the target takes together.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -21,35 +21,52 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         _ => 1,
     };
     let always_turns = target.code_for(Op::SurfaceSpeed, &BTreeMap::new()).is_none();
+    let m_codes: BTreeSet<Op> = Op::ALL.iter().copied().filter(|op| is_m_code(*op, target)).collect();
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
-        let mut out = Vec::with_capacity(block.stmts.len());
-        for mut stmt in std::mem::take(&mut block.stmts) {
-            let mut behind = Vec::new();
-            if let StmtKind::Nc(nc) = &mut stmt.kind {
-                if always_turns {
-                    nc.items.retain(|item| *item != NcItem::Op(Op::TurnsPerMinute));
-                }
-                behind = split(nc, most, target);
-                if nc.items.is_empty() {
-                    stmt.kind = StmtKind::Remark;
-                }
+        let mut behind = Vec::new();
+        for (at, stmt) in block.stmts.iter_mut().enumerate() {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            if always_turns {
+                nc.items.retain(|item| *item != NcItem::Op(Op::TurnsPerMinute));
             }
             let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
-            out.push(stmt);
-            let nc = |item| StmtKind::Nc(Nc { items: vec![item] });
-            out.extend(behind.into_iter().map(|item| Stmt { kind: nc(item), site: site.clone() }));
+            let rest = split(nc, most, &m_codes).into_iter().map(|item| {
+                let kind = StmtKind::Nc(Nc { items: vec![item] });
+                (at, Stmt { kind, site: site.clone() })
+            });
+            behind.extend(rest);
+            if nc.items.is_empty() {
+                stmt.kind = StmtKind::Remark;
+            }
         }
-        block.stmts = out;
+        if !behind.is_empty() {
+            let mut behind = behind.into_iter().peekable();
+            let stmts = std::mem::take(&mut block.stmts).into_iter().enumerate();
+            for (at, stmt) in stmts {
+                block.stmts.push(stmt);
+                while let Some((_, more)) = behind.next_if(|(place, _)| *place == at) {
+                    block.stmts.push(more);
+                }
+            }
+        }
     }
 }
 
+/// True for an operation that the target has an M code for.
+fn is_m_code(op: Op, target: &Control) -> bool {
+    target.code_for(op, &BTreeMap::new()).is_some_and(|row| row.code.starts_with('M'))
+}
+
 /// Takes the M codes past `most` out of a block.
-fn split(nc: &mut Nc, most: usize, target: &Control) -> Vec<NcItem> {
+fn split(nc: &mut Nc, most: usize, m_codes: &BTreeSet<Op>) -> Vec<NcItem> {
     let is_m = |item: &NcItem| match item {
-        NcItem::Op(op) => target.code_for(*op, &BTreeMap::new()).is_some_and(|row| row.code.starts_with('M')),
+        NcItem::Op(op) => m_codes.contains(op),
         NcItem::Code(letter, _) => *letter == 'M',
         NcItem::Word(..) => false,
     };
+    if nc.items.iter().filter(|item| is_m(item)).count() <= most {
+        return Vec::new();
+    }
     let mut seen = 0;
     let (kept, behind) = std::mem::take(&mut nc.items).into_iter().partition(|item| {
         seen += usize::from(is_m(item));

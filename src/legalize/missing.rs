@@ -10,7 +10,7 @@ use crate::ir::{Module, StmtKind};
 use std::collections::BTreeSet;
 
 /// Refuses what the target cannot do.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &Module, context: &mut Context<'_>) {
     let target = context.target.dialect();
     let codes = target.codes.iter().filter(|row| row.preferred).map(|row| row.op);
     let had: BTreeSet<Op> = codes.chain(target.words.iter().filter_map(|row| row.op)).collect();

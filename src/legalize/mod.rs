@@ -13,6 +13,7 @@ mod active_offsets;
 mod alarms;
 mod bare_arcs;
 mod blanks;
+mod census;
 mod chain;
 mod clear;
 mod codes;
@@ -54,12 +55,14 @@ mod truth;
 mod units;
 mod vacancy;
 
+use census::{Census, Thing};
 pub use context::Context;
 pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable};
 use registers::allocate;
 pub use registers::{Register, Registers};
 pub use rewrite::{Position, Prelude, Rewriter, rewrite_program};
 
+use crate::canon::{Op, Role};
 use crate::ir::Module;
 use std::collections::BTreeMap;
 
@@ -67,51 +70,114 @@ use std::collections::BTreeMap;
 pub struct Pass {
     /// Its name, for tests, dumps and `--stop-after`.
     pub name: &'static str,
+    /// Whether anything in a library concerns it: where not, it would change nothing and say nothing.
+    concerns: fn(&Census) -> bool,
     /// What it does to a library.
-    pub run: fn(&mut Module, &mut Context<'_>),
+    run: Run,
+}
+
+enum Run {
+    /// Only has something to say.
+    Reports(fn(&Module, &mut Context<'_>)),
+    Rewrites(fn(&mut Module, &mut Context<'_>)),
+}
+use Run::{Reports, Rewrites};
+
+impl Pass {
+    /// Runs it where anything concerns it.
+    pub fn apply(&self, module: &mut Module, context: &mut Context<'_>) {
+        self.apply_to(&Census::of(&module.programs), module, context);
+    }
+
+    /// As [`Pass::apply`]; true where that may have changed the library.
+    fn apply_to(&self, census: &Census, module: &mut Module, context: &mut Context<'_>) -> bool {
+        if !(self.concerns)(census) {
+            return false;
+        }
+        match self.run {
+            Reports(run) => run(module, context),
+            Rewrites(run) => run(module, context),
+        }
+        matches!(self.run, Rewrites(_))
+    }
 }
 
 /// The passes, in the order they run in.
 pub const PASSES: &[Pass] = &[
-    Pass { name: "source-facts", run: facts::of_source },
-    Pass { name: "blanks", run: blanks::run },
-    Pass { name: "link", run: link::run },
-    Pass { name: "outline", run: outline::run },
-    Pass { name: "codes", run: codes::run },
-    Pass { name: "chain", run: chain::chain },
-    Pass { name: "repeats", run: repeats::run },
-    Pass { name: "modal-calls", run: modal_calls::run },
+    Pass { name: "source-facts", concerns: |c| c.has(Thing::Computed), run: Reports(facts::of_source) },
+    Pass { name: "blanks", concerns: |_| true, run: Rewrites(blanks::run) },
+    Pass { name: "link", concerns: |c| c.has(Thing::Call) || c.has(Thing::Chain), run: Rewrites(link::run) },
+    Pass { name: "outline", concerns: |c| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
+    Pass { name: "codes", concerns: |c| c.has(Thing::Code), run: Reports(codes::run) },
+    Pass { name: "chain", concerns: |c| c.has(Thing::Chain), run: Rewrites(chain::chain) },
+    Pass { name: "repeats", concerns: |c| c.role(Role::Repeat), run: Rewrites(repeats::run) },
+    Pass { name: "modal-calls", concerns: |c| c.has(Thing::Modal), run: Rewrites(modal_calls::run) },
     // Behind the modal calls: the calls that they become must look at the register too.
-    Pass { name: "return-to", run: chain::return_to },
-    Pass { name: "polar", run: polar::run },
-    Pass { name: "bare-arcs", run: bare_arcs::run },
-    Pass { name: "active-offsets", run: active_offsets::run },
-    Pass { name: "increments", run: increments::run },
-    Pass { name: "units", run: units::run },
-    Pass { name: "tapping", run: tapping::run },
-    Pass { name: "reference", run: reference::run },
-    Pass { name: "shift", run: shift::run },
-    Pass { name: "computed-numbers", run: computed_numbers::run },
-    Pass { name: "state", run: state::run },
-    Pass { name: "alarms", run: alarms::run },
-    Pass { name: "dwell", run: dwell::run },
-    Pass { name: "lookahead", run: lookahead::run },
-    Pass { name: "cycle-here", run: cycle_here::run },
-    Pass { name: "substitutes", run: substitutes::run },
-    Pass { name: "machine-codes", run: machine_codes::run },
-    Pass { name: "missing", run: missing::run },
-    Pass { name: "functions", run: functions::run },
-    Pass { name: "truth", run: truth::run },
-    Pass { name: "conditions", run: conditions::run },
-    Pass { name: "constants", run: constants::run },
-    Pass { name: "printed-values", run: operator::hold_values },
-    Pass { name: "vacancy", run: vacancy::run },
+    Pass { name: "return-to", concerns: |c| c.has(Thing::ReturnTo), run: Rewrites(chain::return_to) },
+    Pass {
+        name: "polar",
+        concerns: |c| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance),
+        run: Rewrites(polar::run),
+    },
+    Pass {
+        name: "bare-arcs",
+        concerns: |c| c.op(Op::ArcCw) || c.op(Op::ArcCcw),
+        run: Reports(bare_arcs::run),
+    },
+    Pass { name: "active-offsets", concerns: |c| c.has(Thing::System), run: Reports(active_offsets::run) },
+    Pass { name: "increments", concerns: |c| c.has(Thing::Increments), run: Rewrites(increments::run) },
+    Pass { name: "units", concerns: |_| true, run: Rewrites(units::run) },
+    Pass { name: "tapping", concerns: |c| c.role(Role::Lead), run: Rewrites(tapping::run) },
+    Pass { name: "reference", concerns: |c| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
+    Pass { name: "shift", concerns: |c| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },
+    Pass {
+        name: "computed-numbers",
+        concerns: |c| c.has(Thing::Indirect),
+        run: Rewrites(computed_numbers::run),
+    },
+    Pass {
+        name: "state",
+        concerns: |c| c.has(Thing::System) || c.op(Op::WriteRadius),
+        run: Rewrites(state::run),
+    },
+    Pass { name: "alarms", concerns: |c| c.has(Thing::Message), run: Reports(alarms::run) },
+    Pass {
+        name: "dwell",
+        concerns: |c| c.op(Op::Dwell) || c.role(Role::CycleDwell),
+        run: Rewrites(dwell::run),
+    },
+    Pass {
+        name: "lookahead",
+        concerns: |c| c.has(Thing::Wait) || c.has(Thing::Emptied),
+        run: Rewrites(lookahead::run),
+    },
+    Pass {
+        name: "cycle-here",
+        concerns: |c| c.any_op(|op| op.is_cycle() || op == Op::CycleHere),
+        run: Rewrites(cycle_here::run),
+    },
+    Pass { name: "substitutes", concerns: |_| true, run: Rewrites(substitutes::run) },
+    Pass { name: "machine-codes", concerns: |_| true, run: Rewrites(machine_codes::run) },
+    Pass { name: "missing", concerns: |_| true, run: Reports(missing::run) },
+    Pass {
+        name: "functions",
+        concerns: |c| c.has(Thing::Function) || c.has(Thing::Mod),
+        run: Rewrites(functions::run),
+    },
+    Pass { name: "truth", concerns: |c| c.has(Thing::Truth), run: Rewrites(truth::run) },
+    Pass { name: "conditions", concerns: |c| c.has(Thing::Branch), run: Rewrites(conditions::run) },
+    Pass { name: "constants", concerns: |c| c.has(Thing::Long), run: Rewrites(constants::run) },
+    Pass { name: "printed-values", concerns: |c| c.has(Thing::Print), run: Rewrites(operator::hold_values) },
+    Pass { name: "vacancy", concerns: |c| c.has(Thing::Variable), run: Rewrites(vacancy::run) },
 ];
 
 /// Runs every pass.
 pub fn legalize(module: &mut Module, context: &mut Context<'_>) {
+    let mut census = Census::of(&module.programs);
     for pass in PASSES {
-        (pass.run)(module, context);
+        if pass.apply_to(&census, module, context) {
+            census = Census::of(&module.programs);
+        }
     }
 }
 
@@ -123,14 +189,26 @@ pub fn assign_registers(
     scratch: &[u32],
     context: &mut Context<'_>,
 ) -> Registers {
-    temporaries::run(module, context);
-    let registers = allocate(module, locked, scratch, context);
-    clear::run(module, &registers, context);
+    let census = Census::of(&module.programs);
+    if census.has(Thing::Temp) {
+        temporaries::run(module);
+    }
+    let registers = allocate(module, &census, locked, scratch, context);
+    if clear::concerns(&census, context) {
+        clear::run(module, &registers);
+    }
     retention::check(module, &registers, context);
     // Questions name the register that the answer goes to, and take up the print before them.
-    operator::questions(module, &registers, context);
-    operator::prints(module, context);
-    messages::run(module, context);
+    if census.has(Thing::Input) {
+        operator::questions(module, &registers, context);
+    }
+    if census.has(Thing::Print) {
+        operator::prints(module, context);
+    }
+    // A question becomes a message.
+    if census.has(Thing::Message) || census.has(Thing::Input) {
+        messages::run(module, context);
+    }
     facts::of_target(module, context);
     registers
 }

@@ -309,7 +309,8 @@ impl<'m> Analysis<'m> {
 
     /// A return leaves every routine that the block belongs to.
     fn returned(&mut self, index: usize, id: BlockId, state: &Modal) {
-        let routines: Vec<Routine> = self.callers.keys().copied().filter(|r| r.0 == index).collect();
+        let own = (index, BlockId(0))..(index + 1, BlockId(0));
+        let routines: Vec<Routine> = self.callers.range(own).map(|(routine, _)| *routine).collect();
         for routine in routines {
             let program = &self.module.programs[index];
             let body = self.reach.entry(routine).or_insert_with(|| reachable(program, routine.1));

@@ -5,6 +5,7 @@
 //! them interferes with every other. Temporaries live inside one program and are coloured
 //! ([`super::temporaries`]) before this runs.
 
+use super::census::{Census, Thing};
 use super::clear;
 use super::rewrite::variables_of;
 use super::{Context, Position, Rewriter, rewrite_program};
@@ -46,20 +47,23 @@ impl Registers {
 /// the registers that their programs have temporaries in.
 pub fn allocate(
     module: &mut Module,
+    census: &Census,
     locked: &BTreeMap<String, u32>,
     scratch: &[u32],
     context: &mut Context<'_>,
 ) -> Registers {
     let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
-    for (index, program) in module.programs.iter().enumerate() {
+    // Where no program names any, there is nothing to look for.
+    let named = module.programs.iter().enumerate().filter(|_| census.has(Thing::Variable));
+    for (index, program) in named {
         variables_of(program, &mut |var| {
             users.entry(var).or_insert((index, program.site.span));
         });
     }
-    if clear::is_needed(module, context) {
+    if clear::concerns(census, context) {
         users.insert(clear::COUNTER, (0, Span::default()));
     }
-    let banks = banks(module);
+    let banks = if census.has(Thing::Indirect) { banks(module) } else { BTreeMap::new() };
     for (bank, place) in &banks {
         for number in reached(*bank, context.source) {
             users.entry(Var { class: class_of(*bank), number }).or_insert(*place);

@@ -32,8 +32,9 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
     }
     let exposed = Exposed::of(module);
     for index in roots(module) {
+        let read = exposed.at_entry(index);
         for (var, name, kept) in &lives {
-            if exposed.at_entry(index).contains(var) {
+            if read.contains(var) {
                 let what = if *kept {
                     format!(
                         "{name} keeps its value over power-off on the source, not on the target, and the program reads what an earlier run left in it"

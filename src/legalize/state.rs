@@ -51,7 +51,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             finding.report(index, span, context);
         }
     }
-    if target.system_run(Sys::CycleSeconds).is_none() {
+    if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
         start_timer(module, &callers_of(module, timed), context);
     }
 }

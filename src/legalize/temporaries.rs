@@ -4,14 +4,14 @@
 //! can. A temporary that is alive across a call must not share with any of the callee's, so each such one
 //! gets a number that no other has.
 
-use super::Context;
+use super::rewrite::highest_temp;
 use crate::ir::{Block, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use std::collections::{BTreeMap, BTreeSet};
 
 type Live = BTreeSet<u32>;
 
 /// Gives temporaries their colours.
-pub fn run(module: &mut Module, _: &mut Context<'_>) {
+pub fn run(module: &mut Module) {
     let plans: Vec<Plan> = module.programs.iter().map(Plan::of).collect();
     let shared = plans.iter().flat_map(|plan| plan.colours.values()).max().copied().unwrap_or(0);
     let mut lone = shared;
@@ -37,6 +37,9 @@ struct Plan {
 
 impl Plan {
     fn of(program: &Program) -> Self {
+        if highest_temp(program) == 0 {
+            return Self { colours: BTreeMap::new(), across: BTreeSet::new() };
+        }
         let live = live_out(program);
         let mut apart: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
         let mut across = BTreeSet::new();

@@ -9,7 +9,7 @@ use crate::ir::{Module, Program, validate};
 use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
 use crate::lower::Lowered;
 use crate::opt;
-use crate::syntax::{ProgramName, parse_file};
+use crate::syntax::{ProgramName, parse_faults, parse_file};
 use crate::text::Span;
 use crate::verify;
 use rayon::prelude::*;
@@ -105,10 +105,9 @@ pub fn convert(
     report_twins(&module, inputs, &mut found);
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];
-    let original = options.draft.then(|| module.clone());
-    let mut made =
-        make(module, &mut found.clone(), source, target, lock.clone(), options.level, Modal::unknown());
-    if let Some(original) = original {
+    let original = options.draft.then(|| (module.clone(), found.clone()));
+    let mut made = make(module, found, source, target, lock.clone(), options.level, Modal::unknown());
+    if let Some((original, found)) = original {
         // Each round stops the machine where the last one found a hole, until none is left.
         for _ in 0..4 {
             let more = super::draft::holes(&made.found, &mut holes);
@@ -117,15 +116,8 @@ pub fn convert(
             }
             let mut module = original.clone();
             super::draft::fill(&mut module, &holes);
-            let mut next = make(
-                module,
-                &mut found.clone(),
-                source,
-                target,
-                lock.clone(),
-                options.level,
-                Modal::unknown(),
-            );
+            let mut next =
+                make(module, found.clone(), source, target, lock.clone(), options.level, Modal::unknown());
             super::draft::keep_errors(&made.found, &mut next.found);
             made = next;
         }
@@ -196,7 +188,7 @@ pub(super) struct Made {
 
 pub(super) fn make(
     mut module: Module,
-    found: &mut Vec<Vec<Diagnostic>>,
+    mut found: Vec<Vec<Diagnostic>>,
     source: &Control,
     target: &Control,
     mut lock: Lock,
@@ -242,13 +234,13 @@ pub(super) fn make(
             }
         }
         Err(faults) => {
-            for all in found.iter_mut() {
+            for all in &mut found {
                 let what = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
                 all.push(Diagnostic::new(Code::Internal, Span::default(), what));
             }
         }
     }
-    Made { found: std::mem::take(found), parts, lock }
+    Made { found, parts, lock }
 }
 
 /// Lowers one file; errors of reading are findings of the program they stand in.
@@ -265,9 +257,8 @@ fn emit(program: &Program, naming: &Naming, target: &Control) -> Result<Emitted,
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
     };
     let emitted = emit(program, naming, target)?;
-    let parsed = parse_file(emitted.text.as_bytes(), parse);
-    let faults = parsed.blocks.iter().flat_map(|block| &block.errors);
-    let faults: Vec<Diagnostic> = faults
+    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), parse)
+        .into_iter()
         .filter(|fault| fault.code.severity() == Severity::Error)
         .map(|fault| {
             let at = fault.span.start as usize;

@@ -1,7 +1,7 @@
 //! Finds and reads the programs that a command was given.
 
 use crate::text::MAX_FILE;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
@@ -38,7 +38,7 @@ pub enum InputError {
     /// A file that is no text.
     #[error("{0}: is a binary file, not a program (byte {1} is {2:#04x})")]
     Binary(PathBuf, usize, u8),
-    /// A file that is too long.
+    /// A file that is too long, or a line in it.
     #[error("{0}: is longer than 4 GB")]
     TooLong(PathBuf),
     /// Two files whose conversions would be one.
@@ -57,40 +57,65 @@ const ENDINGS: &[&str] = &[
 /// Bytes that are looked at to tell a binary file from a program.
 const HEAD: usize = 64 * 1024;
 
-/// Reads every program under the paths: a file whatever its ending, in a folder
-/// those whose ending programs have (or that have none). Ignore files are honoured.
-/// Faults of single files come back beside what could be read.
+/// Reads every program under the paths. Faults of single files come back beside what could be read.
 pub fn gather(paths: &[PathBuf], endings: &[String]) -> (Vec<Input>, Vec<InputError>) {
-    let mut inputs: BTreeMap<String, Input> = BTreeMap::new();
+    let mut inputs = Vec::new();
+    let (sources, mut errors) = sources(paths, endings);
+    for source in sources {
+        match source.read() {
+            Ok(input) => inputs.push(input),
+            Err(error) => errors.push(error),
+        }
+    }
+    (inputs, errors)
+}
+
+/// Finds every program under the paths: a file whatever its ending, in a folder
+/// those whose ending programs have (or that have none). Ignore files are honoured.
+pub fn sources(paths: &[PathBuf], endings: &[String]) -> (Vec<Source>, Vec<InputError>) {
+    let mut sources = BTreeMap::new();
     let mut errors = Vec::new();
     for path in paths {
         match find(path, endings) {
             Ok(found) => {
                 for (path, name) in found {
-                    match read(path, name) {
-                        Ok(input) => add(&mut inputs, input, &mut errors),
-                        Err(error) => errors.push(error),
-                    }
+                    add(&mut sources, Source { path, name, start: Vec::new() }, &mut errors);
                 }
             }
             Err(error) => errors.push(error),
         }
     }
-    (inputs.into_values().collect(), errors)
+    (sources.into_values().collect(), errors)
 }
 
-fn add(inputs: &mut BTreeMap<String, Input>, input: Input, errors: &mut Vec<InputError>) {
-    match inputs.get(&input.name) {
+fn add(sources: &mut BTreeMap<String, Source>, source: Source, errors: &mut Vec<InputError>) {
+    match sources.get(&source.name) {
         // The same file named twice is one file.
-        Some(other) if same_file(&other.path, &input.path) => {}
-        Some(other) => errors.push(InputError::Twice(other.path.clone(), input.path, input.name)),
-        None => drop(inputs.insert(input.name.clone(), input)),
+        Some(other) if same_file(&other.path, &source.path) => {}
+        Some(other) => errors.push(InputError::Twice(other.path.clone(), source.path, source.name)),
+        None => drop(sources.insert(source.name.clone(), source)),
     }
 }
 
 /// True where both paths lead to one file.
 pub fn same_file(a: &Path, b: &Path) -> bool {
     a == b || fs::canonicalize(a).ok().zip(fs::canonicalize(b).ok()).is_some_and(|(a, b)| a == b)
+}
+
+/// Files by where they really are.
+#[derive(Debug, Default)]
+pub struct Files(BTreeSet<PathBuf>);
+
+impl Files {
+    /// The files of these paths.
+    pub fn of<'p>(paths: impl Iterator<Item = &'p Path>) -> Self {
+        Self(paths.flat_map(|path| [Some(path.to_owned()), fs::canonicalize(path).ok()]).flatten().collect())
+    }
+
+    /// True where the path leads to one of them.
+    pub fn holds(&self, path: &Path) -> bool {
+        self.0.contains(path) || fs::canonicalize(path).is_ok_and(|path| self.0.contains(&path))
+    }
 }
 
 fn find(path: &Path, endings: &[String]) -> Result<Vec<(PathBuf, String)>, InputError> {
@@ -141,31 +166,106 @@ fn slashed(path: &Path) -> String {
     parts.collect::<Vec<_>>().join("/")
 }
 
-fn read(path: PathBuf, name: String) -> Result<Input, InputError> {
-    let bytes = if path == Path::new("-") {
+/// A program file that is not read yet.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Where it is; `-` for standard input.
+    pub path: PathBuf,
+    /// As in [`Input`].
+    pub name: String,
+    /// What was read of standard input already.
+    start: Vec<u8>,
+}
+
+impl Source {
+    fn open(&self) -> Result<Box<dyn Read + '_>, InputError> {
+        if self.path == Path::new("-") {
+            return Ok(Box::new(self.start.chain(io::stdin())));
+        }
+        let file = fs::File::open(&self.path).map_err(|error| self.unreadable(error))?;
+        Ok(Box::new(file))
+    }
+
+    fn unreadable(&self, error: io::Error) -> InputError {
+        InputError::Unreadable(self.path.clone(), error)
+    }
+
+    /// Reads it whole.
+    pub fn read(self) -> Result<Input, InputError> {
         let mut bytes = Vec::new();
-        io::stdin().lock().take(MAX_FILE as u64 + 1).read_to_end(&mut bytes).map(|_| bytes)
-    } else {
-        fs::read(&path)
-    };
-    let bytes = bytes.map_err(|error| InputError::Unreadable(path.clone(), error))?;
-    if bytes.is_empty() {
-        return Err(InputError::Empty(path));
+        let most = MAX_FILE as u64 + 1;
+        self.open()?.take(most).read_to_end(&mut bytes).map_err(|error| self.unreadable(error))?;
+        self.check(&bytes, true)?;
+        if bytes.len() > MAX_FILE {
+            return Err(InputError::TooLong(self.path));
+        }
+        Ok(Input { path: self.path, name: self.name, bytes })
     }
-    if bytes.len() > MAX_FILE {
-        return Err(InputError::TooLong(path));
+
+    /// Reads its start only.
+    pub fn head(&mut self) -> Result<Input, InputError> {
+        let mut bytes = Vec::new();
+        self.open()?.take(HEAD as u64).read_to_end(&mut bytes).map_err(|error| self.unreadable(error))?;
+        if self.path == Path::new("-") {
+            self.start.clone_from(&bytes);
+        }
+        Ok(Input { path: self.path.clone(), name: self.name.clone(), bytes })
     }
-    match binary_byte(&bytes) {
-        Some(at) => Err(InputError::Binary(path, at, bytes[at])),
-        None => Ok(Input { path, name, bytes }),
+
+    /// Reads it in pieces of whole lines, so that memory grows with the longest line only.
+    /// Yields how many bytes it has.
+    pub fn pieces(&self, f: &mut dyn FnMut(&[u8])) -> Result<usize, InputError> {
+        let (mut file, mut held, mut total) = (self.open()?, Vec::new(), 0);
+        let mut want = PIECE;
+        loop {
+            let missing = want.saturating_sub(held.len()) as u64;
+            file.by_ref().take(missing).read_to_end(&mut held).map_err(|error| self.unreadable(error))?;
+            let whole = held.len() < want;
+            if held.len() > MAX_FILE {
+                return Err(InputError::TooLong(self.path.clone()));
+            }
+            if total == 0 {
+                self.check(&held, whole)?;
+            }
+            let cut = if whole { held.len() } else { behind_last_line(&held) };
+            f(&held[..cut]);
+            total += cut;
+            if whole {
+                return Ok(total);
+            }
+            held.drain(..cut);
+            // A line that does not fit makes the piece longer.
+            want = PIECE.max(2 * held.len());
+        }
     }
+
+    /// Refuses what is no program, by its start.
+    fn check(&self, bytes: &[u8], whole: bool) -> Result<(), InputError> {
+        match bytes {
+            [] => Err(InputError::Empty(self.path.clone())),
+            bytes => match binary_byte(bytes, whole) {
+                Some(at) => Err(InputError::Binary(self.path.clone(), at, bytes[at])),
+                None => Ok(()),
+            },
+        }
+    }
+}
+
+/// Bytes that are read at a time.
+const PIECE: usize = 2 * 1024 * 1024;
+
+/// Where the last whole line ends; 0 where none does. A CR at the very end may be half of a line end.
+fn behind_last_line(bytes: &[u8]) -> usize {
+    let sure = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+    memchr::memrchr2(b'\n', b'\r', sure).map_or(0, |at| at + 1)
 }
 
 /// The first byte that no program has: a control character that is no white space
 /// and none of those that tapes have. NUL may lead and trail a tape, not stand among text.
-fn binary_byte(bytes: &[u8]) -> Option<usize> {
+fn binary_byte(bytes: &[u8], whole: bool) -> Option<usize> {
     let text = bytes.iter().position(|&b| b != 0).unwrap_or(bytes.len());
-    let end = bytes.iter().rposition(|&b| b != 0).map_or(0, |at| at + 1);
+    let last = bytes.iter().rposition(|&b| b != 0).map_or(0, |at| at + 1);
+    let end = if whole { last } else { bytes.len() };
     if text >= end {
         return Some(0);
     }
@@ -185,13 +285,13 @@ mod tests {
 
     #[test]
     fn tells_programs_from_binaries() {
-        assert_eq!(binary_byte(b"\0\0\0%\nO1\n\0"), None);
+        assert_eq!(binary_byte(b"\0\0\0%\nO1\n\0", true), None);
         assert_eq!(
-            binary_byte(b"G0 X1\x00\n Y1 (a comment that is long enough to hold one stray byte)"),
+            binary_byte(b"G0 X1\x00\n Y1 (a comment that is long enough to hold one stray byte)", true),
             None
         );
-        assert_eq!(binary_byte(b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03"), Some(4));
-        assert_eq!(binary_byte(b"\0\0\0"), Some(0));
+        assert_eq!(binary_byte(b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03", true), Some(4));
+        assert_eq!(binary_byte(b"\0\0\0", true), Some(0));
     }
 
     #[test]
@@ -200,6 +300,33 @@ mod tests {
             [("O1234", true), ("8010", true), ("README", false), ("a.NC", true), ("a.tsv", false)]
         {
             assert_eq!(is_program(Path::new(name), &[]), program, "{name}");
+        }
+    }
+
+    #[test]
+    fn pieces_are_whole_lines_and_all_of_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.nc");
+        // Line ends of all kinds, at all distances from the edges of pieces, and a line longer than a piece.
+        let mut text = String::new();
+        for n in 0..600_000 {
+            text += &"X1".repeat(n % 7);
+            text += ["\n", "\r\n", "\r", "\n\r"][n % 4];
+        }
+        let long = text.clone() + &"(".repeat(3 * PIECE) + "\r\n" + &text;
+        for whole in [long.as_str(), "G0", "\r", &"\r".repeat(PIECE), &("A".repeat(PIECE - 1) + "\r\nB")] {
+            fs::write(&path, whole).unwrap();
+            let source = Source { path: path.clone(), name: "a.nc".into(), start: Vec::new() };
+            let (mut all, mut cuts) = (Vec::new(), Vec::new());
+            let total = source.pieces(&mut |piece| {
+                all.extend_from_slice(piece);
+                cuts.push(all.len());
+            });
+            assert_eq!(total.unwrap(), whole.len());
+            assert!(all == whole.as_bytes());
+            for cut in cuts.into_iter().filter(|cut| *cut > 0 && *cut < whole.len()) {
+                assert!(matches!(all[cut - 1], b'\n' | b'\r') && &all[cut - 1..=cut] != b"\r\n");
+            }
         }
     }
 }

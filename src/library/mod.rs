@@ -17,7 +17,7 @@ mod verified;
 
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
 pub use detect::{Detected, detect};
-pub use inputs::{Input, InputError, gather, same_file};
+pub use inputs::{Files, Input, InputError, Source, gather, same_file, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{Output, OutputError, certificate_of, plan, write_all};
 pub use project::{Library, Machine, Project, ProjectError};

@@ -34,6 +34,8 @@ pub fn number_programs(
         }
     }
     let max = target.text().program_max;
+    // Numbers are only ever taken: each search goes on where the last one ended.
+    let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| (first..=max).chain(1..first));
     let mut out = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         let Some(name) = &program.name else { continue };
@@ -42,8 +44,8 @@ pub fn number_programs(
             (Some(n), ProgramName::Name(_)) => Some(*n),
             (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
             _ => {
-                let first = if program.returns() && !program.ends() { FIRST_SUB } else { FIRST_MAIN };
-                (first..=max).chain(1..first).find(|n| !taken.contains(n))
+                let sub = program.returns() && !program.ends();
+                free[usize::from(sub)].find(|n| !taken.contains(n))
             }
         };
         match number {

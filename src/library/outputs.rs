@@ -1,6 +1,7 @@
 //! Where conversions go, and how they are written: aside first, then renamed.
 
-use super::Input;
+use super::{Files, Input};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
@@ -8,11 +9,11 @@ use std::path::{Path, PathBuf};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Output {
+pub struct Output<'b> {
     /// Where.
     pub path: PathBuf,
     /// What.
-    pub bytes: Vec<u8>,
+    pub bytes: Cow<'b, [u8]>,
 }
 
 /// Why nothing was written.
@@ -39,7 +40,7 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
     let mut taken: BTreeMap<String, &str> = BTreeMap::new();
     let mut places = Vec::with_capacity(names.len());
     let real = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let sources: Vec<PathBuf> = inputs.iter().map(|input| real(&input.path)).collect();
+    let sources = Files::of(inputs.iter().map(|input| input.path.as_path()));
     for &name in names {
         let parts: Vec<&str> = name.split(['/', '\\']).collect();
         if parts.iter().any(|part| matches!(*part, "" | "." | "..") || part.contains(':')) {
@@ -49,7 +50,7 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
         if let Some(other) = taken.insert(name.to_lowercase(), name) {
             return Err(OutputError::Collision(other.into(), name.into(), place));
         }
-        if sources.contains(&real(&place)) {
+        if sources.holds(&place) {
             return Err(OutputError::OverInput(place));
         }
         places.push(place);
@@ -63,7 +64,7 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
                 beside,
             ));
         }
-        if sources.contains(&real(&beside)) {
+        if sources.holds(&beside) {
             return Err(OutputError::OverInput(beside));
         }
     }
@@ -87,7 +88,7 @@ pub fn certificate_of(place: &Path) -> PathBuf {
 
 /// Writes all files: each beside its place first, then all are renamed. A fault
 /// before the renaming leaves everything as it was.
-pub fn write_all(outputs: &[Output]) -> Result<(), OutputError> {
+pub fn write_all(outputs: &[Output<'_>]) -> Result<(), OutputError> {
     let mut ready = Vec::with_capacity(outputs.len());
     for output in outputs {
         let fault = |error| OutputError::Unwritable(output.path.clone(), error);

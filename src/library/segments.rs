@@ -29,9 +29,9 @@ struct Sizes {
     piece: usize,
 }
 
-const USUAL: Sizes = Sizes { long: 4 * 1024 * 1024, piece: 1024 * 1024 };
+const USUAL: Sizes = Sizes { long: 1024 * 1024, piece: 64 * 1024 };
 /// Pieces that are worked on at a time.
-const BATCH: usize = 8;
+const BATCH: usize = 32;
 
 /// Converts a long plain file; none where it is not one.
 pub fn convert(
@@ -230,7 +230,7 @@ fn piece_made(
         module.programs.push(program);
         found.push(diagnostics);
     }
-    let mut made = make(module, &mut found, source, target, lock.clone(), options.level, entry);
+    let mut made = make(module, found, source, target, lock.clone(), options.level, entry);
     // Which target block came from where is a table as long as the file.
     made.parts.iter_mut().flatten().for_each(|part| part.blocks = Vec::new());
     (names, made, piece.tape)

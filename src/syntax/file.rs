@@ -1,6 +1,6 @@
 //! Reads a whole file, line by line and in parallel.
 
-use super::Block;
+use super::{Block, SyntaxError};
 use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
 
@@ -75,25 +75,50 @@ pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
 
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
-    chunks(source)
-        .into_par_iter()
-        .map(|chunk| {
-            let mut totals = ParseTotals { lossless: true, ..ParseTotals::default() };
-            let mut blocks = Vec::new();
-            for line in chunk_lines(source, chunk) {
-                blocks.clear();
-                parser(source, line.text, &mut blocks);
-                totals.add_line(line, &blocks);
-            }
-            totals
-        })
-        .reduce(|| ParseTotals { lossless: true, ..ParseTotals::default() }, ParseTotals::plus)
+    fold_lines(source, parser, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
+}
+
+/// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat.
+pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
+    let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut Vec<Block>| {
+        blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
+    };
+    let join = |mut a: Vec<SyntaxError>, mut b| {
+        a.append(&mut b);
+        a
+    };
+    fold_lines(source, parser, Vec::new, add, join)
+}
+
+/// Folds the blocks of all lines in parallel; `join` is given neighbours in their order.
+fn fold_lines<T: Send>(
+    source: &[u8],
+    parser: Parser,
+    none: impl Fn() -> T + Sync + Send,
+    add: impl Fn(&mut T, Line, &mut Vec<Block>) + Sync,
+    join: impl Fn(T, T) -> T + Sync + Send,
+) -> T {
+    let fold = |chunk| {
+        let (mut out, mut blocks) = (none(), Vec::new());
+        for line in chunk_lines(source, chunk) {
+            blocks.clear();
+            parser(source, line.text, &mut blocks);
+            add(&mut out, line, &mut blocks);
+        }
+        out
+    };
+    chunks(source).into_par_iter().map(fold).reduce(&none, &join)
 }
 
 impl ParseTotals {
-    fn add_line(&mut self, line: Line, blocks: &[Block]) {
+    /// Of nothing.
+    pub fn none() -> Self {
+        Self { lossless: true, ..Self::default() }
+    }
+
+    fn add_line(&mut self, line: Line, blocks: &mut Vec<Block>) {
         let mut at = line.text.start;
-        for block in blocks {
+        for block in blocks.iter() {
             self.blocks += 1;
             self.unparsed += usize::from(block.items.iter().any(|i| i.kind == super::ItemKind::Unparsed));
             self.faulty += usize::from(!block.errors.is_empty());
@@ -103,7 +128,9 @@ impl ParseTotals {
         self.lossless &= at == line.text.end;
     }
 
-    fn plus(self, other: Self) -> Self {
+    /// Of both.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
         Self {
             blocks: self.blocks + other.blocks,
             unparsed: self.unparsed + other.unparsed,

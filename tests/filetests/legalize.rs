@@ -32,7 +32,7 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
         if passes.len() != names.len() {
             return Err(format!("no such passes: {pass}"));
         }
-        passes.iter().for_each(|pass| (pass.run)(&mut after, &mut context));
+        passes.iter().for_each(|pass| pass.apply(&mut after, &mut context));
         Registers::default()
     };
     validate(&after).map_err(|all| format!("broken: {}\n{after}", all[0]))?;

@@ -65,7 +65,7 @@ pub fn legalized(
     let mut module = module.clone();
     let mut context = Context::new(source, target, module.programs.len());
     let pass = PASSES.iter().find(|p| p.name == pass).unwrap();
-    (pass.run)(&mut module, &mut context);
+    pass.apply(&mut module, &mut context);
     validate(&module).unwrap_or_else(|all| panic!("broken: {}\n{module}", all[0]));
     (module, context.into_findings().concat())
 }

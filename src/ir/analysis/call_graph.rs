@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, VecDeque};
 
 /// Programs by index, and whether a call opens a level of locals.
 #[derive(Debug)]
-pub(super) struct CallGraph {
+pub struct CallGraph {
     callees: Vec<BTreeSet<(usize, bool)>>,
     callers: Vec<Vec<usize>>,
 }

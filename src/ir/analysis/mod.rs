@@ -13,6 +13,7 @@ mod set;
 mod vacancy;
 mod values;
 
+pub use call_graph::CallGraph;
 pub use cfg::{Cfg, may_come_back};
 pub use dominators::Dominators;
 pub use effects::{Effects, Seen, Summaries, Vars};

@@ -51,22 +51,24 @@ impl Check<'_> {
     }
 
     fn nc(&mut self, nc: &Nc) {
-        let mut roles = BTreeSet::new();
-        let mut ops: Vec<Op> = Vec::new();
-        for item in &nc.items {
+        for (at, item) in nc.items.iter().enumerate() {
+            let before = nc.items.iter().take(at);
             match item {
                 NcItem::Op(op) => {
                     if op.is_flow() {
                         self.add(Problem::Flow(*op));
                     }
-                    if ops.iter().any(|other| clash(*other, *op)) {
+                    if before
+                        .into_iter()
+                        .any(|other| matches!(other, NcItem::Op(other) if clash(*other, *op)))
+                    {
                         self.add(Problem::Group(op.group()));
                     }
-                    ops.push(*op);
                 }
                 NcItem::Word(role, value) => {
                     // A machine builder's code may have several words of its own.
-                    if *role != Role::Builder && !roles.insert(*role) {
+                    let same = |other: &NcItem| matches!(other, NcItem::Word(other, _) if other == role);
+                    if *role != Role::Builder && before.into_iter().any(same) {
                         self.add(Problem::Role(*role));
                     }
                     self.word(value);

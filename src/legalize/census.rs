@@ -1,0 +1,192 @@
+//! What stands in a library, whatever the place: by it a pass sees whether anything concerns it.
+
+use crate::canon::{Op, Role};
+use crate::ir::{BinOp, Callee, Class, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var};
+
+/// Kinds of things, besides operations and words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Thing {
+    /// A code known by its number.
+    Code,
+    /// An NC block without words.
+    Emptied,
+    /// A modal call, or its end.
+    Modal,
+    /// A call of a block of the same program.
+    LocalCall,
+    /// Any other call.
+    Call,
+    /// A jump to another program.
+    Chain,
+    /// A return to a sequence number.
+    ReturnTo,
+    /// A branch.
+    Branch,
+    /// A wait for the moves before it, or a limit on reading ahead.
+    Wait,
+    /// A print, or formatted output.
+    Print,
+    /// A question to the operator.
+    Input,
+    /// The clearing of a class.
+    Clear,
+    /// An alarm, or a stop with a message.
+    Message,
+    /// A constant that more than eight digits may be needed for.
+    Long,
+    /// A count of increments.
+    Increments,
+    /// A function.
+    Function,
+    /// A remainder.
+    Mod,
+    /// The value of a comparison.
+    Truth,
+    /// State of the machine, read or written.
+    System,
+    /// A variable, read or written.
+    Variable,
+    /// A temporary.
+    Temp,
+    /// A variable with a computed number.
+    Indirect,
+    /// Any value but a constant.
+    Computed,
+}
+
+/// A census of programs.
+#[derive(Clone, Debug, Default)]
+pub struct Census {
+    ops: [u64; 4],
+    roles: [u64; 4],
+    things: u32,
+}
+
+impl Census {
+    /// Of these programs.
+    pub fn of(programs: &[Program]) -> Self {
+        let mut census = Self::default();
+        for block in programs.iter().flat_map(|program| &program.blocks) {
+            block.stmts.iter().for_each(|stmt| census.stmt(&stmt.kind));
+            census.term(&block.term.kind);
+        }
+        census
+    }
+
+    /// True where there is one.
+    pub fn has(&self, thing: Thing) -> bool {
+        self.things >> thing as u32 & 1 == 1
+    }
+
+    /// True where an NC block has the operation.
+    pub fn op(&self, op: Op) -> bool {
+        self.ops[op as usize / 64] >> (op as usize % 64) & 1 == 1
+    }
+
+    /// True where an NC block has such an operation.
+    pub fn any_op(&self, wanted: impl Fn(Op) -> bool) -> bool {
+        Op::ALL.iter().any(|op| self.op(*op) && wanted(*op))
+    }
+
+    /// True where an NC block has a word in the role.
+    pub fn role(&self, role: Role) -> bool {
+        self.roles[role as usize / 64] >> (role as usize % 64) & 1 == 1
+    }
+
+    fn add(&mut self, thing: Thing) {
+        self.things |= 1 << thing as u32;
+    }
+
+    fn stmt(&mut self, kind: &StmtKind) {
+        match kind {
+            StmtKind::Nc(nc) => return self.nc(nc),
+            StmtKind::ModalCall(call) => {
+                self.callee(&call.callee);
+                self.add(Thing::Modal);
+            }
+            StmtKind::ModalCallOff => self.add(Thing::Modal),
+            StmtKind::Sync | StmtKind::LimitLookahead(_) => self.add(Thing::Wait),
+            StmtKind::Print { .. } => self.add(Thing::Print),
+            StmtKind::Input { .. } => self.add(Thing::Input),
+            StmtKind::ClearAll(_) => self.add(Thing::Clear),
+            StmtKind::Alarm { .. } | StmtKind::StopMessage { .. } => self.add(Thing::Message),
+            StmtKind::SetNames { .. } => self.add(Thing::Variable),
+            _ => {}
+        }
+        kind.exprs(&mut |e| self.value(e));
+        kind.target().iter().for_each(|place| match place {
+            Place::Var(var) => self.variable(*var),
+            Place::System(..) => self.add(Thing::System),
+            Place::Indirect(..) => self.add(Thing::Indirect),
+        });
+    }
+
+    fn nc(&mut self, nc: &Nc) {
+        if nc.items.is_empty() {
+            self.add(Thing::Emptied);
+        }
+        for item in &nc.items {
+            match item {
+                NcItem::Op(op) => self.ops[*op as usize / 64] |= 1 << (*op as usize % 64),
+                NcItem::Word(role, value) => {
+                    self.roles[*role as usize / 64] |= 1 << (*role as usize % 64);
+                    self.value(value);
+                }
+                NcItem::Code(_, value) => {
+                    self.add(Thing::Code);
+                    self.value(value);
+                }
+            }
+        }
+    }
+
+    fn term(&mut self, kind: &TermKind) {
+        match kind {
+            TermKind::Call { call, .. } => self.callee(&call.callee),
+            TermKind::Chain(_) => self.add(Thing::Chain),
+            TermKind::Return { to: Some(_) } => self.add(Thing::ReturnTo),
+            TermKind::Branch { .. } => self.add(Thing::Branch),
+            TermKind::Jump(_) => return,
+            _ => {}
+        }
+        kind.exprs(&mut |e| self.value(e));
+    }
+
+    fn variable(&mut self, var: Var) {
+        self.add(Thing::Variable);
+        if var.class == Class::Temp {
+            self.add(Thing::Temp);
+        }
+    }
+
+    fn callee(&mut self, callee: &Callee) {
+        self.add(if matches!(callee, Callee::Block(_)) { Thing::LocalCall } else { Thing::Call });
+    }
+
+    fn value(&mut self, e: &Expr) {
+        match e {
+            Expr::Number(value) => {
+                return if is_long(*value) {
+                    self.add(Thing::Long)
+                };
+            }
+            Expr::Increments(_) => return self.add(Thing::Increments),
+            Expr::Negate(inner) => return self.value(inner),
+            Expr::Var(var) => self.variable(*var),
+            Expr::Call(..) => self.add(Thing::Function),
+            Expr::Binary(BinOp::Mod, ..) => self.add(Thing::Mod),
+            Expr::Truth(_) => self.add(Thing::Truth),
+            Expr::System(..) => self.add(Thing::System),
+            Expr::Indirect(..) => self.add(Thing::Indirect),
+            Expr::Vacant | Expr::Binary(..) => {}
+        }
+        self.add(Thing::Computed);
+        e.exprs(&mut |operand| self.value(operand));
+    }
+}
+
+/// False where four digits before and four behind the point write the number.
+pub(super) fn is_long(value: f64) -> bool {
+    let size = value.abs();
+    size >= 1e4 || f64::from((size * 1e4 + 0.5) as u32) / 1e4 != size
+}
