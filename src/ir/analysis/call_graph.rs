@@ -1,6 +1,6 @@
 //! Who calls whom, for analyses over all programs.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::BTreeSet;
 
 /// Programs by index, and whether a call opens a level of locals.
 #[derive(Debug)]
@@ -27,16 +27,14 @@ impl CallGraph {
     /// Calls `step` on every program, and on the callers of one for which it says that something changed,
     /// until nothing does. Callees come first where they can.
     pub fn settle(&self, mut step: impl FnMut(usize) -> bool) {
-        let mut work: VecDeque<usize> = self.callees_first().into();
-        let mut waiting = vec![true; self.callees.len()];
-        while let Some(at) = work.pop_front() {
-            waiting[at] = false;
-            if step(at) {
-                for caller in &self.callers[at] {
-                    if !std::mem::replace(&mut waiting[*caller], true) {
-                        work.push_back(*caller);
-                    }
-                }
+        let order = self.callees_first();
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, program)| place[*program] = at);
+        // Those that call one another settle before anyone looks at them who does not.
+        let mut work: BTreeSet<usize> = (0..order.len()).collect();
+        while let Some(program) = work.pop_first().map(|at| order[at]) {
+            if step(program) {
+                work.extend(self.callers[program].iter().map(|caller| place[*caller]));
             }
         }
     }

@@ -1,11 +1,8 @@
 //! What programs may read and write, calls included.
 
-use super::Liveness;
 use super::call_graph::CallGraph;
 use crate::canon::Op;
-use crate::ir::{
-    Bank, BlockId, Call, Callee, Class, Expr, Module, Nc, Place, Program, StmtKind, TermKind, Var,
-};
+use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, Program, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,8 +29,6 @@ pub struct Effects {
 pub struct Summaries {
     /// By program: all it may read and write, what it calls included.
     effects: Vec<Effects>,
-    /// By program: what it may read before it writes it.
-    exposed: Vec<Vars>,
     names: BTreeMap<ProgramName, usize>,
     /// Of the modal calls that an NC block may make.
     modal: Effects,
@@ -175,7 +170,6 @@ impl Summaries {
         let everything = Effects::everything();
         let mut out = Self {
             effects: module.programs.iter().map(own).collect(),
-            exposed: vec![Vars::default(); module.programs.len()],
             names,
             modal: Effects::default(),
             unknown: everything.clone().without(Class::Temp),
@@ -184,12 +178,6 @@ impl Summaries {
         };
         let graph = Graph::of(module, &mut out);
         out.spread(&graph);
-        graph.calls.settle(|at| {
-            let Some(program) = module.programs.get(at) else { return false };
-            let live = Liveness::of(program, &out, super::Exit::Nothing);
-            let exposed = Vars { vars: live.before(BlockId(0)).collect(), classes: live.classes_at_entry() };
-            out.exposed[at].join(&exposed.without(Class::Temp))
-        });
         out
     }
 
@@ -213,7 +201,7 @@ impl Summaries {
     }
 
     /// What a call may read, as its caller sees it. A body in the same program is everything.
-    fn reads(&self, call: &Call) -> Seen<'_> {
+    pub fn reads(&self, call: &Call) -> Seen<'_> {
         let (effects, level) = self.of_call(call);
         Seen { vars: &effects.reads, level }
     }
@@ -230,17 +218,6 @@ impl Summaries {
             Callee::Block(_) => (&self.everything, false),
             Callee::Computed(_) | Callee::Cycle(_) => (&self.unknown, call.level),
         }
-    }
-
-    /// What a call may read before it writes it, as its caller sees it.
-    pub fn exposed_by(&self, call: &Call) -> Seen<'_> {
-        let Callee::Program(name) = &call.callee else { return self.reads(call) };
-        Seen { vars: self.exposed_of(name), level: call.level }
-    }
-
-    /// What a program of this name may read before it writes it.
-    pub fn exposed_of(&self, name: &ProgramName) -> &Vars {
-        self.names.get(name).map_or(&self.unknown.reads, |at| &self.exposed[*at])
     }
 
     /// All that a program of this name may read and write.

@@ -3,7 +3,7 @@
 use super::effects::{Seen, Summaries, Vars};
 use super::{Cfg, Row, Universe};
 use crate::ir::{Block, BlockId, Callee, Class, Expr, Place, Program, Site, StmtKind, TermKind, Var};
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::VecDeque;
 
 /// What counts as read when a program is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,6 @@ pub struct Liveness<'p> {
     /// What each block reads before it writes it, and what passes it.
     transfers: Vec<(Row, Row)>,
     cfg: Cfg,
-    classes: BTreeSet<Class>,
     /// True where a modal call runs a body of the program, whose return may go behind any NC block.
     modal_body: bool,
 }
@@ -43,7 +42,6 @@ impl<'p> Liveness<'p> {
             before: Vec::new(),
             transfers: Vec::new(),
             cfg,
-            classes: BTreeSet::new(),
             modal_body: has_modal_body(program),
         };
         live.gather();
@@ -73,7 +71,6 @@ impl<'p> Liveness<'p> {
                 all.join(used);
             }
         }
-        self.classes = all.classes;
         self.universe = Universe::new(&all.vars);
     }
 
@@ -133,9 +130,9 @@ impl<'p> Liveness<'p> {
         match kind {
             // The graph leads into a body in the same program.
             TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => {
-                Some(self.summaries.exposed_by(call))
+                Some(self.summaries.reads(call))
             }
-            TermKind::Chain(name) => Some(self.summaries.exposed_of(name).into()),
+            TermKind::Chain(name) => Some((&self.summaries.of_program(name).reads).into()),
             _ => None,
         }
     }
@@ -191,11 +188,6 @@ impl<'p> Liveness<'p> {
     pub fn is_live_before(&self, id: BlockId, var: Var) -> bool {
         let row = self.before.get(id.index());
         self.universe.place(var).is_some_and(|at| row.is_some_and(|row| row.has(at)))
-    }
-
-    /// The classes of which a computed number or a callee may read any variable, anywhere in it.
-    pub fn classes_at_entry(&self) -> BTreeSet<Class> {
-        self.classes.clone()
     }
 
     /// Calls `f` on each statement of a block, last first, with what is live behind it.

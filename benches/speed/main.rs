@@ -1,0 +1,206 @@
+//! `cargo bench`: speed and memory of every stage, as ratios of one run. BENCHMARKS.md has the figures.
+//!
+//! Every case runs in a process of its own, which is this one again with the case's name in the environment: so its
+//! peak memory is its own, and its processor time does not hang on what else the machine does. Rounds of all cases are
+//! interleaved, and medians printed.
+
+extern crate alloc; // what pest derives names it
+
+mod inputs;
+
+use macroglot::control::{LoadedFile, ProgramRef, Scenario};
+use macroglot::dialect::Control;
+use macroglot::syntax::parse_file;
+use pest::Parser;
+use std::fs;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+#[derive(pest_derive::Parser)]
+#[grammar = "grammar/macro_b.pest"]
+#[grammar = "grammar/fanuc.pest"]
+#[allow(missing_docs)]
+struct Grammar;
+
+/// A case: its name, its input, and the arguments of the command where it is one.
+const CASES: &[(&str, &str, &[&str])] = &[
+    ("newlines", "surface.nc", &[]),
+    ("newlines", "macros.nc", &[]),
+    ("parse", "surface.nc", &["parse", "--dialect", "fanuc"]),
+    ("parse", "macros.nc", &["parse", "--dialect", "fanuc"]),
+    ("grammar alone", "surface.nc", &[]),
+    ("grammar alone", "macros.nc", &[]),
+    ("convert to haas", "surface.nc", &["convert", "--from", "fanuc", "--to", "haas"]),
+    ("convert to haas", "macros.nc", &["convert", "--from", "fanuc", "--to", "haas"]),
+    ("convert to fanuc", "fadal.nc", &["convert", "--from", "fadal", "--to", "fanuc"]),
+    ("run", "counting-100k.nc", &[]),
+    ("run", "counting-1M.nc", &[]),
+    ("run", "moving-100k.nc", &[]),
+    ("run", "moving-1M.nc", &[]),
+];
+
+const ROUNDS: usize = 3;
+/// How often lines are counted in a round: once is too short for the clock.
+const COUNTS: usize = 100;
+/// Says which case a process is to run.
+const CASE: &str = "MACROGLOT_CASE";
+
+fn main() -> ExitCode {
+    if let Ok(case) = std::env::var(CASE) {
+        return work(&case);
+    }
+    let folder = std::env::temp_dir().join(format!("macroglot-speed-{}", std::process::id()));
+    let done = generate(&folder).and_then(|()| measure(&folder));
+    let _ = fs::remove_dir_all(&folder);
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn generate(folder: &Path) -> std::io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let write = |name: &str, text: String| fs::write(folder.join(name), text);
+    write("surface.nc", inputs::surface(50_000_000))?;
+    write("macros.nc", inputs::macros(10_000_000))?;
+    write("fadal.nc", inputs::fadal(2_000_000))?;
+    for (name, steps) in [("100k", 100_000), ("1M", 1_000_000)] {
+        write(&format!("counting-{name}.nc"), inputs::counting(steps))?;
+        write(&format!("moving-{name}.nc"), inputs::moving(steps))?;
+    }
+    Ok(())
+}
+
+/// What a process used.
+#[derive(Clone, Copy, Debug, Default)]
+struct Use {
+    cpu: f64,
+    wall: f64,
+    peak: f64,
+    /// Blocks that were run, where it ran any.
+    steps: f64,
+}
+
+fn measure(folder: &Path) -> std::io::Result<()> {
+    println!("seeds: {:?}; {ROUNDS} rounds, medians", inputs::SEEDS);
+    let mut found = vec![[Vec::new(), Vec::new()]; CASES.len()];
+    for _ in 0..ROUNDS {
+        for (at, (name, input, arguments)) in CASES.iter().enumerate() {
+            for (threads, rounds) in [1, 0].into_iter().zip(&mut found[at]) {
+                if threads == 1 || !arguments.is_empty() {
+                    rounds.push(run(name, &folder.join(input), arguments, threads)?);
+                }
+            }
+        }
+    }
+    println!(
+        "| case | input | MB/s a core | times the floor | all cores over one | peak memory over input |"
+    );
+    println!("|---|---|---|---|---|---|");
+    let mut floor = 0.0;
+    for ((name, input, _), [one, all]) in CASES.iter().zip(&found) {
+        let length = fs::metadata(folder.join(input))?.len() as f64 / 1e6;
+        let median = |rounds: &[Use], of: fn(&Use) -> f64| {
+            let mut all: Vec<f64> = rounds.iter().map(of).collect();
+            all.sort_by(f64::total_cmp);
+            all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
+        };
+        let (cpu, peak, steps) = (median(one, |u| u.cpu), median(one, |u| u.peak), median(one, |u| u.steps));
+        if steps > 0.0 {
+            println!(
+                "| {name} | {input} | {:.2} million blocks/s | | | {:.1} |",
+                steps / cpu / 1e6,
+                peak / 1e6 / length
+            );
+            continue;
+        }
+        let speed = length / cpu;
+        if *name == "newlines" {
+            floor = speed;
+        }
+        let scale = median(one, |u| u.wall) / median(all, |u| u.wall);
+        println!(
+            "| {name} | {input} | {speed:.1} | {:.0} | {scale:.1} | {:.2} |",
+            floor / speed,
+            peak / 1e6 / length
+        );
+    }
+    Ok(())
+}
+
+/// Runs a case in a process of its own.
+fn run(name: &str, input: &Path, arguments: &[&str], threads: usize) -> std::io::Result<Use> {
+    let mut command = Command::new(std::env::current_exe()?);
+    command.env(CASE, name).env("RAYON_NUM_THREADS", threads.to_string());
+    match arguments {
+        [] => command.arg(input),
+        [first, rest @ ..] => command.arg(first).arg(input).args(rest),
+    };
+    if name.starts_with("convert") {
+        command.args(["--no-verify", "--format", "json", "--out"]).arg(input.with_extension("out"));
+    }
+    let output = command.stdout(Stdio::null()).output()?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let figures: Vec<f64> =
+        said.lines().last().unwrap_or_default().split(' ').filter_map(|f| f.parse().ok()).collect();
+    match figures.as_slice() {
+        &[cpu, wall, peak, steps] => Ok(Use { cpu, wall, peak, steps }),
+        _ => Err(std::io::Error::other(format!("{name} {}: {said}", input.display()))),
+    }
+}
+
+/// The work of a case, and then what it used, on standard error.
+fn work(case: &str) -> ExitCode {
+    let start = std::time::Instant::now();
+    let mut steps = 0;
+    let mut repeated = 1;
+    let file = || std::env::args_os().nth(1).map(PathBuf::from).and_then(|path| fs::read(path).ok());
+    match case {
+        "newlines" => {
+            let bytes = file().unwrap_or_default();
+            repeated = COUNTS;
+            for _ in 0..COUNTS {
+                black_box(memchr::memchr_iter(b'\n', black_box(&bytes)).count());
+            }
+        }
+        "grammar alone" => {
+            let bytes = file().unwrap_or_default();
+            for line in String::from_utf8_lossy(&bytes).lines().filter(|line| !line.is_empty()) {
+                drop(black_box(Grammar::parse(Rule::block, line)));
+            }
+        }
+        "run" => steps = emulate(&file().unwrap_or_default()).unwrap_or(0),
+        _ => drop(macroglot::cli::main()),
+    }
+    let (cpu, peak) = used().unwrap_or((f64::NAN, f64::NAN));
+    let per_count = |seconds: f64| seconds / repeated as f64;
+    eprintln!("{} {} {peak} {steps}", per_count(cpu), per_count(start.elapsed().as_secs_f64()));
+    ExitCode::SUCCESS
+}
+
+/// Runs a program on the emulated control; how many blocks it ran.
+fn emulate(bytes: &[u8]) -> Option<u64> {
+    let control = Control::plain("fanuc")?;
+    let parsed = parse_file(bytes, control.entry().parse);
+    let file = LoadedFile { name: "main.nc", parsed: &parsed };
+    let scenario = Scenario { steps: 10_000_000, events: 10_000_000, ..Scenario::default() };
+    Some((control.entry().execute?)(&[file], ProgramRef::FIRST, &control, &scenario).steps)
+}
+
+/// Processor seconds and peak bytes of this process, as Linux tells them.
+fn used() -> Option<(f64, f64)> {
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
+    // The kernel counts user and system time in hundredths of a second.
+    let cpu = [11, 12].iter().filter_map(|at| fields.get(*at)?.parse::<f64>().ok()).sum::<f64>() / 100.0;
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some((cpu, peak.trim().trim_end_matches(" kB").trim().parse::<f64>().ok()? * 1024.0))
+}
