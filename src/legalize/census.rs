@@ -1,7 +1,7 @@
 //! What stands in a library, whatever the place: by it a pass sees whether anything concerns it.
 
 use crate::canon::{Op, Role};
-use crate::ir::{BinOp, Callee, Class, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var};
+use crate::ir::{Callee, Class, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var};
 
 /// Kinds of things, besides operations and words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,12 +36,6 @@ pub enum Thing {
     Long,
     /// A count of increments.
     Increments,
-    /// A function.
-    Function,
-    /// A remainder.
-    Mod,
-    /// The value of a comparison.
-    Truth,
     /// State of the machine, read or written.
     System,
     /// A variable, read or written.
@@ -173,12 +167,9 @@ impl Census {
             Expr::Increments(_) => return self.add(Thing::Increments),
             Expr::Negate(inner) => return self.value(inner),
             Expr::Var(var) => self.variable(*var),
-            Expr::Call(..) => self.add(Thing::Function),
-            Expr::Binary(BinOp::Mod, ..) => self.add(Thing::Mod),
-            Expr::Truth(_) => self.add(Thing::Truth),
             Expr::System(..) => self.add(Thing::System),
             Expr::Indirect(..) => self.add(Thing::Indirect),
-            Expr::Vacant | Expr::Binary(..) => {}
+            Expr::Vacant | Expr::Binary(..) | Expr::Call(..) | Expr::Truth(_) => {}
         }
         self.add(Thing::Computed);
         e.exprs(&mut |operand| self.value(operand));
