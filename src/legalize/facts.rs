@@ -175,6 +175,10 @@ impl Found<'_> {
         block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
         match &block.term.kind {
             TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour("skip.levels", span),
+            TermKind::End { rewind } => {
+                let op = if *rewind { Op::EndRewind } else { Op::End };
+                self.code(op, &Default::default(), span);
+            }
             TermKind::Computed { .. } => self.statement("goto.computed", span),
             TermKind::Return { to: Some(_) } => self.statement("return.to.sequence", span),
             TermKind::Call { call, .. } if call.count.is_some() && !call.arguments.is_empty() => {
@@ -195,6 +199,9 @@ impl Found<'_> {
                 && !rows.iter().any(|code| code.words.values().any(|own| own == role))
             {
                 self.row(&row, span);
+            }
+            if (role.is_length() || role.is_axis()) && value.constant().is_none() {
+                self.behaviour("word.bare.expression", span);
             }
             match (role, value.constant()) {
                 (Role::ArcI | Role::ArcJ | Role::ArcK, _) => self.behaviour("arc.centre", span),

@@ -14,12 +14,16 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Inputs {
     /// The variables that are read before the text writes them.
     pub variables: Vec<Input>,
+    /// Variables that conditions hold against each other, by place in `variables`.
+    pub pairs: Vec<(usize, usize)>,
     /// Numbers that the program's conditions name, and their neighbours.
     pub numbers: Vec<f64>,
     /// State that the machine does not model and the program reads.
     pub cells: Vec<(Sys, Vec<u32>)>,
     /// True where a block can be skipped.
     pub skips: bool,
+    /// True for each of A, B and C that a program of the library moves.
+    pub rotary: [bool; 3],
 }
 
 /// A variable that a run is started with.
@@ -33,19 +37,56 @@ pub struct Input {
     pub values: Vec<f64>,
 }
 
+/// True where another program of the library calls it: then that one has set what it takes.
+pub fn is_called(side: &Side<'_>, program: ProgramRef) -> bool {
+    let others = side.programs().into_iter().filter(|other| *other != program);
+    let mut blocks = others.flat_map(|other| side.text(other));
+    blocks.any(|block| calls(side, &block.items).any(|called| called == program))
+}
+
 /// Reads a program.
 pub fn inputs(side: &Side<'_>, program: ProgramRef) -> Inputs {
-    let file = side.files.get(program.file);
-    let blocks = file.and_then(|file| file.parsed.blocks.get(side.blocks(program))).unwrap_or_default();
     let mut reader = Reader::new(side.control);
-    for block in blocks {
-        reader.items(&block.items, true);
+    let mut called = vec![program];
+    let mut at = 0;
+    while let Some(&one) = called.get(at) {
+        reader.own = at == 0;
+        for block in side.text(one) {
+            reader.items(&block.items, reader.own);
+            let programs = calls(side, &block.items).filter(|program| !called.contains(program));
+            let more: Vec<ProgramRef> = programs.collect();
+            called.extend(more);
+        }
+        at += 1;
     }
-    reader.finish()
+    Inputs { rotary: ['A', 'B', 'C'].map(|letter| moves(side, letter)), ..reader.finish() }
+}
+
+/// True where a program of the library has a word of this axis.
+fn moves(side: &Side<'_>, letter: char) -> bool {
+    let blocks = side.files.iter().flat_map(|file| &file.parsed.blocks);
+    let mut items = blocks.flat_map(|block| &block.items);
+    items.any(|item| matches!(&item.kind, ItemKind::Word(word) if word.letter == letter))
+}
+
+/// The programs that a block may call: those whose numbers stand in its P words.
+fn calls<'s>(side: &'s Side<'_>, items: &'s [Item]) -> impl Iterator<Item = ProgramRef> + 's {
+    items.iter().filter_map(|item| {
+        let ItemKind::Word(word) = &item.kind else { return None };
+        let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else {
+            return None;
+        };
+        let is_number = word.letter == 'P' && number.value >= 1.0 && number.value.fract() == 0.0;
+        // A float outside the range becomes its nearest end.
+        is_number.then(|| side.numbered(number.value as u32)).flatten()
+    })
 }
 
 struct Reader<'c> {
     control: &'c Control,
+    /// True in the program itself, false in those that it calls: their locals are their own.
+    own: bool,
+    pairs: Vec<(String, String)>,
     written: BTreeSet<String>,
     order: Vec<String>,
     compared: BTreeMap<String, Vec<f64>>,
@@ -58,6 +99,8 @@ impl<'c> Reader<'c> {
     fn new(control: &'c Control) -> Self {
         Self {
             control,
+            own: true,
+            pairs: Vec::new(),
             written: BTreeSet::new(),
             order: Vec::new(),
             compared: BTreeMap::new(),
@@ -127,7 +170,7 @@ impl<'c> Reader<'c> {
         if let Some((state, subscripts, _)) = self.control.read_system(&variable.name, number) {
             self.cells.insert((state, subscripts));
         } else if let Some(name) = name_of(variable)
-            && class_of(self.control, &name).is_some()
+            && class_of(self.control, &name).is_some_and(|class| self.own || class.class != "local")
             && !self.written.contains(&name)
             && !self.order.contains(&name)
         {
@@ -153,12 +196,17 @@ impl<'c> Reader<'c> {
             for variable in &variables {
                 self.compare(variable, &constants);
             }
+            if let [a, b] = variables.as_slice()
+                && let (Some(a), Some(b)) = (name_of(a), name_of(b))
+            {
+                self.pairs.push((a, b));
+            }
         });
     }
 
     fn compare(&mut self, variable: &VarRef, constants: &[f64]) {
         // The constants themselves tell most, so they come first.
-        let beside = constants.iter().flat_map(|c| [c - 1.0, c + 1.0]);
+        let beside = constants.iter().flat_map(|c| [c - 1.0, c + 1.0, c + 0.5]);
         let near: Vec<f64> = constants.iter().copied().chain(beside).filter(|c| c.abs() < 1e7).collect();
         self.numbers.extend(&near);
         if let Some(name) = name_of(variable) {
@@ -181,12 +229,16 @@ impl<'c> Reader<'c> {
             values: tidy(self.compared.remove(&name).unwrap_or_default()),
             name,
         };
-        let variables = std::mem::take(&mut self.order).into_iter().map(&mut input).collect();
+        let variables: Vec<Input> = std::mem::take(&mut self.order).into_iter().map(&mut input).collect();
+        let place = |name: &String| variables.iter().position(|input| input.name == *name);
+        let pairs = self.pairs.iter().filter_map(|(a, b)| Some((place(a)?, place(b)?)));
         Inputs {
+            pairs: pairs.collect::<BTreeSet<_>>().into_iter().collect(),
             variables,
             numbers: tidy(self.numbers),
             cells: self.cells.into_iter().collect(),
             skips: self.skips,
+            rotary: [false; 3],
         }
     }
 }

@@ -61,6 +61,6 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { scenarios: 64, tries: 400, steps: 50_000, all_steps: 1_000_000, seed: 0x6d67_0001 }
+        Self { scenarios: 160, tries: 400, steps: 50_000, all_steps: 1_000_000, seed: 0x6d67_0001 }
     }
 }

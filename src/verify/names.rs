@@ -2,7 +2,7 @@
 
 use crate::control::{Execute, LoadedFile, ProgramRef, library::Sections};
 use crate::dialect::{Control, VariableClass};
-use crate::syntax::ProgramName;
+use crate::syntax::{Block, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One side of a comparison: a library and the control that runs it.
@@ -34,6 +34,18 @@ impl<'a> Side<'a> {
     /// The name of a program, as written; none for one without.
     pub fn name(&self, program: ProgramRef) -> Option<&ProgramName> {
         self.sections.all().get(self.sections.place(program)?)?.name.as_ref()
+    }
+
+    /// The program with this number.
+    pub fn numbered(&self, number: u32) -> Option<ProgramRef> {
+        let place = self.sections.numbered(number)?;
+        self.programs().into_iter().find(|program| self.sections.place(*program) == Some(place))
+    }
+
+    /// The blocks of a program.
+    pub fn text(&self, program: ProgramRef) -> &[Block] {
+        let file = self.files.get(program.file);
+        file.and_then(|file| file.parsed.blocks.get(self.blocks(program))).unwrap_or_default()
     }
 
     /// The blocks of a program, as a range of its file's.

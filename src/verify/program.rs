@@ -3,7 +3,7 @@
 use super::branches::Coverage;
 use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Difference, Tolerance, compare, is_cut};
-use super::inputs::inputs;
+use super::inputs::{inputs, is_called};
 use super::names::{Names, Side};
 use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Effort, Outcome};
@@ -31,6 +31,15 @@ pub struct Job<'j> {
 /// Significant digits that the second run of the target keeps: three fewer than a double has.
 const FEWER_DIGITS: u32 = 13;
 
+/// Ways not gone that a reason names.
+const NAMED: usize = 3;
+
+/// How far the end of an arc may lie off its circle, millimetres, to be an arc at all.
+const MOST_OFF: f64 = 0.05;
+
+/// How much longer the first run may be where it comes to no end.
+const LONGER: u64 = 10;
+
 /// Scenarios that are compared even where nothing is left to be reached.
 const FEWEST: usize = 16;
 
@@ -50,6 +59,8 @@ pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
 struct Verifier<'v, 'j> {
     job: &'v Job<'j>,
     program: ProgramRef,
+    /// True where other programs of the library call it.
+    called: bool,
     coverage: Coverage,
     reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; true for those that nobody reported.
@@ -60,6 +71,8 @@ struct Verifier<'v, 'j> {
     compared: usize,
     tried: usize,
     steps: u64,
+    /// What came to no end on both sides, the same as far as it went.
+    endless: BTreeSet<String>,
     sensitive: Option<bool>,
     witness: Option<Witness>,
 }
@@ -69,6 +82,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         Self {
             job,
             program,
+            called: is_called(job.source, program),
             coverage: Coverage::new(job.source, program),
             reasons: BTreeMap::new(),
             unconfirmed: BTreeMap::new(),
@@ -78,6 +92,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             compared: 0,
             tried: 0,
             steps: 0,
+            endless: BTreeSet::new(),
             sensitive: None,
             witness: None,
         }
@@ -102,16 +117,16 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let mut endless = 0;
         while let Some(mut scenario) = proposals.next() {
             scenario.inch = unit(self.job.source, self.job.target);
-            let run = (self.job.source.execute)(
-                self.job.source.files,
-                self.program,
-                self.job.source.control,
-                &scenario,
-            );
+            let mut run = self.run_source(&scenario);
+            // A long way to its end is tried once.
+            if is_cut(&run) && self.tried == 0 {
+                scenario.steps = scenario.steps.saturating_mul(LONGER);
+                run = self.run_source(&scenario);
+            }
             self.tried += 1;
             self.steps += run.steps;
             let new = self.coverage.add(&run);
-            if matches!(run.end, End::StepBudget | End::TimeBudget) {
+            if is_cut(&run) && !new {
                 endless += 1;
             }
             let telling = proposals.are_telling();
@@ -130,32 +145,41 @@ impl<'v, 'j> Verifier<'v, 'j> {
             }
         }
         if self.compared == 0 {
+            for text in std::mem::take(&mut self.endless) {
+                self.because(Why::Endless, &text);
+            }
             self.because(Why::NothingCompared, "no scenario could be run on both sides");
         }
     }
 
+    fn run_source(&self, scenario: &Scenario) -> Run {
+        let source = self.job.source;
+        (source.execute)(source.files, self.program, source.control, scenario)
+    }
+
     fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
         let Job { source, target, names, .. } = self.job;
-        let mut circumstances = on_target(scenario, names, source, target);
+        let mut circumstances = on_target(scenario, names, (source, target), self.called);
         if is_cut(run) {
             // Only what both did so far is compared.
             circumstances.steps = scenario.steps.saturating_mul(3);
         }
         let other = (target.execute)(target.files, there, target.control, &circumstances);
-        for (side, library, run) in [("source", source, run), ("target", target, &other)] {
-            match &run.end {
+        for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
+            match &library_run.end {
                 End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
                 End::StepBudget | End::TimeBudget => {
-                    self.because(Why::Endless, &format!("the {side} came to no end in {} blocks", run.steps));
+                    let text = format!("the {side} came to no end in {} blocks", library_run.steps);
+                    let alone = side == "target" && !is_cut(run);
+                    if alone { self.because(Why::Endless, &text) } else { self.endless.extend([text]) }
                 }
                 End::Ended | End::Alarm { .. } => {}
             }
-            for event in &run.events {
+            let files = library_run.programs.iter().filter_map(|program| library.files.get(program.file));
+            let reported: Vec<_> = files.filter_map(|file| self.job.reported.get(file.name)).collect();
+            for event in &library_run.events {
                 if let Happening::Unsure { fact } = &event.what {
-                    let file = run.programs.get(event.at.program as usize).map(|program| program.file);
-                    let file = file.and_then(|file| library.files.get(file));
-                    let reported = file.and_then(|file| self.job.reported.get(file.name));
-                    let is_new = reported.is_none_or(|facts| !facts.contains(fact));
+                    let is_new = !reported.iter().any(|facts| facts.contains(fact));
                     *self.unconfirmed.entry(fact.clone()).or_default() |= is_new;
                 }
             }
@@ -175,6 +199,13 @@ impl<'v, 'j> Verifier<'v, 'j> {
                     _ => String::new(),
                 };
                 let text = format!("the source stops with an alarm of the control ({})", text.trim());
+                self.because(Why::SourceAlarms, &text);
+            }
+            Some(difference) if off_its_circle(&difference).is_some() => {
+                let off = off_its_circle(&difference).unwrap_or_default();
+                let text = format!(
+                    "an arc of the source ends {off:.3} mm off its circle: no source says what comes of it"
+                );
                 self.because(Why::SourceAlarms, &text);
             }
             Some(difference) => {
@@ -210,7 +241,13 @@ impl<'v, 'j> Verifier<'v, 'j> {
             _ => Vec::new(),
         };
         if !not_reached.is_empty() {
-            let text = format!("{} ways of branches were not gone", not_reached.len());
+            let named = not_reached
+                .iter()
+                .take(NAMED)
+                .map(|way| format!("'{}' in line {} was never {}", way.text.trim(), way.line, way.way));
+            let more = not_reached.len().saturating_sub(NAMED);
+            let rest = (more > 0).then(|| format!("and {more} more ways were not gone"));
+            let text = named.chain(rest).collect::<Vec<_>>().join("; ");
             self.because(Why::NotReached, &text);
         }
         for (fact, _) in self.unconfirmed.clone().iter().filter(|(_, is_new)| **is_new) {
@@ -255,6 +292,14 @@ impl<'v, 'j> Verifier<'v, 'j> {
 /// True where the control stopped the run, not the program.
 fn faults(run: &Run) -> bool {
     matches!(&run.end, End::Alarm { stop, .. } if stop.program_number.is_none())
+}
+
+/// How far an arc ends off its circle, where that is more than words round.
+fn off_its_circle(difference: &Difference<'_>) -> Option<f64> {
+    match difference.source?.what {
+        Happening::Arc { off, .. } => Some(off.abs()).filter(|off| *off > MOST_OFF),
+        _ => None,
+    }
 }
 
 /// True where the difference lies at the alarm that ended the source, not before it.

@@ -1,6 +1,7 @@
 //! The circumstances that a program is tried in.
 
 use super::inputs::{Input, Inputs};
+use super::names::class_of;
 use super::random::Random;
 use super::{Effort, Names, Side};
 use crate::canon::Sys;
@@ -17,13 +18,18 @@ pub struct Proposals<'i> {
     count: usize,
     /// Single values that are still to be tried, by variable and by which of the two ground states.
     singles: Vec<(usize, Option<f64>, bool)>,
+    /// Pairs of variables that are compared with each other, and by how much the second is to be more.
+    pairs: Vec<(usize, usize, f64)>,
 }
+
+/// The value of a variable that another one is held against.
+const PAIRED: f64 = 5.0;
 
 /// Answers that the operator has ready.
 const ANSWERS: u32 = 48;
 
 /// The ground states that come before anything is drawn.
-const GROUNDS: usize = 6;
+const GROUNDS: usize = 8;
 
 impl<'i> Proposals<'i> {
     /// Proposals for a program.
@@ -37,12 +43,14 @@ impl<'i> Proposals<'i> {
         }
         ranked.sort_by_key(|(rank, at, _)| (*rank, *at));
         let singles = ranked.into_iter().map(|(rank, at, value)| (at, value, rank % 2 == 1)).rev().collect();
-        Self { inputs, random: Random::new(effort.seed), effort, count: 0, singles }
+        let apart = |(a, b): &(usize, usize)| [0.0, 1.0, -1.0].map(|more| (*a, *b, more));
+        let pairs = inputs.pairs.iter().flat_map(apart).collect();
+        Self { inputs, random: Random::new(effort.seed), effort, count: 0, singles, pairs }
     }
 
     /// True while those come that every program is compared in, whether they reach anything new or not.
     pub fn are_telling(&self) -> bool {
-        self.count <= GROUNDS || !self.singles.is_empty()
+        self.count <= GROUNDS || !self.singles.is_empty() || !self.pairs.is_empty()
     }
 
     /// The next scenario, for the source.
@@ -54,25 +62,36 @@ impl<'i> Proposals<'i> {
         self.count += 1;
         let mut variables = BTreeMap::new();
         let drawn = count >= GROUNDS && (count % 4 == 1 || self.singles.is_empty());
-        let single = if count < GROUNDS || drawn { None } else { self.singles.pop() };
+        let pair = if count < GROUNDS || drawn { None } else { self.pairs.pop() };
+        let single = if count < GROUNDS || drawn || pair.is_some() { None } else { self.singles.pop() };
         for (at, input) in self.inputs.variables.iter().enumerate() {
             let ordinal = at as f64 + 1.0;
             let ground = match single {
-                Some((_, _, true)) => 2,
+                Some((_, _, true)) => 7,
                 Some((_, _, false)) => 1,
                 None => count,
             };
             let value = match (single, ground) {
+                // Nothing but the two, so that what other variables decide is out of the way.
+                _ if pair.is_some() => pair.and_then(|(a, b, more)| match at {
+                    at if at == a => Some(PAIRED),
+                    at if at == b => Some(PAIRED + more),
+                    _ => None,
+                }),
                 (Some((which, value, _)), _) if which == at => value,
                 (_, 0) => None,
                 (_, 1) => Some(ordinal),
-                (_, 2) => Some(ordinal * 1.375 + 0.123),
-                (_, 3) => Some(0.0),
-                (_, 4) => Some(-ordinal * 2.0 - 0.25),
-                (_, 5) => Some(101.0 + ordinal * 7.5),
+                // Small counts, which loops end at.
+                (_, 2) => Some((at % 3) as f64 + 2.0),
+                (_, 3) => Some((self.inputs.variables.len() - at) as f64),
+                (_, 4) => Some(0.0),
+                (_, 5) => Some(-ordinal * 2.0 - 0.25),
+                (_, 6) => Some(101.0 + ordinal * 7.3),
+                (_, 7) => Some(ordinal * 1.375 + 0.123),
                 _ => self.draw(input),
             };
-            if let Some(value) = value {
+            // A variable that is never vacant holds something: what a program finds at first is 0.
+            if let Some(value) = value.or((!input.nullable).then_some(0.0)) {
                 variables.insert(input.name.clone(), value);
             }
         }
@@ -97,6 +116,11 @@ impl<'i> Proposals<'i> {
     /// A machine around start values.
     fn around(&mut self, variables: BTreeMap<String, f64>, count: usize) -> Scenario {
         let mut scenario = machine(&mut self.random);
+        self.tables(&mut scenario, count);
+        // The machine has those rotary axes that its programs name.
+        for axis in (3..6).filter(|axis| !self.inputs.rotary[axis - 3]) {
+            scenario.start[axis] = 0.0;
+        }
         scenario.variables = variables;
         if self.inputs.skips && count % 3 == 1 {
             scenario.block_skip = 0x3fe;
@@ -133,6 +157,20 @@ impl<'i> Proposals<'i> {
         scenario.steps = self.effort.steps;
         scenario.events = usize::try_from(self.effort.steps).unwrap_or(usize::MAX);
         scenario
+    }
+
+    /// Now and then a tool of more than two digits, and small tools: conditions name sizes of tools too.
+    fn tables(&mut self, scenario: &mut Scenario, count: usize) {
+        if count % 4 == 2 {
+            scenario.tool *= 101;
+        }
+        if count % 5 == 3 {
+            let near = self.random.pick(&self.inputs.numbers).copied().unwrap_or(0.0).abs();
+            for (number, tool) in &mut scenario.tools {
+                let size = near * f64::from(*number) / 50.0;
+                *tool = Tool { length: size, radius: size / 2.0, ..Tool::default() };
+            }
+        }
     }
 
     /// Inputs, counters and the like, one way or the other.
@@ -189,11 +227,23 @@ pub fn unit(side: &Side<'_>, other: &Side<'_>) -> Option<bool> {
 }
 
 /// The same circumstances on the target: variables by their names there. One that has none is left out.
-pub fn on_target(scenario: &Scenario, names: &Names, source: &Side<'_>, target: &Side<'_>) -> Scenario {
+///
+/// A register that nothing has set yet may be vacant there: a conversion that is run first has to see to it, one that
+/// is `called` finds what its callers left.
+pub fn on_target(
+    scenario: &Scenario,
+    names: &Names,
+    (source, target): (&Side<'_>, &Side<'_>),
+    called: bool,
+) -> Scenario {
     let mut out = scenario.clone();
     out.inch = unit(target, source);
     out.variables.clear();
     for (name, value) in &scenario.variables {
+        let nullable = class_of(source.control, name).is_some_and(|class| class.nullable);
+        if *value == 0.0 && !nullable && !called {
+            continue;
+        }
         if let Some(name) = names.variable(name, source.control, target.control) {
             out.variables.insert(name, *value);
         }

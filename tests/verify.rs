@@ -1,0 +1,147 @@
+//! Pairs of programs by hand, handed to the verifier as if one were the conversion of the other: those that
+//! differ in one place must be told apart there, those that are only written otherwise must not.
+
+use macroglot::control::LoadedFile;
+use macroglot::dialect::{Control, registry};
+use macroglot::syntax::parse_file;
+use macroglot::verify::{Certificate, Effort, Job, Names, Outcome, Side, verify};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// A pair, and what of the target is changed.
+struct Pair<'p> {
+    name: &'p str,
+    from: &'p str,
+    to: &'p str,
+    lock: Vec<(&'p str, u32)>,
+    source: &'p str,
+    target: String,
+    /// What stands there once, what instead, and what the witness says of it.
+    changes: Vec<(String, String, &'p str)>,
+}
+
+fn read(text: &str) -> Vec<Pair<'_>> {
+    text.split("\n=== ").skip(1).map(pair).collect()
+}
+
+fn pair(text: &str) -> Pair<'_> {
+    let (head, rest) = text.split_once('\n').unwrap();
+    let (name, how) = head.rsplit_once(", ").unwrap();
+    let mut how = how.split(' ');
+    let (from, to) = (how.next().unwrap(), how.next().unwrap());
+    let lock =
+        how.map(|row| row.split_once('=').unwrap()).map(|(name, number)| (name, number.parse().unwrap()));
+    let (source, rest) = rest.split_once("---\n").unwrap();
+    let lines = || rest.lines().take_while(|line| !line.is_empty());
+    let line = |text: &str| text.replace("\\n", "\n");
+    let changes = lines().filter_map(|line| line.strip_prefix("~ ")).map(|change| {
+        let (change, what) = change.rsplit_once('|').unwrap();
+        let (old, new) = change.split_once(" => ").unwrap();
+        (line(old), line(new.trim_end_matches(' ')), what.trim())
+    });
+    Pair {
+        name,
+        from,
+        to,
+        lock: lock.collect(),
+        source,
+        target: lines().filter(|line| !line.starts_with("~ ")).flat_map(|line| [line, "\n"]).collect(),
+        changes: changes.collect(),
+    }
+}
+
+/// Verifies a target of a pair.
+fn judge(pair: &Pair<'_>, target: &str) -> Certificate {
+    let controls = [pair.from, pair.to].map(|name| Control::plain(name).unwrap());
+    let execute = [pair.from, pair.to].map(|name| registry::find(name).unwrap().execute.unwrap());
+    let parsed = [(pair.source, &controls[0]), (target, &controls[1])]
+        .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
+    let ours = [LoadedFile { name: "a.nc", parsed: &parsed[0] }];
+    let theirs = [LoadedFile { name: "a.nc", parsed: &parsed[1] }];
+    let source = Side::new(&controls[0], execute[0], &ours);
+    let target = Side::new(&controls[1], execute[1], &theirs);
+    let variables = pair.lock.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
+    let names = Names { variables, ..Names::default() };
+    let (reported, effort) = (BTreeMap::new(), Effort::default());
+    verify(&Job { source: &source, target: &target, names: &names, reported: &reported, effort }, &[])
+}
+
+fn text() -> String {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/verify/pairs.txt");
+    std::fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn what_is_written_otherwise_is_the_same() {
+    let text = text();
+    let pairs = read(&text);
+    assert!(pairs.len() >= 15, "{}", pairs.len());
+    for pair in &pairs {
+        let found = judge(pair, &pair.target);
+        let witness = found.programs.iter().find_map(|program| program.witness.as_ref());
+        assert_ne!(found.outcome, Outcome::Different, "{}: {witness:#?}", pair.name);
+        for program in &found.programs {
+            let reasons: Vec<_> = program.reasons.iter().map(|reason| reason.why).collect();
+            let unconfirmed = |why: &macroglot::verify::Why| *why == macroglot::verify::Why::Unconfirmed;
+            assert!(reasons.iter().all(unconfirmed), "{}: {:?}", pair.name, program.reasons);
+        }
+    }
+}
+
+#[test]
+fn what_differs_in_one_place_is_told_apart() {
+    let text = text();
+    let mut count = 0;
+    for pair in read(&text) {
+        for (old, new, what) in &pair.changes {
+            count += 1;
+            assert_eq!(pair.target.matches(old.as_str()).count(), 1, "{}: {old:?} stands once", pair.name);
+            let found = judge(&pair, &pair.target.replace(old, new));
+            let place = format!("{}: {old:?} made {new:?}", pair.name);
+            assert_eq!(found.outcome, Outcome::Different, "{place}");
+            let mut witnesses = found.programs.iter().filter_map(|program| program.witness.as_ref());
+            assert!(witnesses.any(|witness| witness.what.contains(what)), "{place}: not {what}");
+        }
+    }
+    assert!(count >= 100, "{count} changes");
+}
+
+/// What is found of a pair without any changes, and why it is not decided.
+fn found(from: &str, to: &str, source: &str, target: &str) -> (Outcome, Vec<macroglot::verify::Why>) {
+    let target = target.to_owned();
+    let pair = Pair { name: "", from, to, lock: Vec::new(), source, target, changes: Vec::new() };
+    let found = judge(&pair, &pair.target);
+    (found.outcome, found.programs.iter().flat_map(|p| &p.reasons).map(|reason| reason.why).collect())
+}
+
+#[test]
+fn what_the_target_lacks_is_neither_the_same_nor_a_fault() {
+    use macroglot::verify::Why::Substituted;
+    let mist = "O1\nM7\nG0 X1.\nM2\n";
+    let (outcome, why) = found("fadal", "haas", mist, "O00001\nM8\nG0 X1.\nM2\n");
+    assert_eq!((outcome, why.contains(&Substituted)), (Outcome::Undecided, true));
+    // Left out, or where the target has it, it is a fault.
+    assert_eq!(found("fadal", "haas", mist, "O00001\nG0 X1.\nM2\n").0, Outcome::Different);
+    assert_eq!(found("fadal", "fanuc", mist, "O0001\nM8\nG0 X1.\nM2\n").0, Outcome::Different);
+    let ramps = "O1\nG8\nG0 X1.\nM2\n";
+    let (outcome, why) = found("fadal", "fanuc", ramps, "O0001\nG0 X1.\nM2\n");
+    assert_eq!((outcome, why.contains(&Substituted)), (Outcome::Undecided, true));
+    assert_eq!(found("fadal", "fanuc", ramps, "O0001\nG0 X2.\nM2\n").0, Outcome::Different);
+    // A code that only the builder knows says nothing on either side.
+    let builders = "O1\nM77\nG0X1.\nM30\n";
+    assert_ne!(found("fanuc", "haas", builders, "O1\nM77\nG0X1.\nM30\n").0, Outcome::Same);
+    assert_eq!(found("fanuc", "haas", builders, "O1\nM78\nG0X1.\nM30\n").0, Outcome::Different);
+}
+
+#[test]
+fn small_moves_do_not_add_up_unseen() {
+    let source = format!("O1\nG90 G0 X1.\nG91\nG1 F10.\n{}G90\nM2\n", "X.0004\n".repeat(10));
+    assert_eq!(found("fadal", "fanuc", &source, "O0001\nG90 G0 X1.\nM2\n").0, Outcome::Different);
+}
+
+#[test]
+fn scratch_registers_hold_nothing_and_others_do() {
+    let source = "O1\n#101=1\nG0X#101\nM30\n";
+    let target = "O1\n#101=1\n#140=#101\nG0X#140\nM30\n";
+    assert_eq!(found("fanuc", "haas", source, target).0, Outcome::Different);
+}
