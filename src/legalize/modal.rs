@@ -304,7 +304,12 @@ impl<'m> Analysis<'m> {
             self.work.extend(returns.map(|&id| (routine.0, id)));
         }
         self.flow(routine.0, routine.1, state);
-        self.exits.get(&routine).cloned().unwrap_or_default()
+        let after = self.exits.get(&routine).cloned().unwrap_or_default();
+        if call.count.is_some() {
+            // Its next run begins in the state that it left.
+            self.flow(routine.0, routine.1, &after);
+        }
+        after
     }
 
     /// A return leaves every routine that the block belongs to.

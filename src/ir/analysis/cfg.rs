@@ -39,6 +39,8 @@ impl Cfg {
                 TermKind::Call { call, next } => match &call.callee {
                     Callee::Block(entry) => {
                         behind.push(*next);
+                        // One that runs again begins where it returned.
+                        behind.extend(call.count.is_some().then_some(*entry));
                         // One that runs no times, and the locals of a level, pass the body by.
                         if call.count.is_some() || call.level { vec![*entry, *next] } else { vec![*entry] }
                     }

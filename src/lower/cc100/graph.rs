@@ -3,7 +3,8 @@
 use crate::ir::{Block, Callee, Program, TermKind};
 use std::collections::BTreeMap;
 
-/// The ways between blocks. A called part that returns goes on behind any call of it;
+/// The ways between blocks. A called part that returns goes on behind any call of it, and at its
+/// own beginning where a call repeats it;
 /// a program with very many calls and blocks is taken to go on behind any call at all.
 #[derive(Debug)]
 pub struct Graph {
@@ -21,7 +22,8 @@ impl Graph {
         let mut behind: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for block in &program.blocks {
             if let Some((entry, next)) = called(block) {
-                behind.entry(entry).or_default().push(next);
+                let again = repeats(block).then_some(entry);
+                behind.entry(entry).or_default().extend(again.into_iter().chain([next]));
             }
         }
         if behind.len().saturating_mul(count) > MOST {
@@ -113,6 +115,11 @@ pub fn called(block: &Block) -> Option<(usize, usize)> {
         },
         _ => None,
     }
+}
+
+/// True for a call that may run more than once.
+fn repeats(block: &Block) -> bool {
+    matches!(&block.term.kind, TermKind::Call { call, .. } if call.count.is_some())
 }
 
 /// The blocks of a called part, or of the main part: all that its entry leads to,
