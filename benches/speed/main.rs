@@ -20,11 +20,15 @@ use std::process::{Command, ExitCode, Stdio};
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-#[derive(pest_derive::Parser)]
-#[grammar = "grammar/macro_b.pest"]
-#[grammar = "grammar/fanuc.pest"]
+/// The grammar without the scanner beside it.
 #[allow(missing_docs)]
-struct Grammar;
+mod grammar {
+    #[derive(pest_derive::Parser)]
+    #[grammar = "grammar/macro_b.pest"]
+    #[grammar = "grammar/fanuc.pest"]
+    pub struct Grammar;
+}
+use grammar::{Grammar, Rule};
 
 /// A case: its name, its input, and the arguments of the command where it is one.
 const CASES: &[(&str, &str, &[&str])] = &[

@@ -80,7 +80,7 @@ pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
 
 /// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat.
 pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
-    let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut Vec<Block>| {
+    let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
     };
     let join = |mut a: Vec<SyntaxError>, mut b| {
@@ -95,7 +95,7 @@ fn fold_lines<T: Send>(
     source: &[u8],
     parser: Parser,
     none: impl Fn() -> T + Sync + Send,
-    add: impl Fn(&mut T, Line, &mut Vec<Block>) + Sync,
+    add: impl Fn(&mut T, Line, &mut [Block]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let fold = |chunk| {
@@ -116,7 +116,7 @@ impl ParseTotals {
         Self { lossless: true, ..Self::default() }
     }
 
-    fn add_line(&mut self, line: Line, blocks: &mut Vec<Block>) {
+    fn add_line(&mut self, line: Line, blocks: &mut [Block]) {
         let mut at = line.text.start;
         for block in blocks.iter() {
             self.blocks += 1;
