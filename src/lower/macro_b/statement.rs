@@ -6,7 +6,7 @@ use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Expr, OutputPart, Place, Site, StmtKind, Var};
 use crate::lower::common::remark_text;
-use crate::syntax::{Item, ItemKind, OutputPart as Part};
+use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
@@ -16,7 +16,12 @@ impl<'a> Lowering<'a> {
             ItemKind::Assign { target, value, by_sign: false } => {
                 let text = comment(rest).map(|span| remark_text(span, self.source));
                 let Some(target) = self.target_place(target) else { return };
+                let bracket = matches!(value.kind, ExprKind::Group(_) | ExprKind::Plus(_));
                 let value = self.expr(value, At::Value);
+                if bracket && value.may_be_vacant() && !self.findings.is("bracket.copies.vacancy", item.span)
+                {
+                    self.unknown_behaviour("bracket.copies.vacancy", item.span);
+                }
                 self.assign(target, value, text, site);
             }
             ItemKind::If { condition, then, bare, body } => {
