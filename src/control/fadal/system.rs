@@ -45,16 +45,17 @@ impl Interpreter<'_, '_> {
                 }
             }
             Sys::ModalMotionPlus1 => return Some(self.code_in_force(Group::Motion)? + 1.0),
+            // By the common number of the group. That one is added is stated for the first group only.
             Sys::Modal => {
                 let group = match subscripts.first()? {
                     2 => Group::Plane,
-                    3 => Group::RadiusComp,
-                    4 => Group::Cycle,
-                    5 => Group::Distance,
-                    6 => Group::ReturnPlane,
+                    3 => Group::Distance,
+                    7 => Group::RadiusComp,
+                    9 => Group::Cycle,
+                    10 => Group::ReturnPlane,
                     _ => return None,
                 };
-                return Some(self.code_in_force(group)? + 1.0);
+                return self.code_in_force(group);
             }
             other => other,
         };

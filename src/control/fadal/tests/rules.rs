@@ -174,3 +174,10 @@ fn a_tap_advances_its_lead_each_turn_and_leaves_the_feed_alone() {
         .collect();
     assert_eq!(feeds, [300.0, 20.0, 20.0, 300.0]);
 }
+
+/// G(2) planes, G(3) compensation, G(5) absolute or incremental: each its own group.
+#[test]
+fn reads_what_is_in_force_by_group() {
+    let run = lines("G90 G17 G40 G1 F300.\n#V1=G(1)\n#V2=G(2)\n#V3=G(3)\nG91\n#V5=G(5)\nM2\n");
+    assert_eq!(["V1", "V2", "V3", "V5"].map(|name| run.variables[name]), [2.0, 17.0, 40.0, 91.0]);
+}
