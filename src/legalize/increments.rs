@@ -1,13 +1,13 @@
 //! Numbers without a decimal point, where the target does not count them as the source does.
 //!
 //! Law: n increments are `n * increment` of the unit in force. Side condition: the unit is known, from the
-//! text or from a machine profile; else the number keeps its form only where both controls count alike.
+//! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
 
 use super::{Context, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, Control, Units};
-use crate::ir::{BlockId, Call, Expr, Module, NcItem, StmtKind, TermKind};
+use crate::ir::{BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
 
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -22,8 +22,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !any {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
     let (source, target) = (context.source, context.target);
+    let mut entry = context.entry.clone();
+    if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), source.units()) {
+        entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
+    }
+    let facts = ModalFacts::of(module, &entry);
+    // The machine's unit is in force all through only where no program of the library names the other one.
+    let machine = source.units().filter(|units| {
+        let mut ops = module.programs.iter().flat_map(units_named);
+        ops.all(|named| named == *units)
+    });
     for (index, program) in module.programs.iter_mut().enumerate() {
         // A program that names one unit throughout is in it wherever it is entered.
         let named = unit_named(program);
@@ -32,7 +41,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
                 state.step(stmt);
-                let units = unit(&state.of(Group::Units)).or(named).or(source.units());
+                let units = unit(&state.of(Group::Units)).or(named).or(machine);
                 let failed = match &mut stmt.kind {
                     StmtKind::Nc(nc) => nc.items.iter_mut().any(|item| match item {
                         NcItem::Word(role, value) => !word(value, *role, units, source, target),
@@ -45,7 +54,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     unknown.get_or_insert(stmt.site.span);
                 }
             }
-            let units = unit(&state.of(Group::Units)).or(named).or(source.units());
+            let units = unit(&state.of(Group::Units)).or(named).or(machine);
             if let TermKind::Call { call, .. } = &mut block.term.kind
                 && !arguments(call, units, source, target)
             {
@@ -72,23 +81,23 @@ fn unit(setting: &Setting) -> Option<Units> {
     }
 }
 
-fn unit_named(program: &crate::ir::Program) -> Option<Units> {
-    let mut named = None;
-    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-        let StmtKind::Nc(nc) = &stmt.kind else { continue };
-        for op in nc.ops() {
-            let here = match op {
-                Op::Inch => Units::Inch,
-                Op::Metric => Units::Metric,
-                _ => continue,
-            };
-            if named.is_some_and(|other| other != here) {
-                return None;
-            }
-            named = Some(here);
-        }
-    }
-    named
+/// The one unit that a program names.
+fn unit_named(program: &Program) -> Option<Units> {
+    let mut all = units_named(program);
+    let first = all.next()?;
+    all.all(|other| other == first).then_some(first)
+}
+
+fn units_named(program: &Program) -> impl Iterator<Item = Units> + '_ {
+    let ncs = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| match &stmt.kind {
+        StmtKind::Nc(nc) => Some(nc),
+        _ => None,
+    });
+    ncs.flat_map(|nc| nc.ops()).filter_map(|op| match op {
+        Op::Inch => Some(Units::Inch),
+        Op::Metric => Some(Units::Metric),
+        _ => None,
+    })
 }
 
 /// Converts a word where it must be; false where it must be and cannot.

@@ -53,6 +53,11 @@ impl Modal {
         }
     }
 
+    /// Puts an operation in force from the start.
+    pub fn start_in(&mut self, op: Op) {
+        self.settings[op.group() as usize] = Setting::Known(op, None);
+    }
+
     /// What is in force of a group.
     pub fn of(&self, group: Group) -> Setting {
         self.settings[group as usize]

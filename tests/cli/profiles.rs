@@ -59,3 +59,22 @@ fn the_unit_of_a_profile_is_written_where_unused_subroutines_stand_too() {
     let run = shop.run("convert a.nc --from cc100 --to haas --machine m.toml");
     assert_eq!(run.out.matches("G21").count(), 1, "{}", run.out);
 }
+
+/// O2 runs in millimetres from O1 and in inches from O3, where the machine starts: -6 is neither -0.006 nor -0.0006.
+#[test]
+fn a_program_called_from_both_units_has_no_size_of_increments() {
+    let called = "O2\nG1 Z-6 F100.\nM99\n";
+    let metric = "O1\nG21\nM98 P2\nM30\n";
+    let shop = Shop::with(&[
+        ("one.nc", &format!("{metric}{called}")),
+        ("both.nc", &format!("{metric}{called}O3\nM98 P2\nM30\n")),
+        ("m.toml", "dialect = \"haas\"\nunits = \"inch\"\n"),
+        ("f.toml", "dialect = \"fanuc\"\nunits = \"inch\"\ndecimal_point = \"calculator\"\n"),
+    ]);
+    let line = "--from haas --to fanuc --machine m.toml --machine f.toml";
+    let one = shop.run(&format!("convert one.nc {line}"));
+    assert!(one.out.contains("Z-0.006"), "{}", one.out);
+    let both = shop.run(&format!("convert both.nc {line}"));
+    assert_eq!(both.code, 1, "{}", both.err);
+    assert!(both.err.contains("not known here"), "{}", both.err);
+}
