@@ -152,6 +152,14 @@ impl<'r> Pairs<'_, 'r> {
         left_out.is_some()
     }
 
+    /// How far apart the tools of both sides are.
+    fn drift(&self) -> f64 {
+        match &self.at {
+            [Some(ours), Some(theirs)] => apart(ours, theirs),
+            _ => 0.0,
+        }
+    }
+
     /// What differs between two acts, if anything does.
     fn differ(&mut self, source: &Act<'r>, target: &Act<'r>) -> Option<String> {
         let stands = stands_for(self.target, &source.what, &target.what);
@@ -161,7 +169,9 @@ impl<'r> Pairs<'_, 'r> {
             return None;
         }
         let mut largest = self.found.largest;
-        let what = differ((&source.what, &target.what), target.room, self.tolerance, &mut largest);
+        // Each move rounds once more: what incremental ones round adds up.
+        let tolerance = Tolerance { rounded: self.tolerance.rounded + self.drift() };
+        let what = differ((&source.what, &target.what), target.room, tolerance, &mut largest);
         match what {
             None => {
                 self.found.largest = largest;
@@ -287,7 +297,7 @@ fn differ(
         (
             Write { state, subscripts, value },
             Write { state: other_state, subscripts: other_subscripts, value: other },
-        ) => (state != other_state || subscripts != other_subscripts || differs(*value, *other))
+        ) => (state != other_state || subscripts != other_subscripts || about(*value, *other))
             .then_some("another state of the machine is written"),
         (Message { text }, Message { text: other }) | (Output { text }, Output { text: other }) => {
             (!say_the_same(text, other, room)).then_some("the text is another")

@@ -13,6 +13,7 @@
 //! the source went every way, and nothing that mattered rests on an unconfirmed fact.
 
 mod branches;
+mod callers;
 mod certificate;
 mod compare;
 mod inputs;

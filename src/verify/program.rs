@@ -1,6 +1,7 @@
 //! The verification of one program.
 
 use super::branches::Coverage;
+use super::callers::do_the_same;
 use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::inputs::{inputs, is_called};
@@ -253,11 +254,18 @@ impl<'v, 'j> Verifier<'v, 'j> {
         for (fact, _) in self.unconfirmed.clone().iter().filter(|(_, is_new)| **is_new) {
             self.because(Why::Unconfirmed, &format!("{fact} is not confirmed"));
         }
-        let outcome = match (&self.witness, self.reasons.is_empty()) {
+        let mut outcome = match (&self.witness, self.reasons.is_empty()) {
             (Some(_), _) => Outcome::Different,
             (None, false) => Outcome::Undecided,
             (None, true) => Outcome::Same,
         };
+        if let Some(witness) = &self.witness
+            && do_the_same(self.job, self.program, self.tolerance) == Some(true)
+        {
+            let text = format!("as it is called it does the same, but not by itself: {}", witness.what);
+            self.because(Why::NotByItself, &text);
+            outcome = Outcome::Undecided;
+        }
         let (branches_total, branches_covered) = self.coverage.totals();
         let reasons = self
             .reasons

@@ -9,6 +9,17 @@ use std::time::{Duration, Instant};
 
 /// Verifies a pair of single programs, registers by their own names or by `variables`.
 fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32)]) -> ProgramCertificate {
+    let mut all = programs((from, source), (to, target), variables);
+    assert_eq!(all.len(), 1, "one program");
+    all.remove(0)
+}
+
+/// Verifies a pair of files.
+fn programs(
+    (from, source): (&str, &str),
+    (to, target): (&str, &str),
+    variables: &[(&str, u32)],
+) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());
     let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
     let parsed: Vec<_> = [source, target]
@@ -26,9 +37,7 @@ fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32
     let reported = BTreeMap::new();
     let effort = Effort::default();
     let job = Job { source: &source, target: &target, names: &names, reported: &reported, effort };
-    let mut certificate = verify(&job, &[]);
-    assert_eq!(certificate.programs.len(), 1, "one program");
-    certificate.programs.remove(0)
+    verify(&job, &[]).programs
 }
 
 /// Within one dialect.
@@ -259,4 +268,33 @@ fn a_return_without_a_work_offset_is_the_callers_matter() {
     }
     // On a control that can do without one it is to do without.
     differs("cc100", "G53\nM2\n", "G90\nM2\n", "different things");
+}
+
+/// O2 rests on the mode that its caller is in.
+#[test]
+fn what_callers_give_a_program_is_not_missed_from_it() {
+    let library = |moves: &str| format!("O1\nG90G0X1.\nG91\nM98P2\nM30\nO2\n{moves}\nM99\n");
+    let source = library("G0X5.");
+    let outcomes = |moves: &str| {
+        let found = programs(("fanuc", &source), ("fanuc", &library(moves)), &[]);
+        let alone = found[1].reasons.iter().any(|reason| reason.why == Why::NotByItself);
+        (found[0].outcome == Outcome::Different, found[1].outcome, alone)
+    };
+    assert_eq!(outcomes("G91G0X5."), (false, Outcome::Undecided, true));
+    assert_eq!(outcomes("G91G0X6."), (true, Outcome::Different, false));
+}
+
+/// One third is 0.333 in a word: twelve of them lie 0.004 apart, each of them 0.0003.
+#[test]
+fn what_incremental_moves_round_adds_up() {
+    let with = |last: &str| {
+        let source = format!("#R1=1/3\nG90 G0 X0\nG91\n{}G10 L2 P5 Z+R1\nM2\n", "X+R1\n".repeat(13));
+        let target =
+            format!("#501=1/3\nG90G0X0.\nG91\n{}X[#501{last}]\nG10L2P5Z#501\nM2\n", "X#501\n".repeat(12));
+        run("fadal", &source, "fanuc", &target, &[("R1", 501)])
+    };
+    let found = with("");
+    assert_ne!(found.outcome, Outcome::Different, "{:#?}", found.witness);
+    assert!(found.largest_difference_mm > 0.004, "{}", found.largest_difference_mm);
+    assert_eq!(with("-0.01").outcome, Outcome::Different);
 }
