@@ -1,11 +1,51 @@
-//! What the fuzz targets share: the first byte of an input chooses the dialect.
+//! What the fuzz targets share.
 
-use macroglot::syntax::{Parser, cc100, fadal, fanuc, haas};
+use macroglot::control::{LoadedFile, ProgramRef, Scenario};
+use macroglot::dialect::Control;
+use macroglot::library::{Input, Lock, Options, convert, detect};
+use macroglot::syntax::{for_each_expr, for_each_item, parse_file, parse_totals};
+use std::path::PathBuf;
 
-/// The parser that the first byte names, and the program behind it.
-pub fn choose(input: &[u8]) -> Option<(Parser, &[u8])> {
-    const PARSERS: [Parser; 4] =
-        [fadal::parse_line, fanuc::parse_line, haas::parse_line, cc100::parse_line];
-    let (first, program) = input.split_first()?;
-    Some((PARSERS[usize::from(*first) % PARSERS.len()], program))
+#[path = "../tests/support/generate/mod.rs"]
+pub mod generate;
+
+/// Bytes of a program that are fuzzed; longer ones say nothing that short ones do not.
+const LONGEST: usize = 4096;
+
+fn control(dialect: &str) -> Control {
+    Control::plain(dialect).expect("the table loads")
+}
+
+/// What was read prints as it was, and its tokens tile it.
+pub fn lossless(dialect: &str, program: &[u8]) {
+    let parse = control(dialect).entry().parse;
+    assert_eq!(parse_file(program, parse).print(), program);
+    assert!(parse_totals(program, parse).lossless);
+}
+
+/// Nothing that can be written in a file makes a parser, a compiler or an emulated control panic, overflow
+/// its stack or hang.
+pub fn no_panic(dialect: &str, program: &[u8]) {
+    let program = &program[..program.len().min(LONGEST)];
+    let source = control(dialect);
+    let parsed = parse_file(program, source.entry().parse);
+    for block in &parsed.blocks {
+        // Trees are shallow enough to be walked, and to be dropped at the end.
+        for_each_item(&block.items, &mut |_| {});
+        for_each_expr(&block.items, &mut |_| {});
+        for error in &block.errors {
+            assert!(error.span.start <= error.span.end && error.span.end as usize <= program.len());
+        }
+    }
+    if let Some(execute) = source.entry().execute {
+        let files = [LoadedFile { name: "fuzz.nc", parsed: &parsed }];
+        let scenario = Scenario { steps: 500, events: 2000, ..Scenario::default() };
+        execute(&files, ProgramRef::FIRST, &source, &scenario);
+    }
+    let inputs = [Input { path: PathBuf::from("fuzz.nc"), name: "fuzz.nc".into(), bytes: program.to_vec() }];
+    detect(&inputs);
+    // One way of converting an input is enough: its length chooses.
+    let target = ["fanuc", "haas"][program.len() % 2];
+    let options = Options { draft: program.len() % 4 < 2, ..Options::default() };
+    convert(&inputs, &source, &control(target), Lock::new(dialect, target), options);
 }

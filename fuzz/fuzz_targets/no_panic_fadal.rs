@@ -1,0 +1,3 @@
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|program: &[u8]| macroglot_fuzz::no_panic("fadal", program));

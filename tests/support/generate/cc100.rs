@@ -1,0 +1,388 @@
+//! Spells programs for the control that takes one operation an assignment and branches on what
+//! the last one gave.
+
+use super::{Binary, Kind, Offset, Program, Relation, Source, Step, Test, Unary, Value, plain};
+use std::fmt::Write;
+
+pub fn write(program: &Program) -> String {
+    let mut choices = Source::Seed(program.salt);
+    let label = 10 + program.subs.len() as u32;
+    let numbers = choices.one_in(2);
+    let mut writer =
+        Writer { out: String::new(), block: numbers.then_some(1), label, ends: Vec::new(), used: 0 };
+    writer.line("G90");
+    writer.line("G53");
+    writer.line("G0 Z0 T00");
+    writer.line("G54");
+    writer.line("G1 F800");
+    writer.steps(&program.main);
+    writer.line("M30");
+    for (at, sub) in program.subs.iter().enumerate() {
+        writer.line(&format!("${}", 1 + at));
+        writer.steps(sub);
+        writer.line("G99");
+    }
+    writer.out
+}
+
+struct Writer {
+    out: String,
+    /// The number of the next block; none where blocks have none.
+    block: Option<u32>,
+    /// The next free label.
+    label: u32,
+    /// Where the loops around end.
+    ends: Vec<u32>,
+    /// Variables in use for parts of a value.
+    used: usize,
+}
+
+impl Writer {
+    fn line(&mut self, text: &str) {
+        if let Some(number) = &mut self.block {
+            let _ = write!(self.out, "N{number} ");
+            *number += 1;
+        }
+        self.out.push_str(text);
+        self.out.push('\n');
+    }
+
+    fn labels(&mut self, many: u32) -> u32 {
+        let first = self.label;
+        self.label += many;
+        first
+    }
+
+    fn place(&mut self, label: u32) {
+        self.line(&format!("${label}"));
+    }
+
+    fn steps(&mut self, steps: &[Step]) {
+        for step in steps {
+            self.used = 0;
+            self.step(step);
+        }
+    }
+
+    fn step(&mut self, step: &Step) {
+        let mut choices = step.choices();
+        match &step.kind {
+            Kind::Set { slot, value } => self.assign(&name(*slot), value),
+            // No variable is found by a number here; the counter itself is as good.
+            Kind::SetCell { counter, value } => {
+                let value =
+                    Value::Binary(Binary::Add, Box::new(Value::Slot(*counter)), Box::new(value.clone()));
+                self.assign("VC", &value);
+            }
+            Kind::Absolute(absolute) => self.line(if *absolute { "G90" } else { "G91" }),
+            Kind::Move { rapid, axes, feed } => {
+                let code = if *rapid { "G0" } else { "G1" };
+                let line = self.words(['X', 'Y', 'Z'].into_iter().zip(axes));
+                match feed {
+                    Some(feed) => self.line(&format!("{code} F{}", plain(*feed))),
+                    None if choices.one_in(5) => {}
+                    None => self.line(code),
+                }
+                if !line.is_empty() {
+                    self.line(&line);
+                }
+            }
+            Kind::Arc { clockwise, radius } => {
+                let side = self.variable(radius);
+                // A negative radius is the short arc.
+                let minus = self.temporary();
+                self.line(&format!("{minus}={side}* -1"));
+                self.line("G91");
+                self.line(if *clockwise { "G2" } else { "G3" });
+                self.line(&format!("X={side} Y={side} R={minus}"));
+                self.line("G90 G1");
+            }
+            Kind::Dwell(_) => self.line("G61"),
+            Kind::If { test, then, otherwise } => {
+                let end = self.labels(2);
+                if otherwise.is_empty() && choices.one_in(2) {
+                    self.unless(test, end);
+                    self.steps(then);
+                } else {
+                    self.when(test, end + 1);
+                    self.steps(otherwise);
+                    self.line(&format!("G24 P{end}"));
+                    self.place(end + 1);
+                    self.steps(then);
+                }
+                self.place(end);
+            }
+            Kind::Repeat { counter, times, body } => {
+                let name = name(*counter);
+                let label = self.labels(2);
+                self.ends.push(label + 1);
+                if choices.one_in(2) {
+                    self.line(&format!("{name}={times}"));
+                    self.place(label);
+                    self.steps(body);
+                    self.line(&format!("DEC {name}"));
+                    self.line(&format!("BGT P{label}"));
+                } else {
+                    self.line(&format!("{name}=0"));
+                    self.place(label);
+                    self.line(&format!("V79={name}-{times} BGE P{}", label + 1));
+                    self.steps(body);
+                    self.line(&format!("INC {name}"));
+                    self.line(&format!("G24 P{label}"));
+                }
+                self.ends.pop();
+                self.place(label + 1);
+            }
+            Kind::Leave(test) => {
+                if let Some(end) = self.ends.last() {
+                    self.when(test, *end);
+                }
+            }
+            Kind::Switch { on, arms } => {
+                let first = self.labels(arms.len() as u32 + 1);
+                let end = first + arms.len() as u32;
+                let computed = choices.one_in(3);
+                for at in 1..arms.len() as u32 {
+                    self.line(&format!("V79={}-{at}", name(*on)));
+                    if computed {
+                        self.line(&format!("V78={}", first + at));
+                        self.line("TST V79");
+                        self.line("BEQ V78");
+                    } else {
+                        self.line(&format!("BEQ P{}", first + at));
+                    }
+                }
+                for (at, arm) in arms.iter().enumerate() {
+                    self.place(first + at as u32);
+                    self.steps(arm);
+                    self.line(&format!("G24 P{end}"));
+                }
+                self.place(end);
+            }
+            Kind::Call { sub, values, times } => {
+                for (slot, value) in values {
+                    self.assign(&name(*slot), value);
+                }
+                let again = if *times > 1 { format!(" L{}", times - 1) } else { String::new() };
+                self.line(&format!("G22 P{}{again}", 1 + sub));
+            }
+            Kind::Cycle { places, .. } => {
+                self.line("G81 V1=5 V2=-10");
+                for place in places {
+                    let line = self.words(['X', 'Y'].into_iter().zip(place));
+                    if !line.is_empty() {
+                        self.line("G0");
+                        self.line(&line);
+                    }
+                }
+                self.line("G80");
+            }
+            Kind::Offset(offset) => self.offset(offset, &mut choices),
+            Kind::Machine(which) => {
+                let lines = ["M8", "M9", "T01", "M8", "M9", "T02", "M0", "G0 Z5"];
+                self.line(lines[*which % lines.len()]);
+            }
+            Kind::Own(which, value) => self.own(*which, value),
+        }
+    }
+
+    /// Axis words: all numbers, or all variables, for a block holds one kind.
+    fn words<'v>(&mut self, words: impl Iterator<Item = (char, &'v Option<Value>)>) -> String {
+        let words: Vec<(char, &Value)> = words.filter_map(|(axis, v)| Some((axis, v.as_ref()?))).collect();
+        let constant = words.iter().all(|(_, value)| matches!(value, Value::Number(_)));
+        let mut line = String::new();
+        for (axis, value) in words {
+            let _ = match value {
+                Value::Number(number) if constant => write!(line, " {axis}{}", plain(*number)),
+                value => write!(line, " {axis}={}", self.variable(value)),
+            };
+        }
+        line.trim_start().to_owned()
+    }
+
+    fn temporary(&mut self) -> String {
+        self.used += 1;
+        format!("V{}", 60 + (self.used - 1) % 18)
+    }
+
+    /// A variable that holds a value.
+    fn variable(&mut self, value: &Value) -> String {
+        if let Value::Slot(slot) = value {
+            return name(*slot);
+        }
+        let name = self.temporary();
+        self.assign(&name, value);
+        name
+    }
+
+    fn assign(&mut self, name: &str, value: &Value) {
+        match value {
+            Value::Number(number) => self.line(&format!("{name}={}", plain(*number))),
+            Value::Empty => self.line(&format!("{name}=0")),
+            Value::Slot(slot) => self.line(&format!("{name}={}", self::name(*slot))),
+            Value::Unary(function, a) => {
+                let a = self.variable(a);
+                match function {
+                    Unary::Negate => self.line(&format!("{name}={a}* -1")),
+                    Unary::Abs | Unary::Root => {
+                        self.line(&format!("V79={a}*{a}"));
+                        self.line(&format!("{name}=SQR V79"));
+                    }
+                    // Angles have to be within a turn.
+                    Unary::Sine | Unary::Cosine => {
+                        self.line(&format!("V79=ATN {a}"));
+                        let function = if *function == Unary::Sine { "SIN" } else { "COS" };
+                        self.line(&format!("{name}={function} V79"));
+                    }
+                    Unary::ArcTangent => self.line(&format!("{name}=ATN {a}")),
+                    Unary::Fix | Unary::Up | Unary::Round => {
+                        self.line(&format!("{name}={a}"));
+                        self.line(&format!("INC {name}"));
+                        self.line(&format!("DEC {name}"));
+                    }
+                }
+            }
+            Value::Binary(operation, a, b) => {
+                let a = self.variable(a);
+                let b = match &**b {
+                    Value::Number(number) if *number >= 0.0 => plain(*number),
+                    b => self.variable(b),
+                };
+                let sign = match operation {
+                    Binary::Multiply => "*",
+                    Binary::Divide | Binary::ArcTangent | Binary::Remainder => "/",
+                    Binary::Subtract => "-",
+                    _ => "+",
+                };
+                self.line(&format!("{name}={a}{sign}{b}"));
+            }
+        }
+    }
+
+    /// Goes on at a label where a condition holds.
+    fn when(&mut self, test: &Test, label: u32) {
+        match test {
+            Test::Compare(relation, a, b) => {
+                let branch = branch(*relation);
+                match (a, b) {
+                    (Value::Slot(slot), Value::Number(0.0)) => self.line(&format!("TST {}", name(*slot))),
+                    (a, b) => {
+                        let difference =
+                            Value::Binary(Binary::Subtract, Box::new(a.clone()), Box::new(b.clone()));
+                        self.assign("V79", &difference);
+                    }
+                }
+                self.line(&format!("{branch} P{label}"));
+            }
+            Test::Empty(slot, empty) => {
+                self.line(&format!("TST {}", name(*slot)));
+                self.line(&format!("{} P{label}", if *empty { "BEQ" } else { "BNE" }));
+            }
+            Test::Either(a, b) => {
+                self.when(a, label);
+                self.when(b, label);
+            }
+            Test::Both(a, b) => {
+                let past = self.labels(1);
+                self.unless(a, past);
+                self.when(b, label);
+                self.place(past);
+            }
+        }
+    }
+
+    fn unless(&mut self, test: &Test, label: u32) {
+        self.when(&test.opposite(), label);
+    }
+
+    fn offset(&mut self, offset: &Offset, choices: &mut Source<'_>) {
+        let axis = |axis: usize| ['X', 'Y', 'Z'][axis];
+        match offset {
+            Offset::Select(row) => self.line(&format!("G{}", 53 + row)),
+            Offset::Write { row, axis: which, value } => {
+                let variable = self.variable(value);
+                self.line(&format!("TRF=G{} {}={variable}", 53 + row, axis(*which)));
+            }
+            Offset::Read { row, axis: which, slot } => {
+                self.line(&format!("TRF=G{} {}={}", 53 + row, name(*slot), axis(*which)));
+            }
+            Offset::Shift(_) | Offset::Position(_) => self.line(choices.pick(&["G92 X0 Y0", "G92 X5"])),
+            Offset::Length(tool) => self.line(&format!("G0 Z30 T{tool:02}")),
+            Offset::NoLength => self.line("T00"),
+            Offset::WriteTool { tool, value } => {
+                let variable = self.variable(value);
+                self.line(&format!("COR=T{tool} {}={variable}", choices.pick(&['L', 'R'])));
+            }
+            Offset::ReadTool { tool, slot } => {
+                self.line(&format!("COR=T{tool} {}={}", name(*slot), choices.pick(&['L', 'R'])));
+            }
+            Offset::ReadPosition { axis: which, slot } => {
+                self.line(&format!("{}={}", name(*slot), axis(*which)));
+            }
+            Offset::ReadModal(slot) => {
+                let past = self.labels(1);
+                self.line(&format!("TST G{}", choices.pick(&[90, 0, 54, 1])));
+                self.line(&format!("BEQ P{past}"));
+                self.line(&format!("{}=1", name(*slot)));
+                self.place(past);
+            }
+            Offset::Home => {
+                self.line("G53");
+                self.line("G0 Z0 T00");
+                self.line("G54");
+            }
+        }
+    }
+
+    fn own(&mut self, which: usize, value: &Value) {
+        match which {
+            0..3 => self.line(&format!("INC {}", name(which))),
+            3..6 => self.line(&format!("DEC {}", name(which - 3))),
+            6 => {
+                self.line("G20 X0 Y0");
+                let a = self.variable(value);
+                self.line("V77=10");
+                self.line("G91");
+                self.line(&format!("A={a} D=V77"));
+                self.line("G90");
+            }
+            7 => {
+                self.line("M0");
+                self.line("(LOOK AT THE PART)");
+            }
+            8 => self.line("V30=V30+1 V31=V30*2"),
+            9 => {
+                let past = self.labels(1);
+                self.line(&format!("V30=V30-1 BLT P{past}"));
+                self.line("V31=V30");
+                self.place(past);
+            }
+            10 => {
+                let f = self.variable(&Value::Number(700.0));
+                self.line(&format!("F={f}"));
+            }
+            11 => {
+                // The time of moves that were rounded is no number to compare.
+                self.line("TIM V36");
+                self.line("V36=0");
+            }
+            12 => self.line("G62"),
+            13 => self.line("V31=F"),
+            14 => self.line("COR=T3 V30=R V31=L"),
+            _ => self.line("(A COMMENT)"),
+        }
+    }
+}
+
+fn name(slot: usize) -> String {
+    match slot {
+        0..=7 => format!("V{}", 30 + slot),
+        8 => "VA".into(),
+        9 => "VB".into(),
+        _ => format!("V{}", 20 + slot),
+    }
+}
+
+fn branch(relation: Relation) -> &'static str {
+    ["BEQ", "BNE", "BLT", "BLE", "BGT", "BGE"][relation as usize]
+}

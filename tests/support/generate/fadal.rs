@@ -1,0 +1,462 @@
+//! Spells programs for the control with `#` lines for macros, and R words in its NC lines.
+
+use super::{Binary, Kind, Offset, Program, Source, Step, Test, Unary, Value, plain, pointed};
+use std::fmt::Write;
+
+/// The longest macro line.
+const LINE: usize = 63;
+
+pub fn write(program: &Program) -> String {
+    let mut choices = Source::Seed(program.salt);
+    let split = choices.below(program.subs.len() + 1);
+    let mut writer = Writer { out: String::new(), label: 10, ends: Vec::new(), split, temporaries: 0 };
+    writer.line("O1000 (MAIN");
+    for (at, sub) in program.subs.iter().enumerate().take(split) {
+        writer.line(&format!("L{}00", at + 1));
+        writer.steps(sub);
+        if at + 1 == split || choices.one_in(2) {
+            writer.line("M17");
+        }
+    }
+    if split > 0 {
+        writer.line("M30");
+    }
+    if choices.one_in(3) {
+        writer.line("#CLEAR");
+    }
+    if choices.one_in(2) {
+        writer.line("#SET RND3");
+    }
+    writer.line("G0 G90 G17 G40 G49 G80 E1");
+    writer.line("S800 M3");
+    writer.line("G1 F300.");
+    writer.steps(&program.main);
+    writer.line("M2");
+    for (at, sub) in program.subs.iter().enumerate().skip(split) {
+        writer.line(&format!("O{}", 1001 + at));
+        writer.label = 10;
+        writer.steps(sub);
+        writer.line("M99");
+    }
+    writer.out
+}
+
+struct Writer {
+    out: String,
+    /// The next free label.
+    label: u32,
+    /// Where the loops around end.
+    ends: Vec<u32>,
+    /// Subprograms below it are L subroutines, the others programs.
+    split: usize,
+    /// Variables in use for parts of a line.
+    temporaries: usize,
+}
+
+impl Writer {
+    fn line(&mut self, text: &str) {
+        self.out.push_str(text);
+        self.out.push('\n');
+        self.temporaries = 0;
+    }
+
+    fn labels(&mut self, many: u32) -> u32 {
+        let first = self.label;
+        self.label += many;
+        first
+    }
+
+    /// Every third label is a sequence number.
+    fn place(&mut self, label: u32) {
+        let line = if label.is_multiple_of(3) { format!("N{label} (PLACE") } else { format!("#:L{label}") };
+        self.line(&line);
+    }
+
+    fn to(label: u32) -> String {
+        if label.is_multiple_of(3) { format!("GOTO N{label}") } else { format!("GOTO :L{label}") }
+    }
+
+    fn steps(&mut self, steps: &[Step]) {
+        for step in steps {
+            self.step(step);
+        }
+    }
+
+    fn step(&mut self, step: &Step) {
+        let mut choices = step.choices();
+        match &step.kind {
+            Kind::Set { slot, value } => match (name(*slot), value) {
+                (name, Value::Number(number)) if name.starts_with('R') && choices.one_in(2) => {
+                    self.line(&format!("{name}{}", signed(*number)));
+                }
+                (name, value) => self.assign(&name, value),
+            },
+            Kind::SetCell { counter, value } => self.assign(&format!("V(60+{})", name(*counter)), value),
+            Kind::Absolute(absolute) => self.line(if *absolute { "G90" } else { "G91" }),
+            Kind::Move { rapid, axes, feed } => {
+                let words: Vec<Option<String>> = axes.iter().map(|v| Some(self.word(v.as_ref()?))).collect();
+                let mut line = String::from(if choices.one_in(5) {
+                    ""
+                } else if *rapid {
+                    "G0 "
+                } else {
+                    "G1 "
+                });
+                for (axis, word) in ['X', 'Y', 'Z'].iter().zip(words) {
+                    if let Some(word) = word {
+                        let _ = write!(line, "{axis}{word} ");
+                    }
+                }
+                if let Some(feed) = feed {
+                    let _ = write!(line, "F{} ", pointed(*feed));
+                }
+                if line.is_empty() { self.line("G0") } else { self.line(line.trim_end()) }
+            }
+            Kind::Arc { clockwise, radius } => {
+                let code = if *clockwise { "G2" } else { "G3" };
+                let r = self.word(radius);
+                let line = match choices.below(3) {
+                    0 => format!("G91 {code} X{r} Y{r} I{r} J0"),
+                    1 if r.starts_with('+') => format!("G91 {code} X{r} Y{r} R0{r}"),
+                    _ => format!("{code} I{r}"),
+                };
+                self.line(&line);
+                self.line("G90 G1");
+            }
+            Kind::Dwell(ms) => self.line(&format!("G4 P{ms}")),
+            Kind::If { test, then, otherwise } => self.branch(test, then, otherwise, &mut choices),
+            Kind::Repeat { counter, times, body } => {
+                let name = name(*counter);
+                let label = self.labels(2);
+                self.ends.push(label + 1);
+                if choices.one_in(2) {
+                    self.line(&format!("#{name}=0"));
+                    self.place(label);
+                    self.line(&format!("#IF {name}>={times} THEN {}", Self::to(label + 1)));
+                    self.steps(body);
+                    self.line(&format!("#{name}={name}+1"));
+                    self.line(&format!("#{}", Self::to(label)));
+                } else {
+                    self.line(&format!("#{name}={times}"));
+                    self.place(label);
+                    self.steps(body);
+                    self.line(&format!("#{name}={name}-1"));
+                    self.line(&format!("#IF {name}>0 THEN {}", Self::to(label)));
+                }
+                self.ends.pop();
+                self.place(label + 1);
+            }
+            Kind::Leave(test) => {
+                if let Some(end) = self.ends.last() {
+                    let to = Self::to(*end);
+                    self.when(test, &to);
+                }
+            }
+            Kind::Switch { on, arms } => {
+                let first = self.labels(arms.len() as u32 + 1);
+                let end = first + arms.len() as u32;
+                for at in 1..arms.len() as u32 {
+                    self.line(&format!("#IF {} = {at} THEN {}", name(*on), Self::to(first + at)));
+                }
+                for (at, arm) in arms.iter().enumerate() {
+                    self.place(first + at as u32);
+                    self.steps(arm);
+                    self.line(&format!("#{}", Self::to(end)));
+                }
+                self.place(end);
+            }
+            Kind::Call { sub, values, times } => {
+                for (slot, value) in values {
+                    self.assign(&name(*slot), value);
+                }
+                self.call(*sub, *times, &mut choices);
+            }
+            Kind::Cycle { kind, depth, plane, initial, places } => {
+                let code = [81, 82, 83, 73, 84, 85, 86, 89, 76, 81, 83, 82][*kind % 12];
+                let mut line = format!("G{code} {}", if *initial { "G98" } else { "G99" });
+                let mut places = places.iter();
+                if choices.one_in(2)
+                    && let Some(place) = places.next()
+                {
+                    line += &self.at(place);
+                }
+                let depth = self.word(depth);
+                let plane = match plane {
+                    Value::Number(number) => signed(*number),
+                    slot => self.word(slot),
+                };
+                let _ = write!(line, " Z{depth} R0{plane}");
+                line += match code {
+                    82 | 89 => " P250 F120.",
+                    83 | 73 => " Q1.5 F120.",
+                    84 => " Q1. F400.",
+                    _ => " F120.",
+                };
+                self.line(&line);
+                for place in places {
+                    let line = self.at(place);
+                    self.line(line.trim());
+                }
+                if choices.one_in(5) {
+                    self.line("M45");
+                }
+                self.line("G80");
+            }
+            Kind::Offset(offset) => self.offset(offset, &mut choices),
+            Kind::Machine(which) => {
+                let lines = ["S1200 M3", "M5", "M8", "M9", "T2 M6", "M1", "M0", "S500"];
+                self.line(lines[*which % lines.len()]);
+            }
+            Kind::Own(which, value) => self.own(*which, value),
+        }
+    }
+
+    fn at(&mut self, place: &[Option<Value>; 2]) -> String {
+        let mut line = String::new();
+        for (axis, value) in ['X', 'Y'].iter().zip(place) {
+            if let Some(value) = value {
+                let word = self.word(value);
+                let _ = write!(line, " {axis}{word}");
+            }
+        }
+        line
+    }
+
+    fn branch(&mut self, test: &Test, then: &[Step], otherwise: &[Step], choices: &mut Source<'_>) {
+        if let ([Step { kind: Kind::Set { slot, value }, .. }], []) = (then, otherwise)
+            && choices.one_in(2)
+        {
+            return self.when(test, &format!("{}={}", name(*slot), text(value, 0)));
+        }
+        let end = self.labels(2);
+        if otherwise.is_empty() && choices.one_in(2) {
+            self.when(&test.opposite(), &Self::to(end));
+            self.steps(then);
+        } else {
+            self.when(test, &Self::to(end + 1));
+            self.steps(otherwise);
+            self.line(&format!("#{}", Self::to(end)));
+            self.place(end + 1);
+            self.steps(then);
+        }
+        self.place(end);
+    }
+
+    /// A statement under a condition; what is too long for a line is worked out on lines before it.
+    fn when(&mut self, test: &Test, statement: &str) {
+        let line = format!("#IF {} THEN {statement}", condition(test));
+        if line.len() <= LINE {
+            return self.line(&line);
+        }
+        let short = self.shorter(test);
+        let line = format!("#IF {} THEN {statement}", condition(&short));
+        if line.len() <= LINE {
+            return self.line(&line);
+        }
+        let (end, other) = (self.labels(1), short.opposite());
+        self.line(&format!("#IF {} THEN {}", condition(&other), Self::to(end)));
+        match statement.split_once('=') {
+            Some((name, _)) if line.len() > LINE + 20 => self.line(&format!("#{name}=0")),
+            _ => self.line(&format!("#{statement}")),
+        }
+        self.place(end);
+    }
+
+    fn shorter(&mut self, test: &Test) -> Test {
+        match test {
+            Test::Compare(relation, a, b) => Test::Compare(*relation, self.temporary(a), self.temporary(b)),
+            Test::Empty(slot, empty) => Test::Empty(*slot, *empty),
+            Test::Both(a, b) => Test::Both(Box::new(self.shorter(a)), Box::new(self.shorter(b))),
+            Test::Either(a, b) => Test::Either(Box::new(self.shorter(a)), Box::new(self.shorter(b))),
+        }
+    }
+
+    /// A variable that holds a value, on the lines before the one that is being written.
+    fn temporary(&mut self, value: &Value) -> Value {
+        if matches!(value, Value::Slot(_) | Value::Number(_)) {
+            return value.clone();
+        }
+        let at = self.temporaries;
+        let slot = 90 + at;
+        self.assign(&name(slot), value);
+        self.temporaries = at + 1;
+        Value::Slot(slot)
+    }
+
+    fn assign(&mut self, name: &str, value: &Value) {
+        let line = format!("#{name}={}", text(value, 0));
+        if line.len() <= LINE {
+            return self.line(&line);
+        }
+        let short = match value {
+            Value::Binary(operation, a, b) => {
+                let (a, b) = (self.temporary(a), self.temporary(b));
+                Value::Binary(*operation, Box::new(a), Box::new(b))
+            }
+            Value::Unary(function, a) => Value::Unary(*function, Box::new(self.temporary(a))),
+            other => other.clone(),
+        };
+        self.line(&format!("#{name}={}", text(&short, 0)));
+    }
+
+    fn call(&mut self, sub: usize, times: u32, choices: &mut Source<'_>) {
+        if sub >= self.split {
+            let again = if times > 1 { format!(" L{times}") } else { String::new() };
+            return self.line(&format!("M98 P{}{again}", 1001 + sub));
+        }
+        let code = 100 * (sub + 1) + times as usize;
+        match choices.below(8) {
+            0 => {
+                self.line(&format!("R2+{code}."));
+                self.line("L+R2");
+            }
+            1 => {
+                self.line(&format!("L{code} G66"));
+                self.line("X4.");
+                self.line("G67");
+            }
+            _ => self.line(&format!("L{code}")),
+        }
+    }
+
+    fn offset(&mut self, offset: &Offset, choices: &mut Source<'_>) {
+        let axis = |axis: usize| ['X', 'Y', 'Z'][axis];
+        match offset {
+            Offset::Select(row) => self.line(&format!("E{} X0 Y0", row + 3 * choices.below(2) as u32)),
+            Offset::Write { row, axis: which, value } if choices.one_in(2) => {
+                self.assign(&format!("F{}{row}", axis(*which)), value);
+            }
+            Offset::Write { row, axis: which, value } => {
+                let word = self.word(value);
+                self.line(&format!("G10 L2 P{row} {}{word}", axis(*which)));
+            }
+            Offset::Read { row, axis: which, slot } => {
+                self.line(&format!("#{}=F{}{row}", name(*slot), axis(*which)));
+            }
+            Offset::Shift([x, y]) | Offset::Position([x, y]) => {
+                let (x, y) = (self.word(x), self.word(y));
+                self.line(&format!("G92 X{x} Y{y}"));
+            }
+            Offset::Length(tool) => self.line(&format!("H{tool} Z30.")),
+            Offset::NoLength => self.line(choices.pick(&["H0", "G49"])),
+            Offset::WriteTool { tool, value } => {
+                let table = choices.pick(&["H", "D"]);
+                self.assign(&format!("{table}{tool}"), value);
+            }
+            Offset::ReadTool { tool, slot } => {
+                let table = choices.pick(&["H", "H", "D"]);
+                self.line(&format!("#{}={table}{tool}", name(*slot)));
+            }
+            Offset::ReadPosition { axis: which, slot } => {
+                self.line(&format!("#{}=A{}", name(*slot), axis(*which)));
+            }
+            Offset::ReadModal(slot) => self.line(&format!("#{}=G({})", name(*slot), choices.pick(&[1, 5]))),
+            Offset::Home => self.line(choices.pick(&["E0 X0 Y0", "H0 Z0", "G28 X0 Y0 Z0"])),
+        }
+    }
+
+    fn own(&mut self, which: usize, value: &Value) {
+        let word = |writer: &mut Self| writer.word(value);
+        match which {
+            0 => self.line("#PRINT \"AT\",V1"),
+            1 => self.line("#INPUT V6"),
+            2 => self.line("#CLEAR V5-V6"),
+            3 => self.line("#SET RND2"),
+            4 => self.line(&format!("#V5=SGN({})", text(value, 0))),
+            5 => self.line("#WAIT"),
+            6 => {
+                let word = word(self);
+                self.line(&format!("G91 G0 X{word} L2"));
+                self.line("G90");
+            }
+            7 => self.line("#V6=V(60)+V(60+1)"),
+            8 => self.line("G5 X1."),
+            9 => self.line("G9"),
+            10 => self.line("G8"),
+            11 => {
+                let word = word(self);
+                self.line(&format!("/X{word}"));
+            }
+            12 => self.line("M49"),
+            13 => self.line("#SPRINT \"X\",R5"),
+            14 => self.line("R6+R5"),
+            _ => self.line("(A COMMENT"),
+        }
+    }
+
+    /// A value behind a letter: a number, or a signed R.
+    fn word(&mut self, value: &Value) -> String {
+        match value {
+            Value::Number(number) => pointed(*number),
+            Value::Slot(slot @ 0..=3) => format!("+{}", name(*slot)),
+            Value::Unary(Unary::Negate, inner) if matches!(**inner, Value::Slot(0..=3)) => {
+                format!("-{}", text(inner, 9))
+            }
+            other => {
+                // Each word of a block has its own.
+                let at = self.temporaries;
+                let name = ["R9", "R4", "R3"][at % 3];
+                self.assign(name, other);
+                self.temporaries = at + 1;
+                format!("+{name}")
+            }
+        }
+    }
+}
+
+fn signed(number: f64) -> String {
+    if number < 0.0 { pointed(number) } else { format!("+{}", pointed(number)) }
+}
+
+fn name(slot: usize) -> String {
+    match slot {
+        0..=3 => format!("R{}", slot + 5),
+        4..=9 => format!("V{}", slot - 3),
+        _ => format!("V{slot}"),
+    }
+}
+
+/// A value beside operators of a rank.
+fn text(value: &Value, rank: u32) -> String {
+    match value {
+        Value::Number(number) if *number < 0.0 && rank > 0 => format!("({})", plain(*number)),
+        Value::Number(number) => plain(*number),
+        Value::Slot(slot) => name(*slot),
+        Value::Empty => "0".into(),
+        Value::Unary(Unary::Negate, a) if rank > 0 => format!("(-{})", text(a, 9)),
+        Value::Unary(Unary::Negate, a) => format!("-{}", text(a, 9)),
+        Value::Unary(function, a) => {
+            let name = match function {
+                Unary::Abs | Unary::Negate => "ABS",
+                Unary::Sine => "SIN",
+                Unary::Cosine => "COS",
+                Unary::ArcTangent => "ATN",
+                Unary::Root => return format!("SQR(ABS({}))", text(a, 0)),
+                Unary::Fix | Unary::Up => "INT",
+                Unary::Round => "RND",
+            };
+            format!("{name}({})", text(a, 0))
+        }
+        Value::Binary(Binary::ArcTangent, a, b) => format!("ATN({}/{})", text(a, 6), text(b, 7)),
+        Value::Binary(operation, a, b) => {
+            let (name, own) = match operation {
+                Binary::Multiply => ("*", 6),
+                Binary::Divide | Binary::Remainder => ("/", 6),
+                Binary::Subtract => ("-", 5),
+                _ => ("+", 5),
+            };
+            let text = format!("{}{name}{}", text(a, own), text(b, own + 1));
+            if own < rank { format!("({text})") } else { text }
+        }
+    }
+}
+
+fn condition(test: &Test) -> String {
+    match test {
+        Test::Compare(relation, a, b) => format!("{}{}{}", text(a, 5), relation.signs(), text(b, 5)),
+        Test::Empty(slot, true) => format!("{}=0", name(*slot)),
+        Test::Empty(slot, false) => format!("{}<>0", name(*slot)),
+        Test::Both(a, b) => format!("({}) AND ({})", condition(a), condition(b)),
+        Test::Either(a, b) => format!("({}) OR ({})", condition(a), condition(b)),
+    }
+}

@@ -1,0 +1,230 @@
+//! Random programs: small ones that mean something, and come to an end whatever is drawn.
+//!
+//! A program is drawn in an abstract form ([`Program`]) and spelled by the writer of a dialect. Loops are
+//! counted by variables that nothing else writes, other jumps go forward, and a subprogram
+//! calls only those behind it; so every program ends. Each step carries its own salt for the writer's
+//! choices: where steps are left out, the others stay spelled as they were.
+
+mod cc100;
+mod draw;
+mod fadal;
+mod macro_b;
+mod shrink;
+pub mod trial;
+mod value;
+
+pub use shrink::smaller;
+pub use value::{Binary, Relation, Test, Unary, Value};
+
+/// The dialects that programs are spelled in.
+pub const DIALECTS: [&str; 4] = ["fadal", "fanuc", "haas", "cc100"];
+
+/// What a program has most of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Policy {
+    /// Jumps and what is behind them.
+    Goto,
+    /// Loops in loops.
+    DeepDo,
+    /// Calls that pass values.
+    Arguments,
+    /// Numbers that lie beside where rounding turns.
+    NearRounding,
+    /// Variables that nothing set.
+    Vacancy,
+    /// Drilling cycles.
+    Cycles,
+    /// Work offsets, tool offsets, positions read back.
+    Offsets,
+}
+
+impl Policy {
+    /// All of them.
+    pub const ALL: [Policy; 7] = [
+        Policy::Goto,
+        Policy::DeepDo,
+        Policy::Arguments,
+        Policy::NearRounding,
+        Policy::Vacancy,
+        Policy::Cycles,
+        Policy::Offsets,
+    ];
+}
+
+/// Where choices come from: a seed, or the bytes of a fuzzer.
+#[derive(Clone, Debug)]
+pub enum Source<'b> {
+    /// The state of a generator (splitmix64).
+    Seed(u64),
+    /// What is left of the bytes; behind the last one all choices are the first.
+    Bytes(&'b [u8]),
+}
+
+impl Source<'_> {
+    /// A number below `end`.
+    pub fn below(&mut self, end: usize) -> usize {
+        let drawn = match self {
+            Source::Seed(state) => {
+                *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+                let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+                let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+                (mixed ^ (mixed >> 31)) >> 8
+            }
+            Source::Bytes(bytes) => {
+                let (now, rest) = bytes.split_at(bytes.len().min(if end > 256 { 2 } else { 1 }));
+                *bytes = rest;
+                now.iter().fold(0, |sum, byte| sum << 8 | u64::from(*byte))
+            }
+        };
+        (drawn % end.max(1) as u64) as usize
+    }
+
+    /// True once in so many times.
+    pub fn one_in(&mut self, times: usize) -> bool {
+        self.below(times) + 1 == times
+    }
+
+    /// One of several.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
+    }
+}
+
+/// A program and the subprograms that it calls.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub dialect: &'static str,
+    pub policy: Policy,
+    pub main: Vec<Step>,
+    pub subs: Vec<Vec<Step>>,
+    /// The writer's choices that belong to no step.
+    pub salt: u64,
+}
+
+/// A step, and the writer's choices in it.
+#[derive(Clone, Debug)]
+pub struct Step {
+    pub salt: u64,
+    pub kind: Kind,
+}
+
+impl Step {
+    /// Where the choices in spelling it come from.
+    pub fn choices(&self) -> Source<'static> {
+        Source::Seed(self.salt)
+    }
+}
+
+/// What a step does. Slots are variables of the program; each dialect has its own names for them.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    Set {
+        slot: usize,
+        value: Value,
+    },
+    /// A cell of an array, by a counter.
+    SetCell {
+        counter: usize,
+        value: Value,
+    },
+    Absolute(bool),
+    Move {
+        rapid: bool,
+        axes: [Option<Value>; 3],
+        feed: Option<f64>,
+    },
+    /// A quarter or three quarters of a circle, from where the tool stands.
+    Arc {
+        clockwise: bool,
+        radius: Value,
+    },
+    Dwell(u32),
+    If {
+        test: Test,
+        then: Vec<Step>,
+        otherwise: Vec<Step>,
+    },
+    /// A counted loop; `counter` belongs to it alone.
+    Repeat {
+        counter: usize,
+        times: u32,
+        body: Vec<Step>,
+    },
+    /// Leaves the innermost loop.
+    Leave(Test),
+    /// Goes on at one of several places; the first where the value names none.
+    Switch {
+        on: usize,
+        arms: Vec<Vec<Step>>,
+    },
+    Call {
+        sub: usize,
+        values: Vec<(usize, Value)>,
+        times: u32,
+    },
+    Cycle {
+        kind: usize,
+        depth: Value,
+        plane: Value,
+        initial: bool,
+        places: Vec<[Option<Value>; 2]>,
+    },
+    Offset(Offset),
+    /// Spindle, coolant, tool.
+    Machine(usize),
+    /// What only this dialect has, by number.
+    Own(usize, Value),
+}
+
+/// A step about offsets.
+#[derive(Clone, Debug)]
+pub enum Offset {
+    Select(u32),
+    Write { row: u32, axis: usize, value: Value },
+    Read { row: u32, axis: usize, slot: usize },
+    Shift([Value; 2]),
+    Position([Value; 2]),
+    Length(u32),
+    NoLength,
+    WriteTool { tool: u32, value: Value },
+    ReadTool { tool: u32, slot: usize },
+    ReadPosition { axis: usize, slot: usize },
+    ReadModal(usize),
+    Home,
+}
+
+/// Draws a program; a seed gives the same one at all times and everywhere.
+pub fn program(dialect: &'static str, policy: Policy, source: &mut Source<'_>) -> Program {
+    draw::program(dialect, policy, source)
+}
+
+/// A program from the bytes of a fuzzer, which choose its dialect and policy too.
+pub fn fuzzed(bytes: &[u8]) -> Program {
+    let mut source = Source::Bytes(bytes);
+    let (dialect, policy) = (source.pick(&DIALECTS), source.pick(&Policy::ALL));
+    program(dialect, policy, &mut source)
+}
+
+impl Program {
+    /// The text of the program in its dialect.
+    pub fn text(&self) -> String {
+        match self.dialect {
+            "fadal" => fadal::write(self),
+            "cc100" => cc100::write(self),
+            _ => macro_b::write(self),
+        }
+    }
+}
+
+/// A number with up to six decimals, without a point where it is whole.
+fn plain(number: f64) -> String {
+    let text = format!("{number:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+/// A number with a point.
+fn pointed(number: f64) -> String {
+    let text = plain(number);
+    if text.contains('.') { text } else { text + "." }
+}

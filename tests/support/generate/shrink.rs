@@ -1,0 +1,114 @@
+//! Smaller programs to try where one shows a fault.
+
+use super::{Kind, Program, Step, Value};
+
+/// Programs with one step less, with a step in place of what it holds, or with a plainer value.
+pub fn smaller(program: &Program) -> Vec<Program> {
+    let mut out = Vec::new();
+    for part in 0..=program.subs.len() {
+        let steps = |program: &Program| {
+            if part == 0 { program.main.clone() } else { program.subs[part - 1].clone() }
+        };
+        for with in variants(&steps(program)) {
+            let mut next = program.clone();
+            *(if part == 0 { &mut next.main } else { &mut next.subs[part - 1] }) = with;
+            out.push(next);
+        }
+    }
+    out
+}
+
+fn variants(steps: &[Step]) -> Vec<Vec<Step>> {
+    let mut out = Vec::new();
+    let mut with = |at: usize, new: Vec<Step>| {
+        let mut next = steps.to_vec();
+        next.splice(at..=at, new);
+        out.push(next);
+    };
+    for (at, step) in steps.iter().enumerate() {
+        with(at, Vec::new());
+        let held = held(&step.kind);
+        // A loop's body in its place may hold a way out of the loop.
+        if !matches!(step.kind, Kind::Repeat { .. }) {
+            held.iter().for_each(|body| with(at, (*body).clone()));
+        }
+        for (which, body) in held.iter().enumerate() {
+            for inner in variants(body) {
+                let mut kind = step.kind.clone();
+                if let Some(place) = held_mut(&mut kind).into_iter().nth(which) {
+                    *place = inner;
+                }
+                with(at, vec![Step { salt: step.salt, kind }]);
+            }
+        }
+        for kind in plainer(&step.kind) {
+            with(at, vec![Step { salt: step.salt, kind }]);
+        }
+    }
+    out
+}
+
+fn held(kind: &Kind) -> Vec<&Vec<Step>> {
+    match kind {
+        Kind::If { then, otherwise, .. } => vec![then, otherwise],
+        Kind::Repeat { body, .. } => vec![body],
+        Kind::Switch { arms, .. } => arms.iter().collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn held_mut(kind: &mut Kind) -> Vec<&mut Vec<Step>> {
+    match kind {
+        Kind::If { then, otherwise, .. } => vec![then, otherwise],
+        Kind::Repeat { body, .. } => vec![body],
+        Kind::Switch { arms, .. } => arms.iter_mut().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The step with a part of a value in the value's place, or with less.
+fn plainer(kind: &Kind) -> Vec<Kind> {
+    let mut out = Vec::new();
+    match kind {
+        Kind::Set { slot, value } => {
+            out.extend(parts(value).into_iter().map(|value| Kind::Set { slot: *slot, value }));
+        }
+        Kind::Move { rapid, axes, feed } => {
+            for axis in 0..axes.len() {
+                let Some(value) = &axes[axis] else { continue };
+                let mut with = |new: Option<Value>| {
+                    let mut axes = axes.clone();
+                    axes[axis] = new;
+                    out.push(Kind::Move { rapid: *rapid, axes, feed: *feed });
+                };
+                with(None);
+                parts(value).into_iter().for_each(|part| with(Some(part)));
+            }
+        }
+        Kind::Call { sub, values, times } => {
+            for at in 0..values.len() {
+                let mut fewer = values.clone();
+                fewer.remove(at);
+                out.push(Kind::Call { sub: *sub, values: fewer, times: *times });
+            }
+        }
+        Kind::Cycle { kind, depth, plane, initial, places } => {
+            for at in 0..places.len() {
+                let mut fewer = places.clone();
+                fewer.remove(at);
+                let (depth, plane) = (depth.clone(), plane.clone());
+                out.push(Kind::Cycle { kind: *kind, depth, plane, initial: *initial, places: fewer });
+            }
+        }
+        _ => {}
+    }
+    out
+}
+
+fn parts(value: &Value) -> Vec<Value> {
+    match value {
+        Value::Unary(_, a) => vec![(**a).clone()],
+        Value::Binary(_, a, b) => vec![(**a).clone(), (**b).clone()],
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,126 @@
+//! One program through the whole line: read, converted, verified on the emulated controls.
+
+use macroglot::control::trace::Happening;
+use macroglot::control::{End, LoadedFile, ProgramRef, Run, Scenario};
+use macroglot::diag::Code;
+use macroglot::dialect::{Control, Profile, registry};
+use macroglot::library::{self, Input, Lock, Options, convert, judge};
+use macroglot::syntax::parse_file;
+use macroglot::verify::{Effort, Outcome, Witness};
+use std::path::PathBuf;
+use std::sync::LazyLock;
+
+/// The machines of the project file at the root, and what it leaves open of the others.
+static CONTROLS: LazyLock<[Control; 4]> = LazyLock::new(|| {
+    let with = |text: &str| {
+        let profile = Profile::read(text).expect("the profile is right");
+        let entry = registry::find(&profile.dialect).expect("its dialect is known");
+        Control::new(entry, profile).expect("the profile fits")
+    };
+    [
+        with("dialect = \"fadal\"\nunits = \"inch\""),
+        with(include_str!("../../../machines/fanuc-0i.toml")),
+        with(include_str!("../../../machines/haas-vf.toml")),
+        with("dialect = \"cc100\"\nunits = \"metric\""),
+    ]
+});
+
+/// Enough for small programs; a nightly run makes up for it in number.
+pub const EFFORT: Effort = Effort { scenarios: 10, tries: 30, steps: 2000, all_steps: 60_000, seed: 1 };
+
+/// What became of a program.
+pub struct Trial {
+    /// It has a conversion, and runs to its end by itself with something to compare.
+    pub useful: bool,
+    /// What became of each conversion: to which dialect, and how it was judged.
+    pub judged: Vec<(&'static str, Judgement)>,
+    /// What is wrong with macroglot, by this program.
+    pub faults: Vec<String>,
+}
+
+/// What became of a conversion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Judgement {
+    Refused,
+    Same,
+    Undecided,
+    Different,
+}
+
+/// Tries a program.
+pub fn run(dialect: &str, text: &str) -> Trial {
+    let control = CONTROLS.iter().find(|control| control.name() == dialect).expect("a dialect");
+    let mut faults = Vec::new();
+    let parsed = parse_file(text.as_bytes(), control.entry().parse);
+    if parsed.print() != text.as_bytes() {
+        faults.push("bytes are lost".into());
+    }
+    for error in parsed.blocks.iter().flat_map(|block| &block.errors) {
+        let place = &text[error.span.start as usize..error.span.end as usize];
+        faults.push(format!("not read: {} '{place}' {}", error.code.number(), error.message));
+    }
+    let loaded = [LoadedFile { name: "random.nc", parsed: &parsed }];
+    let execute = control.entry().execute.expect("an emulated control");
+    let scenario = Scenario { steps: EFFORT.steps, events: 5000, ..Scenario::default() };
+    let alive = does_something(&execute(&loaded, ProgramRef::FIRST, control, &scenario));
+    let mut judged = Vec::new();
+    for target in CONTROLS.iter().filter(|target| target.name() != dialect && target.entry().emit.is_some()) {
+        judged.push((target.entry().name, judgement(text, control, target, &mut faults)));
+    }
+    let converted = judged.iter().any(|(_, judgement)| *judgement != Judgement::Refused);
+    Trial { useful: alive && converted, judged, faults }
+}
+
+fn does_something(run: &Run) -> bool {
+    let moved = |what: &Happening| {
+        matches!(what, Happening::Rapid { .. } | Happening::Feed { .. } | Happening::Arc { .. })
+    };
+    run.end == End::Ended && (!run.variables.is_empty() || run.events.iter().any(|event| moved(&event.what)))
+}
+
+fn judgement(text: &str, source: &Control, target: &Control, faults: &mut Vec<String>) -> Judgement {
+    let inputs = [Input {
+        path: PathBuf::from("random.nc"),
+        name: "random.nc".into(),
+        bytes: text.as_bytes().to_vec(),
+    }];
+    let lock = Lock::new(source.name(), target.name());
+    let mut made = convert(&inputs, source, target, lock, Options::default());
+    let written = made.texts.iter().flatten().cloned().collect::<String>();
+    for diagnostic in made.programs.iter().flat_map(|program| &program.diagnostics) {
+        if diagnostic.code == Code::Internal {
+            faults.push(format!("to {}: {}\n{written}", target.name(), diagnostic.message));
+        }
+    }
+    if made.programs.iter().all(|program| program.outcome == library::Outcome::Refused) {
+        return Judgement::Refused;
+    }
+    let certificates = judge(&inputs, &mut made, source, target, EFFORT);
+    let mut found = Judgement::Refused;
+    for program in certificates.iter().flatten().flat_map(|certificate| &certificate.programs) {
+        if let (Outcome::Different, Some(witness)) = (program.outcome, &program.witness) {
+            let what = format!("to {}: differs: {}", target.name(), witness.what);
+            let name = program.program.as_deref().unwrap_or("the program");
+            faults.push(format!("{what}\n{written}in {name}: {}", shown(witness)));
+        }
+        found = found.max(match program.outcome {
+            Outcome::Same => Judgement::Same,
+            Outcome::Undecided => Judgement::Undecided,
+            Outcome::Different => Judgement::Different,
+        });
+    }
+    found
+}
+
+/// A witness without what is the same in all of them.
+fn shown(witness: &Witness) -> String {
+    let scenario = &witness.scenario;
+    let mut text = format!("skip {} with {:?}", scenario.block_skip, scenario.variables);
+    for moment in [&witness.source, &witness.target] {
+        text += &match moment {
+            Some(moment) => format!("\n  line {} '{}' {}", moment.line, moment.block, moment.event),
+            None => "\n  nothing more".into(),
+        };
+    }
+    text
+}
