@@ -27,13 +27,13 @@ pub fn do_the_same(job: &Job<'_>, program: ProgramRef, tolerance: Tolerance) -> 
         entered.extend(runs.filter(|other| other != caller));
     }
     let mut found = None;
-    for caller in all.iter().filter(|caller| !entered.contains(caller)) {
+    for caller in all.iter().filter(|caller| **caller != program && !entered.contains(caller)) {
         let Some(there) = job.names.program(job.source, *caller, job.target) else { continue };
         for (scenario, run) in scenarios(job, *caller).take(RUNS) {
             if run.end != End::Ended || !enters(job, &run, program) {
                 continue;
             }
-            let circumstances = on_target(&scenario, job.names, job.source, job.target);
+            let circumstances = on_target(&scenario, job.names, (job.source, job.target), false);
             let other = (job.target.execute)(job.target.files, there, job.target.control, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
             if compared.difference.is_some() {
