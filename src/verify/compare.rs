@@ -96,7 +96,7 @@ impl<'r> Pairs<'_, 'r> {
             let (a, b) = (ours.get(i), theirs.get(j));
             let what = match (a, b) {
                 (None, None) => return,
-                (Some(a), Some(b)) => match self.differ(a, b) {
+                (Some(a), Some(b)) => match self.differ(a, b, 0.0) {
                     None => {
                         self.moved(0, &a.what);
                         self.moved(1, &b.what);
@@ -113,6 +113,12 @@ impl<'r> Pairs<'_, 'r> {
                 i += 1;
             } else if b.is_some_and(|b| self.passes(1, &b.what)) {
                 j += 1;
+            } else if let (Some(a), Some(b)) = (a, b)
+                && self.drifts(a, b)
+            {
+                self.moved(0, &a.what);
+                self.moved(1, &b.what);
+                (i, j) = (i + 1, j + 1);
             } else {
                 let (source, target) = (a.map(|a| a.event), b.map(|b| b.event));
                 self.found.difference = Some(Difference { source, target, what });
@@ -152,16 +158,21 @@ impl<'r> Pairs<'_, 'r> {
         left_out.is_some()
     }
 
-    /// How far apart the tools of both sides are.
-    fn drift(&self) -> f64 {
-        match &self.at {
-            [Some(ours), Some(theirs)] => apart(ours, theirs),
-            _ => 0.0,
+    /// True where two acts are the same but for how far apart the tools are already. Each move rounds once more, and
+    /// what incremental ones round adds up; that it was this cannot be told from here.
+    fn drifts(&mut self, source: &Act<'r>, target: &Act<'r>) -> bool {
+        let [Some(ours), Some(theirs)] = &self.at else { return false };
+        let drift = apart(ours, theirs);
+        let same = drift > 0.0 && self.differ(source, target, drift).is_none();
+        if same {
+            let what = "positions drift apart move by move, as roundings of incremental moves do";
+            self.found.substituted.insert(what.into());
         }
+        same
     }
 
-    /// What differs between two acts, if anything does.
-    fn differ(&mut self, source: &Act<'r>, target: &Act<'r>) -> Option<String> {
+    /// What differs between two acts, if anything does; positions may lie apart by `more` than the tolerance.
+    fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, more: f64) -> Option<String> {
         let stands = stands_for(self.target, &source.what, &target.what);
         let (a, b) = (&source.what, &target.what);
         if let Some(text) = stands.or_else(|| is_builders(a, b).filter(|_| a != b)) {
@@ -169,8 +180,7 @@ impl<'r> Pairs<'_, 'r> {
             return None;
         }
         let mut largest = self.found.largest;
-        // Each move rounds once more: what incremental ones round adds up.
-        let tolerance = Tolerance { rounded: self.tolerance.rounded + self.drift() };
+        let tolerance = Tolerance { rounded: self.tolerance.rounded + more };
         let what = differ((&source.what, &target.what), target.room, tolerance, &mut largest);
         match what {
             None => {
