@@ -8,6 +8,7 @@
 //! IR and in traces.
 
 mod function;
+mod kinds;
 mod operation;
 mod role;
 mod state;

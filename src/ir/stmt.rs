@@ -368,6 +368,11 @@ impl Nc {
 
     /// True when an axis word makes the block a move.
     pub fn moves(&self) -> bool {
+        self.names_axis() && !self.ops().any(Op::takes_axes)
+    }
+
+    /// True when the block has an axis word, for whatever it stands.
+    pub fn names_axis(&self) -> bool {
         self.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_axis()))
     }
 }

@@ -69,7 +69,7 @@ fn is_double(nc: &Nc) -> bool {
 }
 
 fn is_bare(nc: &Nc) -> bool {
-    let elsewhere = [Op::ReferenceReturn, Op::SetPosition, Op::MachineOnce, Op::Pole];
+    let elsewhere = [Op::ReferenceReturn, Op::MachineOnce];
     nc.moves()
         && !has_centre(nc)
         && nc.word(Role::ArcRadius).is_none()

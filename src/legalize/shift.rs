@@ -8,9 +8,10 @@
 use super::emptied::drop_emptied;
 use super::modal::reachable;
 use super::{Context, Modal, ModalFacts};
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Module, NcItem, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Expr, Module, NcItem, Stmt, StmtKind, TermKind};
+use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// Marks the moves under cancelled shifts.
@@ -28,9 +29,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
                 state.step(stmt);
+                let mut reads = false;
+                stmt.kind.exprs(&mut |e| reads |= reads_position(e));
+                if reads {
+                    refuse_read(index, stmt.site.span, &state, context);
+                }
                 if let Some((code, what)) = mark(stmt, &state) {
                     context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));
                 }
+            }
+            let mut reads = false;
+            block.term.kind.exprs(&mut |e| reads |= reads_position(e));
+            if reads {
+                refuse_read(index, block.term.site.span, &state, context);
             }
             if matches!(block.term.kind, TermKind::Return { .. })
                 && state.may_be_cancelled
@@ -44,10 +55,27 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
+/// True where an expression reads a position that is counted from the work offset.
+fn reads_position(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |e| {
+        use Sys::{AxisPosition, EndPosition, SkipPosition, WorkPosition};
+        found |= matches!(e, Expr::System(AxisPosition | EndPosition | SkipPosition | WorkPosition, _));
+    });
+    found
+}
+
+/// Positions are machine coordinates while shifts are cancelled, and on the target never.
+fn refuse_read(index: usize, span: Span, state: &Modal, context: &mut Context<'_>) {
+    if state.may_be_cancelled || state.op(Group::WorkOffset) == Some(Op::ShiftCancel) {
+        let what = "a position is read while all zero shifts may be cancelled: the target counts it from its work offset";
+        context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what));
+    }
+}
+
 fn mark(stmt: &mut Stmt, state: &Modal) -> Option<(Code, &'static str)> {
     let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
-    let moves =
-        nc.moves() && !nc.has(Op::ReferenceReturn) && !nc.has(Op::SetPosition) && !nc.has(Op::MachineOnce);
+    let moves = nc.moves() && !nc.has(Op::ReferenceReturn) && !nc.has(Op::MachineOnce);
     let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ShiftCancel));
     // A modal call behind the move may leave another shift, but not before it.
     let cancelled = at.map(|_| Op::ShiftCancel).or(state.op(Group::WorkOffset));

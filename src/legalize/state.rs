@@ -65,6 +65,7 @@ enum Finding {
     ReadOnly(Sys),
     Table(Sys),
     TargetTable,
+    VacantWord,
 }
 
 impl Finding {
@@ -99,6 +100,10 @@ impl Finding {
             Finding::TargetTable => {
                 let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
                 context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
+            }
+            Finding::VacantWord => {
+                let what = "a value that is vacant writes nothing on the source, and 0 on the target";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
             }
             Finding::Wiring => {
                 let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
@@ -280,6 +285,9 @@ fn write_radius(
     };
     for item in &mut nc.items {
         if let NcItem::Word(Role::OffsetValue, value) = item {
+            if factor != 1.0 && value.may_be_vacant() {
+                found.push((span, Finding::VacantWord));
+            }
             *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
         }
     }

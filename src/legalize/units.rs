@@ -39,7 +39,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
             drop_emptied(block);
         }
-        if named || same_family || !is_main(program, roots.contains(&index)) || !moves(program) {
+        if named || same_family || !is_main(program, roots.contains(&index)) || !names_axis(program) {
             continue;
         }
         match context.source.units().or(checked) {
@@ -64,12 +64,12 @@ fn is_main(program: &Program, is_root: bool) -> bool {
     end && (is_root || !back)
 }
 
-fn moves(program: &Program) -> bool {
+fn names_axis(program: &Program) -> bool {
     program
         .blocks
         .iter()
         .flat_map(|b| &b.stmts)
-        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves()))
+        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis()))
 }
 
 fn head(program: &mut Program, op: Op) {

@@ -78,3 +78,18 @@ fn a_program_called_from_both_units_has_no_size_of_increments() {
     assert_eq!(both.code, 1, "{}", both.err);
     assert!(both.err.contains("not known here"), "{}", both.err);
 }
+
+/// A table of diameters gets twice the radius; a variable that is vacant would have written nothing.
+#[test]
+fn a_doubled_value_that_may_be_vacant_is_for_review() {
+    let shop = Shop::with(&[
+        ("a.nc", "O1\nG90 G10 L12 P3 R#2\nM99\n"),
+        ("b.nc", "O1\nG90 G10 L12 P3 R[#2+1.]\nM99\n"),
+        ("m.toml", "dialect = \"haas\"\n[settings]\n40 = \"diameter\"\n"),
+    ]);
+    let line = "--from fanuc --to haas --machine m.toml --no-verify";
+    let run = shop.run(&format!("convert a.nc {line}"));
+    assert!(run.out.contains("R[#2*2]") && run.err.contains("vacant writes nothing"), "{} {}", run.out, run.err);
+    let run = shop.run(&format!("convert b.nc {line}"));
+    assert!(!run.err.contains("vacant writes nothing"), "{} {}", run.out, run.err);
+}

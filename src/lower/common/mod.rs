@@ -9,7 +9,8 @@ pub use findings::Findings;
 pub use programs::{ProgramText, programs, says_something};
 pub use site::{remark_text, site_of};
 
-use crate::syntax::{Expr, ExprKind, Item, ItemKind};
+use crate::ir::Relation;
+use crate::syntax::{BinaryOp, Expr, ExprKind, Item, ItemKind};
 
 /// The value of a constant: a number, signed or in brackets or not. One that is too
 /// large for any control is none.
@@ -37,4 +38,17 @@ pub fn letters(items: &[Item]) -> Vec<(char, Option<f64>)> {
         _ => None,
     });
     words.map(|word| (word.letter, word.value.as_ref().and_then(constant))).collect()
+}
+
+/// The relation of an operator that compares.
+pub fn relation(op: BinaryOp) -> Option<Relation> {
+    Some(match op {
+        BinaryOp::Equal => Relation::Equal,
+        BinaryOp::NotEqual => Relation::NotEqual,
+        BinaryOp::Less => Relation::Less,
+        BinaryOp::LessEqual => Relation::LessEqual,
+        BinaryOp::Greater => Relation::Greater,
+        BinaryOp::GreaterEqual => Relation::GreaterEqual,
+        _ => return None,
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::program::Lowering;
 use crate::ir::{Cond, Expr, Relation};
+use crate::lower::common::relation;
 use crate::syntax::{self, BinaryOp, ExprKind};
 
 /// How deep conditions may nest.
@@ -80,16 +81,4 @@ fn join(op: BinaryOp, a: Cond, b: Cond) -> Cond {
         (BinaryOp::And, a) => Cond::And(vec![a, b]),
         (_, a) => Cond::Or(vec![a, b]),
     }
-}
-
-fn relation(op: BinaryOp) -> Option<Relation> {
-    Some(match op {
-        BinaryOp::Equal => Relation::Equal,
-        BinaryOp::NotEqual => Relation::NotEqual,
-        BinaryOp::Less => Relation::Less,
-        BinaryOp::LessEqual => Relation::LessEqual,
-        BinaryOp::Greater => Relation::Greater,
-        BinaryOp::GreaterEqual => Relation::GreaterEqual,
-        _ => return None,
-    })
 }

@@ -4,21 +4,9 @@ use super::Lowering;
 use super::expr::{At, MAX_DEPTH};
 use crate::canon::Sys;
 use crate::ir::{BinOp, Cond, Expr, Relation};
+use crate::lower::common::relation;
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
-
-/// The relation of an operator that compares.
-fn relation(op: BinaryOp) -> Option<Relation> {
-    Some(match op {
-        BinaryOp::Equal => Relation::Equal,
-        BinaryOp::NotEqual => Relation::NotEqual,
-        BinaryOp::Less => Relation::Less,
-        BinaryOp::LessEqual => Relation::LessEqual,
-        BinaryOp::Greater => Relation::Greater,
-        BinaryOp::GreaterEqual => Relation::GreaterEqual,
-        _ => return None,
-    })
-}
 
 /// True for a comparison, and for AND, OR and XOR between such: elsewhere those are bit operations.
 pub(super) fn is_condition(expr: &syntax::Expr) -> bool {

@@ -1,0 +1,125 @@
+//! What kind of thing an operation is: its modal group, and what it does to the words beside it.
+
+use super::{Group, Op};
+
+impl Group {
+    /// The number of the group in [`super::Sys::Modal`]; none where it has none there.
+    pub const fn number(self) -> Option<u32> {
+        match self {
+            Group::Motion => Some(1),
+            Group::Plane => Some(2),
+            Group::Distance => Some(3),
+            Group::FeedMode => Some(5),
+            Group::Units => Some(6),
+            Group::RadiusComp => Some(7),
+            Group::LengthComp => Some(8),
+            Group::Cycle => Some(9),
+            Group::ReturnPlane => Some(10),
+            Group::Scaling => Some(11),
+            Group::ModalCall => Some(12),
+            Group::SpeedMode => Some(13),
+            Group::WorkOffset => Some(14),
+            Group::PathMode => Some(15),
+            Group::Rotation => Some(16),
+            _ => None,
+        }
+    }
+}
+
+impl Op {
+    /// The modal group that the operation belongs to.
+    pub const fn group(self) -> Group {
+        use Op::*;
+        match self {
+            Rapid | Linear | ArcCw | ArcCcw | ArcTangent | Thread => Group::Motion,
+            CycleOff | CycleDrill | CycleDrillDwell | CyclePeck | CycleChipBreak | CycleTap
+            | CycleTapLeft | CycleTapRigid | CycleTapByLead | CycleBore | CycleBoreStop | CycleBackBore
+            | CycleBoreManual | CycleBoreDwell | CycleFineBore | CycleOther => Group::Cycle,
+            PlaneXy | PlaneZx | PlaneYz | PlaneOther | Wrap => Group::Plane,
+            Absolute | Incremental => Group::Distance,
+            FeedPerMinute | FeedPerTurn | FeedInverse => Group::FeedMode,
+            Inch | Metric => Group::Units,
+            RadiusOff | RadiusLeft | RadiusRight => Group::RadiusComp,
+            LengthPlus | LengthMinus | LengthOff => Group::LengthComp,
+            ReturnInitial | ReturnR => Group::ReturnPlane,
+            ShiftCancel | SelectWork => Group::WorkOffset,
+            ExactStop | CuttingMode | TappingMode | RampsOff | RampsOn => Group::PathMode,
+            SurfaceSpeed | TurnsPerMinute => Group::SpeedMode,
+            RotateOn | RotateOff => Group::Rotation,
+            ScaleOn | ScaleOff => Group::Scaling,
+            MirrorOn | MirrorOff => Group::Mirror,
+            CallModal | CallModalEach | CallModalOff => Group::ModalCall,
+            SpindleCw | SpindleCcw | SpindleStop => Group::Spindle,
+            Mist | Flood | CoolantOff => Group::Coolant,
+            _ => Group::OneShot,
+        }
+    }
+
+    /// True for a drilling cycle that stays in force.
+    pub const fn is_cycle(self) -> bool {
+        use Op::*;
+        matches!(
+            self,
+            CycleDrill
+                | CycleDrillDwell
+                | CyclePeck
+                | CycleChipBreak
+                | CycleTap
+                | CycleTapLeft
+                | CycleTapRigid
+                | CycleTapByLead
+                | CycleBore
+                | CycleBoreStop
+                | CycleBackBore
+                | CycleBoreManual
+                | CycleBoreDwell
+                | CycleFineBore
+                | CycleOther
+        )
+    }
+
+    /// True for what axis words beside it belong to: a place in a table, an origin, a centre or a factor, and no move.
+    pub const fn takes_axes(self) -> bool {
+        use Op::*;
+        matches!(
+            self,
+            SetPosition
+                | LocalShift
+                | WriteWork
+                | WriteLength
+                | WriteLengthWear
+                | WriteRadius
+                | WriteRadiusWear
+                | WriteOffset
+                | ReadOffset
+                | WriteVariable
+                | Pole
+                | ScaleOn
+                | MirrorOn
+                | RotateOn
+                | StrokeCheckOn
+        )
+    }
+
+    /// True for what becomes a terminator of the IR, not an operation of a block.
+    pub const fn is_flow(self) -> bool {
+        use Op::*;
+        matches!(
+            self,
+            CallMacro
+                | CallModal
+                | CallModalEach
+                | CallModalOff
+                | CallProgram
+                | CallLocal
+                | CallCycle
+                | JumpInputOff
+                | Jump
+                | Return
+                | SubEnd
+                | SubAreaEnd
+                | End
+                | EndRewind
+        )
+    }
+}
