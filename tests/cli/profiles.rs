@@ -89,7 +89,12 @@ fn a_doubled_value_that_may_be_vacant_is_for_review() {
     ]);
     let line = "--from fanuc --to haas --machine m.toml --no-verify";
     let run = shop.run(&format!("convert a.nc {line}"));
-    assert!(run.out.contains("R[#2*2]") && run.err.contains("vacant writes nothing"), "{} {}", run.out, run.err);
+    assert!(
+        run.out.contains("R[#2*2]") && run.err.contains("vacant writes nothing"),
+        "{} {}",
+        run.out,
+        run.err
+    );
     let run = shop.run(&format!("convert b.nc {line}"));
     assert!(!run.err.contains("vacant writes nothing"), "{} {}", run.out, run.err);
 }

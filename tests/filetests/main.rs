@@ -6,6 +6,8 @@
 //! hold at the end (a variable's value, `alarm`, or `event <line>`). Expectations are written by hand.
 
 mod claims;
+#[path = "../support/domain.rs"]
+mod domain;
 mod legalize;
 mod opt;
 mod roundtrip;

@@ -1,28 +1,12 @@
 //! `test opt <pass>|all [-O1|-O2]`: what passes make of a module. Claims must hold before and
 //! behind them, and for many start values both must do the same.
 
+use crate::domain::DOMAIN;
 use crate::{Case, claims};
 use macroglot::ir::eval::{Ending, Memory, Trace, run};
 use macroglot::ir::text::{parse, print};
 use macroglot::ir::{Class, Module, Var, validate};
 use macroglot::opt::{self, Level, Options};
-
-/// The operands that tell rewritings apart.
-const DOMAIN: [Option<f64>; 13] = [
-    None,
-    Some(0.0),
-    Some(-0.0),
-    Some(0.5),
-    Some(-0.5),
-    Some(1.0),
-    Some(-1.0),
-    Some(1.5),
-    Some(2.5),
-    Some(0.4999999),
-    Some(359.9),
-    Some(1e-9),
-    Some(99_999_999.0),
-];
 
 pub fn drive(case: &Case) -> Result<Option<String>, String> {
     let before = parse(&case.text).map_err(|e| e.to_string())?;

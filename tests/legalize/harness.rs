@@ -1,28 +1,12 @@
 //! Builds, legalizes and runs small programs.
 
+pub use crate::domain::DOMAIN;
 use macroglot::diag::Diagnostic;
 use macroglot::dialect::{Control, Profile, registry};
 use macroglot::ir::eval::{Ending, Memory, Trace, Value, run};
 use macroglot::ir::text::parse;
 use macroglot::ir::{Class, Expr, Module, Var, validate};
 use macroglot::legalize::{Context, PASSES};
-
-/// The operands that tell rewritings apart: vacant, zeros, halves, wholes, near misses, the least and the greatest.
-pub const DOMAIN: [Value; 13] = [
-    None,
-    Some(0.0),
-    Some(-0.0),
-    Some(0.5),
-    Some(-0.5),
-    Some(1.0),
-    Some(-1.0),
-    Some(1.5),
-    Some(2.5),
-    Some(0.4999999),
-    Some(359.9),
-    Some(1e-9),
-    Some(99_999_999.0),
-];
 
 /// The operands of the programs: two locals, which may be vacant.
 pub const OPERANDS: [Var; 2] =

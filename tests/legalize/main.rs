@@ -5,6 +5,8 @@
 
 mod conditions;
 mod constants;
+#[path = "../support/domain.rs"]
+mod domain;
 mod dwell;
 mod functions;
 mod harness;
