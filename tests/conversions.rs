@@ -1,10 +1,13 @@
 //! Small programs and what they become on another control.
 //!
-//! Each file of `tests/conversions/` holds cases: `== title: source target`, the program, `--`, the conversion without
+//! Each file of `tests/conversions/` holds cases: `== title: source target` (a machine's profile in brackets behind
+//! its dialect), the program, `--`, the conversion without
 //! its tape frame (or `refused`), and a line `!` with the codes that are reported. What is expected was written from the
 //! controls' manuals, not from what the compiler printed.
 
-use macroglot::dialect::Control;
+#[path = "support/machine.rs"]
+mod machine;
+
 use macroglot::library::{Input, Lock, Options, convert};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -30,7 +33,7 @@ impl<'t> Case<'t> {
 
     /// What is wrong with the conversion, if anything is.
     fn fault(&self) -> Option<String> {
-        let control = |name: &str| Control::plain(name).unwrap_or_else(|| panic!("no control {name}"));
+        let control = |spec: &str| machine::machine(spec).unwrap_or_else(|error| panic!("{error}"));
         let (source, target) = (control(self.source), control(self.target));
         let bytes = format!("{}\n", self.program).into_bytes();
         let inputs = [Input { path: PathBuf::from("case.nc"), name: "case.nc".into(), bytes }];

@@ -145,6 +145,11 @@ impl Role {
         )
     }
 
+    /// True for an angle, counted in least increments of a degree where no point is written.
+    pub const fn is_angle(self) -> bool {
+        matches!(self, Role::A | Role::B | Role::C | Role::Angle | Role::PolarAngle)
+    }
+
     /// True for a scale factor.
     pub const fn is_scale(self) -> bool {
         matches!(self, Role::Scale | Role::ScaleX | Role::ScaleY | Role::ScaleZ)

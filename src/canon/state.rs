@@ -142,3 +142,38 @@ super::vocabulary! {
         Other = "other",
     }
 }
+
+impl Sys {
+    /// True for a length or a position, which is read and written in the unit in force.
+    pub const fn is_length(self) -> bool {
+        use Sys::*;
+        matches!(
+            self,
+            EndPosition
+                | MachinePosition
+                | WorkPosition
+                | SkipPosition
+                | ProbePoint
+                | AxisPosition
+                | ActiveOffset
+                | ExternalShift
+                | WorkOffset
+                | SetPosition
+                | Pole
+                | HomeOffset
+                | LengthGeometry
+                | LengthWear
+                | RadiusGeometry
+                | RadiusWear
+                | DiameterGeometry
+                | DiameterWear
+                | DiameterOrRadius
+                | DiameterOrRadiusWear
+                | ToolOffset
+                | LatheX
+                | LatheZ
+                | LatheRadius
+                | LatheY
+        )
+    }
+}

@@ -1,6 +1,6 @@
 //! Numbers without a decimal point, where the target does not count them as the source does.
 //!
-//! Law: n increments are `n * increment` of the unit in force. Side condition: the unit is known, from the
+//! Law: n increments are `n * increment` of the unit in force, for an angle of a degree. Side condition: the unit is known, from the
 //! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
 
 use super::{Context, ModalFacts, Setting};
@@ -106,7 +106,7 @@ fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, ta
     if bare == BareLength::Increments && same_increments(source, target) && role != Role::Feed {
         return true;
     }
-    convert(value, units, source)
+    convert(value, role.is_angle(), units, source)
 }
 
 fn arguments(call: &mut Call, units: Option<Units>, source: &Control, target: &Control) -> bool {
@@ -115,7 +115,9 @@ fn arguments(call: &mut Call, units: Option<Units>, source: &Control, target: &C
         let letter = target.argument_letter(argument.local);
         let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));
         if bare != BareLength::Increments || !same_increments(source, target) {
-            good &= convert(&mut argument.value, units, source);
+            let word = source.argument_letter(argument.local).and_then(|letter| source.word(letter, false));
+            let angle = word.is_some_and(|row| row.role.is_angle());
+            good &= convert(&mut argument.value, angle, units, source);
         }
     }
     good
@@ -127,7 +129,7 @@ fn same_increments(source: &Control, target: &Control) -> bool {
         == (b.increment_mm, b.increment_inch, b.increment_degrees)
 }
 
-fn convert(value: &mut Expr, units: Option<Units>, source: &Control) -> bool {
+fn convert(value: &mut Expr, angle: bool, units: Option<Units>, source: &Control) -> bool {
     let inner = match value {
         Expr::Negate(inner) => inner.as_mut(),
         other => other,
@@ -136,6 +138,7 @@ fn convert(value: &mut Expr, units: Option<Units>, source: &Control) -> bool {
     // Zero is zero in every unit.
     let per_unit = match units {
         _ if *count == 0.0 => 1.0,
+        _ if angle => 1.0 / source.numbers().increment_degrees,
         Some(Units::Metric) => 1.0 / source.numbers().increment_mm,
         Some(Units::Inch) => 1.0 / source.numbers().increment_inch,
         None => return false,

@@ -1,75 +1,179 @@
-//! The unit of lengths, where the source's comes from the control and not from the program.
+//! The unit of lengths, where it comes from the control and not from the program.
 //!
-//! Law: a program that names no unit runs in the one its control is set to. Where the source is known
-//! to be in one unit (its table or the shop's profile says so), the target is told at the head of each main program.
-//! Side condition: where it is not known, the target must be set as the source was; that is a review diagnostic.
+//! Law: a program that names no unit runs in the one its control is set to. Where the source's is known (the shop's
+//! profile or a check of the unit says it), the target is told at the head of each main program that comes to a length
+//! before it names a unit, itself or in what it calls. Side conditions: where it is not known, the target must be set
+//! as the source was; where the target is set to the other unit, its tables must be kept for this one. Both are a
+//! review diagnostic. Two controls of one family that are set alike need nothing.
 
 use super::emptied::drop_emptied;
 use super::exposed::roots;
-use super::{Context, reachable};
-use crate::canon::Op;
+use super::{Context, ModalFacts, calls_of, reachable};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Units;
-use crate::ir::{BlockId, Class, Module, Nc, NcItem, Program, Site, Stmt, StmtKind, TermKind};
+use crate::ir::{
+    BlockId, Call, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
+};
+use crate::syntax::ProgramName;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Tells the target the unit of each main program.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let checks = |op: Op| matches!(op, Op::CheckInch | Op::CheckMetric);
-    let roots = roots(module);
+    let checked: Vec<Option<Units>> = module.programs.iter_mut().map(take_checks).collect();
+    let (ours, theirs) = (context.source.units(), context.target.units());
     let same_family = context.source.dialect().family == context.target.dialect().family;
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        let names = |wanted: &dyn Fn(Op) -> bool| {
-            let mut ncs = program.blocks.iter().flat_map(|b| &b.stmts).filter_map(|stmt| match &stmt.kind {
-                StmtKind::Nc(nc) => Some(nc),
-                _ => None,
-            });
-            ncs.any(|nc| nc.ops().any(wanted))
+    if same_family && ours.is_some() && ours == theirs {
+        return;
+    }
+    let open = open(module, &ModalFacts::of(module, &context.entry));
+    for root in mains(module).into_iter().filter(|&root| open[root]) {
+        let Some(units) = ours.or(checked[root]) else {
+            let what = "the program does not name its unit: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)";
+            let span = module.programs[root].site.span;
+            context.add_once(root, "units", Diagnostic::new(Code::Conditional, span, what));
+            continue;
         };
-        let named = names(&|op| matches!(op, Op::Inch | Op::Metric));
-        let checked = match (names(&|op| op == Op::CheckInch), names(&|op| op == Op::CheckMetric)) {
-            (true, false) => Some(Units::Inch),
-            (false, true) => Some(Units::Metric),
-            _ => None,
-        };
-        for block in &mut program.blocks {
-            for stmt in &mut block.stmts {
-                if let StmtKind::Nc(nc) = &mut stmt.kind {
-                    nc.items.retain(|item| !matches!(item, NcItem::Op(op) if checks(*op)));
-                }
-            }
-            drop_emptied(block);
-        }
-        if named || same_family || !is_main(program, roots.contains(&index)) || !names_axis(program) {
+        let op = if units == Units::Inch { Op::Inch } else { Op::Metric };
+        if theirs == Some(units) && context.target.code_for(op, &Default::default()).is_none() {
             continue;
         }
-        match context.source.units().or(checked) {
-            Some(units) => head(program, if units == Units::Inch { Op::Inch } else { Op::Metric }),
-            None => {
-                let what = "the program does not name its unit: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)";
-                context.add_once(index, "units", Diagnostic::new(Code::Conditional, program.site.span, what));
+        if theirs.is_some_and(|theirs| theirs != units) {
+            let what = "the program selects the unit of the source, and the target is set to the other one: its offsets must be kept for this program's unit";
+            let span = module.programs[root].site.span;
+            context.add_once(root, "units", Diagnostic::new(Code::Conditional, span, what));
+        }
+        head(&mut module.programs[root], op);
+    }
+}
+
+/// Takes the checks of the unit out of a program; the unit that all of them check.
+fn take_checks(program: &mut Program) -> Option<Units> {
+    let (mut inch, mut metric) = (false, false);
+    for block in &mut program.blocks {
+        let mut any = false;
+        for stmt in &mut block.stmts {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            nc.items.retain(|item| {
+                inch |= *item == NcItem::Op(Op::CheckInch);
+                metric |= *item == NcItem::Op(Op::CheckMetric);
+                !matches!(item, NcItem::Op(Op::CheckInch | Op::CheckMetric))
+            });
+            any |= nc.items.is_empty();
+        }
+        if any {
+            drop_emptied(block);
+        }
+    }
+    match (inch, metric) {
+        (true, false) => Some(Units::Inch),
+        (false, true) => Some(Units::Metric),
+        _ => None,
+    }
+}
+
+/// Which programs come to a length while no unit is named, themselves or in what they call then.
+fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
+    let names = module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at)));
+    let by_name: BTreeMap<&ProgramName, usize> = names.collect();
+    let callee = |call: &Call| match &call.callee {
+        Callee::Program(name) => by_name.get(name).copied(),
+        _ => None,
+    };
+    let mut open = vec![false; module.programs.len()];
+    let mut calls: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); open.len()];
+    for (index, program) in module.programs.iter().enumerate() {
+        for id in with_subroutines(program) {
+            let Some(block) = program.block(id) else { continue };
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                state.step(stmt);
+                if state.op(Group::Units).is_none() {
+                    open[index] |= has_length(&stmt.kind);
+                    if let StmtKind::ModalCall(call) = &stmt.kind {
+                        calls[index].extend(callee(call));
+                    }
+                }
+            }
+            if state.op(Group::Units).is_none() {
+                open[index] |= reads_length(|f| block.term.kind.exprs(f));
+                if let TermKind::Call { call, .. } = &block.term.kind {
+                    calls[index].extend(callee(call));
+                }
             }
         }
     }
-}
-
-/// True for a program that ends the run, unless others call it and it may return to them. What only its
-/// subroutines do, or what nothing reaches, says nothing of it.
-fn is_main(program: &Program, is_root: bool) -> bool {
-    let own = reachable(program, BlockId(0));
-    let (mut end, mut back) = (false, false);
-    for kind in own.into_iter().filter_map(|id| program.block(id)).map(|block| &block.term.kind) {
-        end |= matches!(kind, TermKind::End { .. } | TermKind::Stray);
-        back |= matches!(kind, TermKind::Return { .. });
+    let mut changed = true;
+    while std::mem::take(&mut changed) {
+        for index in 0..open.len() {
+            if !open[index] && calls[index].iter().any(|&callee| open[callee]) {
+                open[index] = true;
+                changed = true;
+            }
+        }
     }
-    end && (is_root || !back)
+    open
 }
 
-fn names_axis(program: &Program) -> bool {
-    program
-        .blocks
-        .iter()
-        .flat_map(|b| &b.stmts)
-        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis()))
+/// The blocks that a program can run, those of its subroutines too.
+fn with_subroutines(program: &Program) -> BTreeSet<BlockId> {
+    let mut all = BTreeSet::new();
+    let mut work = vec![BlockId(0)];
+    while let Some(entry) = work.pop() {
+        for id in reachable(program, entry) {
+            let Some(block) = program.block(id).filter(|_| all.insert(id)) else { continue };
+            work.extend(calls_of(block).filter_map(|call| match call.callee {
+                Callee::Block(entry) => Some(entry),
+                _ => None,
+            }));
+        }
+    }
+    all
+}
+
+/// True for a statement in which the unit counts.
+fn has_length(kind: &StmtKind) -> bool {
+    match kind {
+        StmtKind::Nc(nc)
+            if nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if in_unit(*role))) =>
+        {
+            true
+        }
+        StmtKind::Assign { target: Place::System(state, _), .. } if state.is_length() => true,
+        kind => reads_length(|f| kind.exprs(f)),
+    }
+}
+
+fn in_unit(role: Role) -> bool {
+    role.is_length() || matches!(role, Role::Feed | Role::Lead)
+}
+
+fn reads_length(each: impl FnOnce(&mut dyn FnMut(&Expr))) -> bool {
+    let mut any = false;
+    each(&mut |e| {
+        e.walk(&mut |e| {
+            any |= matches!(e, Expr::Increments(n) if *n != 0.0)
+                || matches!(e, Expr::System(state, _) if state.is_length())
+        })
+    });
+    any
+}
+
+/// The programs that end the run, but for those that others call and that may return to them. What only their
+/// subroutines do, or what nothing reaches, says nothing of them.
+fn mains(module: &Module) -> Vec<usize> {
+    let roots: BTreeSet<usize> = roots(module).into_iter().collect();
+    let is_main = |index: &usize| {
+        let program = &module.programs[*index];
+        let own = reachable(program, BlockId(0));
+        let (mut end, mut back) = (false, false);
+        for kind in own.into_iter().filter_map(|id| program.block(id)).map(|block| &block.term.kind) {
+            end |= matches!(kind, TermKind::End { .. } | TermKind::Stray);
+            back |= matches!(kind, TermKind::Return { .. });
+        }
+        end && (roots.contains(index) || !back)
+    };
+    (0..module.programs.len()).filter(is_main).collect()
 }
 
 fn head(program: &mut Program, op: Op) {

@@ -1,9 +1,9 @@
 //! `test legalize <pass>[+<pass>].. <source> <target> [after] [lock:NAME=NUMBER]..`: what passes, in the order of
-//! legalization, make of a module for a target, and what they have to say: findings first, then registers, then the module. The pass `registers` gives every variable its
+//! legalization, make of a module for a target, and what they have to say (a machine may have a profile in brackets behind its dialect): findings first, then registers, then the module. The pass `registers` gives every variable its
 //! register and does what needs them. Claims must hold before and behind it; with `after`, only behind.
 
+use crate::machine::machine;
 use crate::{Case, claims};
-use macroglot::dialect::Control;
 use macroglot::ir::text::{parse, print};
 use macroglot::ir::validate;
 use macroglot::legalize::{Context, PASSES, Registers, assign_registers};
@@ -14,8 +14,7 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
     let [pass, source, target, options @ ..] = case.options.as_slice() else {
         return Err("wants a pass, a source and a target".into());
     };
-    let control = |name: &str| Control::plain(name).ok_or_else(|| format!("no dialect '{name}'"));
-    let (source, target) = (control(source)?, control(target)?);
+    let (source, target) = (machine(source)?, machine(target)?);
     let before = parse(&case.text).map_err(|e| e.to_string())?;
     validate(&before).map_err(|all| all[0].to_string())?;
     if !options.iter().any(|option| option == "after") {

@@ -9,6 +9,8 @@ mod claims;
 #[path = "../support/domain.rs"]
 mod domain;
 mod legalize;
+#[path = "../support/machine.rs"]
+mod machine;
 mod opt;
 mod roundtrip;
 mod run;

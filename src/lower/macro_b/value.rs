@@ -26,7 +26,7 @@ impl<'a> Lowering<'a> {
         if role.is_integer() {
             return self.whole_word(role, letter, number, point, value, code);
         }
-        let counted = role.is_length() || counts_degrees(role);
+        let counted = role.is_length() || role.is_angle();
         if role.is_scale() && !point && number != 0.0 {
             let note = "what a scale factor without a decimal point counts; it is taken as written";
             self.findings.unconfirmed("numbers".into(), Some(note), value.span);
@@ -88,7 +88,7 @@ impl<'a> Lowering<'a> {
     ) -> Option<(Role, Expr)> {
         let span = value.span;
         let lowered = self.expr(value, At::Word(role));
-        if role.is_length() || counts_degrees(role) || role == Role::Feed {
+        if role.is_length() || role.is_angle() || role == Role::Feed {
             match self.findings.behaviour("word.bare.expression", span) {
                 Some("value") => {}
                 Some(_) => self.findings.not_understood(span, "a computed value that counts increments"),
@@ -186,9 +186,4 @@ impl<'a> Lowering<'a> {
             }
         }
     }
-}
-
-/// True for an angle, whose least increment a number without a point counts.
-fn counts_degrees(role: Role) -> bool {
-    matches!(role, Role::A | Role::B | Role::C | Role::Angle | Role::PolarAngle)
 }
