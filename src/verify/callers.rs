@@ -53,7 +53,7 @@ fn scenarios<'j>(job: &'j Job<'_>, program: ProgramRef) -> impl Iterator<Item = 
     while proposals.len() < RUNS
         && let Some(mut scenario) = proposed.next()
     {
-        scenario.inch = unit(job.source, job.target);
+        scenario.inch = unit(job.source, job.target).or(inputs.inch);
         proposals.push(scenario);
     }
     proposals.into_iter().map(move |scenario| {

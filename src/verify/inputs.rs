@@ -1,11 +1,11 @@
 //! What a program takes from outside: read off its text.
 
 use super::names::{Side, class_of};
-use crate::canon::Sys;
+use crate::canon::{Op, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::Control;
 use crate::syntax::{
-    BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Row, TestSubject, VarRef, for_each_expr,
+    BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Row, TestSubject, VarRef, Word, for_each_expr,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,6 +24,8 @@ pub struct Inputs {
     pub skips: bool,
     /// True for each of A, B and C that a program of the library moves.
     pub rotary: [bool; 3],
+    /// The unit that the machine must be set to, where the program checks it: true for inch.
+    pub inch: Option<bool>,
 }
 
 /// A variable that a run is started with.
@@ -93,6 +95,7 @@ struct Reader<'c> {
     numbers: Vec<f64>,
     cells: BTreeSet<(Sys, Vec<u32>)>,
     skips: bool,
+    inch: Option<bool>,
 }
 
 impl<'c> Reader<'c> {
@@ -107,6 +110,7 @@ impl<'c> Reader<'c> {
             numbers: Vec::new(),
             cells: BTreeSet::new(),
             skips: false,
+            inch: None,
         }
     }
 
@@ -131,6 +135,7 @@ impl<'c> Reader<'c> {
     /// Variables that stand in statements as names, not as expressions.
     fn plain(&mut self, kind: &ItemKind, sure: bool) {
         match kind {
+            ItemKind::Word(word) => self.check_of_unit(word),
             ItemKind::Assign { target, .. } | ItemKind::Timer(target) => self.write(target, sure),
             ItemKind::Input { targets, .. } => targets.iter().for_each(|target| self.write(target, sure)),
             ItemKind::Step { target, .. } => self.read(target),
@@ -148,6 +153,16 @@ impl<'c> Reader<'c> {
             }
             _ => {}
         }
+    }
+
+    fn check_of_unit(&mut self, word: &Word) {
+        let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else { return };
+        let checked = match self.control.code(word.letter, number.value, &[]).map(|row| row.op) {
+            Some(Op::CheckInch) => true,
+            Some(Op::CheckMetric) => false,
+            _ => return,
+        };
+        self.inch.get_or_insert(checked);
     }
 
     fn write(&mut self, target: &VarRef, sure: bool) {
@@ -239,6 +254,7 @@ impl<'c> Reader<'c> {
             cells: self.cells.into_iter().collect(),
             skips: self.skips,
             rotary: [false; 3],
+            inch: self.inch,
         }
     }
 }

@@ -117,7 +117,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..self.job.effort });
         let mut endless = 0;
         while let Some(mut scenario) = proposals.next() {
-            scenario.inch = unit(self.job.source, self.job.target);
+            scenario.inch = unit(self.job.source, self.job.target).or(found.inch);
             let mut run = self.run_source(&scenario);
             // A long way to its end is tried once.
             if is_cut(&run) && self.tried == 0 {

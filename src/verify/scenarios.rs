@@ -221,7 +221,7 @@ fn machine(random: &mut Random) -> Scenario {
 }
 
 /// Both machines are set to the unit of the one that states any: what a program does not say itself is for
-/// the shop to see to.
+/// the shop to see to, or what it checks ([`super::inputs::Inputs::inch`]).
 pub fn unit(side: &Side<'_>, other: &Side<'_>) -> Option<bool> {
     side.control.units().or(other.control.units()).map(|units| units == Units::Inch)
 }
@@ -237,7 +237,7 @@ pub fn on_target(
     called: bool,
 ) -> Scenario {
     let mut out = scenario.clone();
-    out.inch = unit(target, source);
+    out.inch = unit(target, source).or(scenario.inch);
     out.variables.clear();
     for (name, value) in &scenario.variables {
         let nullable = class_of(source.control, name).is_some_and(|class| class.nullable);

@@ -304,3 +304,17 @@ fn what_incremental_moves_round_adds_up() {
     let scaled = run("fadal", &program(1.0), "fanuc", &program(1.0001), &[]);
     assert_ne!(scaled.outcome, Outcome::Same);
 }
+
+#[test]
+fn a_machine_is_set_to_the_unit_that_a_program_checks() {
+    for code in ["G20", "G21"] {
+        let source = format!("O1\nN1 {code} G90 G80 G40 E1\nN2 G0 X1.25 Y0\nN3 M2\n");
+        let judge = |x: &str| {
+            let target = format!("O1\nN1 {code} G90 G80 G40 G54\nN2 G0 X{x} Y0.\nN3 M30\n");
+            run("fadal", &source, "fanuc", &target, &[])
+        };
+        assert_eq!(judge("1.26").outcome, Outcome::Different, "{code}");
+        let same = judge("1.25");
+        assert!(same.reasons.iter().all(|reason| !reason.text.contains("set to")), "{same:#?}");
+    }
+}

@@ -95,6 +95,8 @@ impl<'c> Compiler<'c, '_> {
         }
         gather.facts.sort();
         gather.facts.dedup();
+        gather.facts.shrink_to_fit();
+        gather.steps.shrink_to_fit();
         Block { span: block.span, sequence, steps: gather.steps, facts: gather.facts, told: Cell::new(false) }
     }
 
@@ -280,7 +282,8 @@ impl<'c> Compiler<'c, '_> {
         if gather.words.is_empty() {
             return;
         }
-        let words = std::mem::take(&mut gather.words);
+        let mut words = std::mem::take(&mut gather.words);
+        words.shrink_to_fit();
         let mut meaning = meaning::fixed(self.control, self.style, &words);
         if let Some(meaning) = &mut meaning {
             gather.facts.append(&mut meaning.facts);

@@ -46,7 +46,11 @@ pub fn of<'c>(
     there: &[bool],
     values: &[Option<f64>],
 ) -> Meaning<'c> {
-    let mut meaning = Meaning::default();
+    let mut meaning = Meaning {
+        beside: Vec::with_capacity(words.len()),
+        alone: Vec::with_capacity(words.len()),
+        ..Meaning::default()
+    };
     let present = || words.iter().zip(there).zip(values).enumerate().filter(|(_, ((_, there), _))| **there);
     let block: Vec<(char, Option<f64>)> = present()
         .filter(|(_, ((word, _), _))| !word.comma)

@@ -23,6 +23,8 @@ pub(super) fn items(line: Span, pairs: Pairs<'_, Rule>) -> (Vec<Item>, Vec<Synta
             None => build.fault(Code::Unreadable, span, "this cannot be read"),
         }
     }
+    // Files are kept whole: room to spare in each block would be most of what they take.
+    items.shrink_to_fit();
     (items, build.errors)
 }
 

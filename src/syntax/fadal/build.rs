@@ -24,6 +24,8 @@ pub(super) fn items(source: &[u8], line: Span, pairs: Pairs<'_, Rule>) -> (Vec<I
         }
     }
     build.check_length(line);
+    // Files are kept whole: room to spare in each block would be most of what they take.
+    items.shrink_to_fit();
     (items, build.errors)
 }
 

@@ -23,6 +23,8 @@ pub fn build(source: &[u8], row: &[Lexeme], rank: fn(BinaryOp) -> u8) -> Result<
     let mut builder = Builder { source, row, rank, at: 0, errors: Vec::new(), operators: 0 };
     let mut items = Vec::new();
     builder.items(&mut items, 0)?;
+    // Files are kept whole: room to spare in each block would be most of what they take.
+    items.shrink_to_fit();
     Ok(Tree { items, errors: builder.errors })
 }
 
