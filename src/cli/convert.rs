@@ -119,8 +119,8 @@ fn verified(
         return Vec::new();
     }
     let judged =
-        jobs.iter().zip(conversions).map(|(job, conversion)| match job.source.name() == job.target.name() {
-            // A program that stays on its control is copied, byte for byte.
+        jobs.iter().zip(conversions).map(|(job, conversion)| match job.source.is_same_machine(&job.target) {
+            // A program that stays on its machine is copied, byte for byte.
             true => vec![None; job.inputs.len()],
             false => judge(&job.inputs, conversion, &job.source, &job.target, Effort::default()),
         });

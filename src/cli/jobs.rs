@@ -107,8 +107,8 @@ fn planned(inputs: Vec<Input>, source: Control, target: Control, out: Option<&Pa
         }
         None => None,
     };
-    // From a control to itself nothing is chosen.
-    let lock_path = out.map(|folder| folder.join(Lock::NAME)).filter(|_| source.name() != target.name());
+    // From a machine to itself nothing is chosen.
+    let lock_path = out.map(|folder| folder.join(Lock::NAME)).filter(|_| !source.is_same_machine(&target));
     let lock = match &lock_path {
         Some(path) => Lock::load(path, source.name(), target.name()).map_err(complain)?,
         None => Lock::new(source.name(), target.name()),

@@ -49,7 +49,7 @@ pub fn outputs<'p>(jobs: &'p [Job], parts: &[Part<'p>], reports: &[PathBuf]) -> 
         let Some(places) = &job.places else { continue };
         for ((text, place), input) in part.conversion.texts.iter().zip(places).zip(&job.inputs) {
             let bytes = match text {
-                _ if part.from == part.to => input.bytes.as_slice(),
+                _ if job.source.is_same_machine(&job.target) => input.bytes.as_slice(),
                 Some(text) => text.as_bytes(),
                 None => continue,
             };

@@ -58,7 +58,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
 
 /// What the lock beside the target says.
 fn names(target: &Path, from: &Control, to: &Control) -> Result<Names, u8> {
-    if from.name() == to.name() {
+    if from.is_same_machine(to) {
         return Ok(Names::default());
     }
     let folder = if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) };

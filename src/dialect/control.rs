@@ -69,6 +69,16 @@ impl Control {
         self.entry
     }
 
+    /// True where a program runs on both as it stands: one dialect, and machines whose profiles differ in nothing
+    /// that a program could tell.
+    pub fn is_same_machine(&self, other: &Control) -> bool {
+        self.entry == other.entry
+            && self.dialect == other.dialect
+            && self.settings == other.settings
+            && self.profile.units == other.profile.units
+            && self.reserved == other.reserved
+    }
+
     /// All facts, with the profile laid over them.
     pub fn dialect(&self) -> &Dialect {
         &self.dialect

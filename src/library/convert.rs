@@ -79,7 +79,7 @@ pub fn convert(
     lock: Lock,
     options: Options,
 ) -> Conversion {
-    if source.entry() == target.entry() {
+    if source.is_same_machine(target) {
         return unchanged(inputs, source, lock);
     }
     if let Some(done) = super::segments::convert(inputs, source, target, &lock, options) {
@@ -324,7 +324,7 @@ pub(super) fn written_name(name: &ProgramName) -> String {
     }
 }
 
-/// From a control to itself: the text stays as it is, byte for byte.
+/// From a machine to itself: the text stays as it is, byte for byte.
 fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
     let mut programs = Vec::new();
     let mut texts = Vec::new();

@@ -61,3 +61,20 @@ fn two_libraries_need_two_folders() {
     let files = [("macroglot.toml", both.as_str()), ("programs/a.nc", CLEAN), ("more/b.nc", CLEAN)];
     Shop::with(&files).fails("convert", &["out", "nothing was written"]);
 }
+
+#[test]
+fn a_program_for_another_machine_of_its_dialect_is_no_copy() {
+    let project = PROJECT.replace("haas", "fanuc").replacen('\n', "\nprofile = \"inch.toml\"\n", 1);
+    let shop = Shop::with(&[
+        ("macroglot.toml", &project),
+        ("inch.toml", "dialect = \"fanuc\"\nunits = \"inch\"\ndecimal_point = \"increments\"\n"),
+        ("metric.toml", "dialect = \"fanuc\"\nunits = \"metric\"\ndecimal_point = \"calculator\"\n"),
+        ("programs/a.nc", "O1\nG0X15000\nM30\n"),
+    ]);
+    shop.write(
+        "macroglot.toml",
+        project.replace("[machines.new]", "[machines.new]\nprofile = \"metric.toml\"").as_bytes(),
+    );
+    assert_eq!(shop.run("convert").code, 0);
+    assert_eq!(shop.read("out/a.nc"), "O0001\nG20\nG0 X1.5\nM30\n");
+}

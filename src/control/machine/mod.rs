@@ -146,6 +146,15 @@ impl Machine {
         self.inch
     }
 
+    /// Takes the unit that a block names, ahead of the block's words.
+    pub fn name_unit(&mut self, op: Op) {
+        match op {
+            Op::Inch => self.inch = true,
+            Op::Metric => self.inch = false,
+            _ => {}
+        }
+    }
+
     /// True where coordinates are incremental.
     pub fn is_incremental(&self) -> bool {
         self.incremental

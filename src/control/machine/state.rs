@@ -10,8 +10,7 @@ use crate::control::trace::{FeedMode, Happening, Plane, Trace};
 pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     for &op in &command.ops {
         match op {
-            Op::Inch => machine.inch = true,
-            Op::Metric => machine.inch = false,
+            Op::Inch | Op::Metric => machine.name_unit(op),
             Op::PlaneXy => machine.plane = Plane::Xy,
             Op::PlaneZx => machine.plane = Plane::Zx,
             Op::PlaneYz => machine.plane = Plane::Yz,

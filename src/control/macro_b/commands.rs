@@ -28,6 +28,12 @@ impl<'c> Runner<'c> {
         };
         let Some(mut meaning) = fresh.as_ref().or(words.meaning.as_ref()) else { return Ok(Next::On) };
         let call = self.macro_call(meaning);
+        // The words of its own block count in the unit that a code names.
+        meaning
+            .codes
+            .iter()
+            .filter_map(|code| code.row)
+            .for_each(|row| self.session.machine.name_unit(row.op));
         for (at, word) in words.words.iter().enumerate() {
             let argument = call.is_some_and(|call| at > call.word || call.alias.is_some());
             if argument || is_code(word.letter, word.comma) {
