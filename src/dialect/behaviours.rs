@@ -52,6 +52,7 @@ questions! {
     "sub.ends.at.next" YES, "a subroutine at the head of a program ends where the next one begins";
     "sub.area.entered" YES, "what stands before the subroutines at the head runs, then the main part";
     "end.alone" YES, "the code that closes the subroutines ends a program that has none";
+    "cycle.end.ends.program" YES, "the code that ends a called cycle ends any other program too";
     "call.after.words" YES, "a subroutine that is called beside words runs when the words are done";
     "m99.p.jumps.here" YES, "M99 P jumps in the running program; false where it returns to that block of the caller";
     "m99.main.restarts" YES, "M99 in the main program starts it again";
@@ -108,10 +109,9 @@ questions! {
     "cycle.l0.stores" YES, "a cycle with L0 is stored and not run";
     "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
     "cycle.tap.feed" &["feed", "lead", "unknown"], "what the words of a tapping cycle mean: feed and speed, or speed and lead";
-    "cycle.ends.with.motion" YES, "a motion code ends the drilling cycle in force";
     "cycle.variable.retract" &[], "number of the variable that a drilling cycle takes its retract plane from";
     "cycle.variable.depth" &[], "number of the variable that a drilling cycle takes its depth from";
-    "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends a drilling cycle";
+    "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force";
     "motion.after.cycle" &["kept", "unknown"], "the interpolation in force when a drilling cycle has ended";
     "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it";
     "cycle.r0.kept" YES, "a drilling cycle takes its retract plane from the variable that holds it";

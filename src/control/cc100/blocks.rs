@@ -114,7 +114,7 @@ impl<'r> Interpreter<'r, '_> {
     /// The end of a called part; that of a cycle where the code is M2.
     fn go_back(&mut self, of_cycle: bool) -> Flow<Next> {
         if of_cycle && !self.in_cycle() {
-            self.session.trace.doubt("machine:cycle.end.in.program");
+            self.session.rest_on("cycle.end.ends.program");
             return Err(Halt::Ended(Op::End));
         }
         if self.depth > 0 {

@@ -123,7 +123,8 @@ impl Rules {
             cycle_runs_without_axes: yes(control, "cycle.runs.without.axes", false),
             rotation_runs_cycle: yes(control, "rotation.runs.cycle", false),
             rotation_is_ccw: fact(control, "rotation.direction", word("ccw", "cw"), true),
-            motion_ends_cycle: motion_ends_cycle(control),
+            motion_ends_cycle: yes(control, "cycle.ends.by.motion", true)
+                .or_silent(control, "cycle.ends.by.motion"),
             offset_acts_at_once: yes(control, "offset.active.immediately", true),
             // Where it is a setting nobody stated, as conversions take it.
             radius_table: fact(control, "radius.offset.table", table, RadiusTable::Diameter),
@@ -135,16 +136,6 @@ impl Rules {
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),
             lathe: control.machine() == Machine::Lathe,
         }
-    }
-}
-
-/// Whether an interpolation code ends the drilling cycle: it does, where the table is silent.
-fn motion_ends_cycle(control: &Control) -> Fact<bool> {
-    let asked = ["cycle.ends.by.motion", "cycle.ends.with.motion"];
-    let name = asked.into_iter().find(|name| control.behaviour(name).is_some());
-    match name {
-        Some(name) => yes(control, name, true),
-        None => Fact { value: true, unsure: None },
     }
 }
 

@@ -94,7 +94,7 @@ fn check(before: State, nc: &Nc, span: crate::text::Span, findings: &mut Finding
             findings.add(Diagnostic::new(Code::ModalConflict, span, message));
         }
         State::On(_) | State::OnMixed if motion.is_some() => {
-            let goes_on = findings.behaviour("cycle.ends.with.motion", span) == Some("false");
+            let goes_on = findings.behaviour("cycle.ends.by.motion", span) == Some("false");
             if !goes_on || !matches!(motion, Some(Op::Rapid | Op::Linear)) {
                 findings.not_understood(span, "no source says what this motion does under a drilling cycle");
             }

@@ -120,7 +120,13 @@ impl Lowering<'_> {
                 self.ends.insert(site.span);
                 self.build.end(TermKind::Return { to: None }, site);
             }
-            Flow::End { rewind } => self.build.end(TermKind::End { rewind }, site),
+            Flow::End { rewind } => {
+                if !rewind && !self.findings.is("cycle.end.ends.program", site.span) {
+                    self.findings
+                        .not_understood(site.span, "no source says what the end of a cycle does here");
+                }
+                self.build.end(TermKind::End { rewind }, site);
+            }
         }
     }
 

@@ -100,7 +100,7 @@ fn m2_returns_from_a_cycle_only() {
             Happening::End { by } => Some(by),
             _ => None,
         });
-        (by, doubts(&run).contains(&"machine:cycle.end.in.program"))
+        (by, doubts(&run).contains(&"behaviour:cycle.end.ends.program"))
     };
     assert_eq!(end("cycle7.nc", "G55\nM2\n"), (Some(Op::Return), false));
     assert_eq!(end("cycle7.nc", "G55\nM30\n"), (Some(Op::EndRewind), false));
