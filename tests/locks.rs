@@ -61,3 +61,17 @@ fn too_few_registers_are_an_error() {
     let made = converted(&[MAIN, SUB], empty(), "reserved = [\"#100-#199\", \"#502-#999\"]");
     assert!(refused(&made).contains(&true));
 }
+
+#[test]
+fn a_program_keeps_the_number_that_it_was_given() {
+    let (source, target) = (Control::plain("haas").unwrap(), Control::plain("fanuc").unwrap());
+    let text = "O1\nM98P30002\nM30\nO30002\nG0X1.\nM99\n";
+    let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.into() }];
+    let run = |lock: Lock| convert(&inputs, &source, &target, lock, Options::default());
+    let first = run(Lock::new("haas", "fanuc"));
+    let number = first.lock.programs["O30002"];
+    assert!((1..=9999).contains(&number));
+    let again = run(first.lock.clone());
+    assert_eq!(again.lock.programs["O30002"], number);
+    assert_eq!(again.texts, first.texts);
+}

@@ -115,6 +115,11 @@ impl Overlay {
         dialect.functions.retain(|row| has(&row.option));
         dialect.operators.retain(|row| has(&row.option));
         dialect.statements.retain(|row| has(&row.option));
+        // Whether an option was bought is the owner's word on what it brings.
+        for row in dialect.behaviours.iter_mut().filter(|row| row.option.is_some() && bought.is_some()) {
+            row.value = has(&row.option).to_string();
+            row.origin.confirmed = true;
+        }
         // A row that holds under a setting stands for the general one of the same letter.
         let special: BTreeSet<String> = dialect
             .words

@@ -148,7 +148,8 @@ fn touched<'d>(dialect: &'d mut Dialect, target: &str) -> Option<&'d mut Origin>
             dialect.behaviours.iter_mut().find(|row| row.name == name).map(|row| &mut row.origin)
         }
         ("limit", name) => dialect.limits.iter_mut().find(|row| row.name == name).map(|row| &mut row.origin),
-        ("numbers", _) => Some(&mut dialect.numbers.origin),
+        // What the row's facts are told by is numbers without a point.
+        ("numbers", column) if column != "arithmetic" => Some(&mut dialect.numbers.origin),
         _ => None,
     }
 }

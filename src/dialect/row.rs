@@ -21,7 +21,7 @@ pub trait Row: DeserializeOwned {
     fn origin_mut(&mut self) -> &mut Origin;
 
     /// The name that diagnostics give it and that a machine profile confirms it
-    /// by: `behaviour:goto.forward.first`, `code:G10 L2`, `system:#5221`.
+    /// by: `behaviour:goto.forward.first`, `code:G10 L2`, `system:#5221`, `operator:and.bits`.
     fn fact(&self) -> String {
         match self.key() {
             key if key.is_empty() => Self::KIND.into(),
@@ -53,7 +53,7 @@ row! {
     Numbers "numbers" "numbers" |_row| String::new();
     Text "text" "text" |_row| String::new();
     Limit "limits" "limit" |row| row.name.clone();
-    Operator "operators" "operator" |row| row.spelling.clone();
+    Operator "operators" "operator" |row| row.meaning.clone();
     Function "functions" "function" |row| match row.arguments {
         1 => row.function.name().into(),
         n => format!("{}/{n}", row.function),

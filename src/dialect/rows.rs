@@ -100,6 +100,9 @@ pub struct Behaviour {
     pub name: String,
     /// The answer: `true`, `false`, or a word.
     pub value: String,
+    /// The option that the answer is `true` by; without it it is `false`.
+    #[serde(default)]
+    pub option: Option<String>,
     /// Where it comes from.
     #[serde(skip_deserializing)]
     pub origin: Origin,

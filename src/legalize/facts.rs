@@ -175,6 +175,9 @@ impl Found<'_> {
         block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
         match &block.term.kind {
             TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour("skip.levels", span),
+            TermKind::Branch { cond: Cond::And(_) | Cond::Or(_), .. } => {
+                self.behaviour("condition.and.or", span);
+            }
             TermKind::End { rewind } => {
                 let op = if *rewind { Op::EndRewind } else { Op::End };
                 self.code(op, &Default::default(), span);

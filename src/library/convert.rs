@@ -100,7 +100,7 @@ pub fn convert(
         files.push(File { tape: file.tape, programs: first..module.programs.len() });
     }
     let written: Vec<Option<String>> =
-        module.programs.iter().map(|p| p.name.as_ref().map(written_name)).collect();
+        module.programs.iter().map(|p| p.name.as_ref().map(ToString::to_string)).collect();
     name_the_nameless(&mut module, inputs, source, target);
     report_twins(&module, inputs, &mut found);
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
@@ -317,13 +317,6 @@ pub(super) fn frames(source: &Control, target: &Control, tape: bool) -> bool {
     tape || !same_family(source, target)
 }
 
-pub(super) fn written_name(name: &ProgramName) -> String {
-    match name {
-        ProgramName::Number(n) => format!("O{n:04}"),
-        ProgramName::Name(name) => name.clone(),
-    }
-}
-
 /// From a machine to itself: the text stays as it is, byte for byte.
 fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
     let mut programs = Vec::new();
@@ -335,7 +328,7 @@ fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
             let diagnostics: Vec<_> =
                 diagnostics.into_iter().filter(|d| d.severity() == Severity::Error).collect();
             let outcome = outcome(&diagnostics);
-            let name = program.name.as_ref().map(written_name);
+            let name = program.name.as_ref().map(ToString::to_string);
             ProgramReport { file: at, name, outcome, verdict: None, diagnostics, map: Vec::new() }
         }));
     }

@@ -1,6 +1,5 @@
 //! Program numbers on the target.
 
-use super::convert::written_name;
 use super::{Input, Lock};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
@@ -39,10 +38,10 @@ pub fn number_programs(
     let mut out = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         let Some(name) = &program.name else { continue };
-        let key = written_name(name);
+        let key = name.to_string();
         let number = match (lock.programs.get(&key), name) {
-            (Some(n), ProgramName::Name(_)) => Some(*n),
             (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
+            (Some(n), _) => Some(*n),
             _ => {
                 let sub = program.returns() && !program.ends();
                 free[usize::from(sub)].find(|n| !taken.contains(n))
@@ -51,6 +50,18 @@ pub fn number_programs(
         match number {
             Some(number) => {
                 if *name != ProgramName::Number(number) {
+                    if let ProgramName::Number(_) = name {
+                        let what = format!(
+                            "{name} becomes {}: the target's numbers end at {max}",
+                            ProgramName::Number(number)
+                        );
+                        let help =
+                            "call and select it by its new number; the lock beside the conversion keeps it";
+                        context.add(
+                            index,
+                            Diagnostic::new(Code::Renumbered, program.site.span, what).with_help(help),
+                        );
+                    }
                     taken.insert(number);
                     lock.programs.insert(key, number);
                 }
@@ -84,8 +95,7 @@ pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnost
             let others: BTreeSet<String> =
                 indexes.iter().filter(|i| **i != index).map(|i| place(*i)).collect();
             let others = others.into_iter().collect::<Vec<_>>().join(", ");
-            let what =
-                format!("{} stands in {others} as well: a control can hold one of them", written_name(name));
+            let what = format!("{name} stands in {others} as well: a control can hold one of them");
             found[index].push(Diagnostic::new(Code::TwinProgram, module.programs[index].site.span, what));
         }
     }
@@ -101,10 +111,8 @@ pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnost
                     && let Some(indexes) = twins.get(name)
                 {
                     let places = indexes.iter().map(|i| place(*i)).collect::<Vec<_>>().join(", ");
-                    let what = format!(
-                        "calls {}, which stands in {places}: which one is meant is not known",
-                        written_name(name)
-                    );
+                    let what =
+                        format!("calls {name}, which stands in {places}: which one is meant is not known");
                     found[index].push(Diagnostic::new(Code::AmbiguousCall, block.term.site.span, what));
                 }
             }

@@ -7,7 +7,7 @@
 //! comments and program ends only; one control family, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
-use super::convert::{Made, ProgramReport, drop_echoes, frames, make, outcome, written_name};
+use super::convert::{Made, ProgramReport, drop_echoes, frames, make, outcome};
 use super::{Conversion, Input, Lock, Options, Outcome};
 use crate::canon::{Group, Op};
 use crate::diag::Diagnostic;
@@ -223,7 +223,8 @@ fn piece_made(
     lock: &Lock,
     options: Options,
 ) -> (Vec<Option<String>>, Made, bool) {
-    let names = piece.programs.iter().map(|(program, _)| program.name.as_ref().map(written_name)).collect();
+    let names =
+        piece.programs.iter().map(|(program, _)| program.name.as_ref().map(ToString::to_string)).collect();
     let mut found: Vec<Vec<Diagnostic>> = Vec::new();
     let mut module = Module { names: piece.names, ..Module::default() };
     for (program, diagnostics) in piece.programs {

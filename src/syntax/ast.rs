@@ -227,6 +227,16 @@ pub enum ProgramName {
     Name(String),
 }
 
+impl std::fmt::Display for ProgramName {
+    /// As people write it: `O0012`, or the name itself.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            ProgramName::Number(number) => write!(f, "O{number:04}"),
+            ProgramName::Name(name) => f.write_str(name),
+        }
+    }
+}
+
 /// A label's name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Label {

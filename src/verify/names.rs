@@ -126,11 +126,7 @@ impl Names {
             let mut found = all.iter().filter(here);
             return found.clone().filter(is).nth(nth).or_else(|| found.nth(nth)).copied();
         };
-        let written = match name {
-            ProgramName::Number(number) => format!("O{number:04}"),
-            ProgramName::Name(name) => name.clone(),
-        };
-        let wanted = match (self.programs.get(&written), name) {
+        let wanted = match (self.programs.get(&name.to_string()), name) {
             (Some(number), _) | (None, ProgramName::Number(number)) => ProgramName::Number(*number),
             (None, name) => name.clone(),
         };

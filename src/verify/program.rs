@@ -10,7 +10,6 @@ use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Effort, Outcome};
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, ProgramRef, Run, Scenario};
-use crate::syntax::ProgramName;
 use crate::text::LineIndex;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -274,10 +273,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         ProgramCertificate {
             source: source_file.map_or_else(String::new, |file| file.name.to_owned()),
             source_sha256: source_file.map_or_else(String::new, |file| sha256(file.parsed.source)),
-            program: self.job.source.name(self.program).map(|name| match name {
-                ProgramName::Number(number) => format!("O{number:04}"),
-                ProgramName::Name(name) => name.clone(),
-            }),
+            program: self.job.source.name(self.program).map(ToString::to_string),
             target: target_file.map(|file| file.name.to_owned()),
             target_sha256: target_file.map(|file| sha256(file.parsed.source)),
             outcome,

@@ -61,7 +61,7 @@ impl Emitter<'_> {
                 Some(number) if (1..=self.control.text().program_max).contains(&number) => {
                     self.integer(number);
                 }
-                _ => self.unmapped(format_args!("the name of the program, {name:?}")),
+                _ => self.unmapped(format_args!("the name of the program, {name}")),
             },
             Callee::Block(entry) => self.sequence_of(*entry),
             Callee::Computed(value) => self.word_value(Role::Program, value),

@@ -62,7 +62,7 @@ impl<'p> Emitter<'p> {
         };
         let most = self.control.text().program_max;
         let Some(number) = self.names.program(name).filter(|number| (1..=most).contains(number)) else {
-            return self.unmapped(format_args!("the name of the program, {name:?}"));
+            return self.unmapped(format_args!("the name of the program, {name}"));
         };
         self.program_line(site, number);
     }

@@ -67,7 +67,9 @@ impl<'a> Lowering<'a> {
                 (None, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor) if is_condition(expr) => {
                     match self.findings.behaviour("condition.and.or", expr.span) {
                         Some("true") => {}
-                        Some(_) => self.findings.not_understood(expr.span, "conditions cannot be joined"),
+                        Some(_) => self
+                            .findings
+                            .not_understood(expr.span, "this control joins no conditions by AND and OR"),
                         None => self.unknown_behaviour("condition.and.or", expr.span),
                     }
                     self.ranks(*op, a, b, true);
