@@ -22,6 +22,10 @@ pub struct Event {
     /// What happened.
     #[serde(flatten)]
     pub what: Happening,
+    /// How far its positions may lie from where exact numbers would have put them, because words have a least
+    /// increment; millimetres.
+    #[serde(skip)]
+    pub rounded: f64,
 }
 
 /// A place of a library: a program and bytes of its file.
@@ -59,6 +63,8 @@ pub struct Trace {
     pub events: Vec<Event>,
     /// The block that events belong to.
     pub at: Place,
+    /// How far positions may be off by rounding, from now on.
+    pub rounded: f64,
     limit: usize,
     full: bool,
     doubted: HashSet<(String, Place)>,
@@ -67,13 +73,13 @@ pub struct Trace {
 impl Trace {
     /// An empty trace that keeps at most so many events.
     pub fn new(limit: usize) -> Self {
-        Self { events: Vec::new(), at: Place::default(), limit, full: false, doubted: HashSet::new() }
+        Self { events: Vec::new(), at: Place::default(), rounded: 0.0, limit, full: false, doubted: HashSet::new() }
     }
 
     /// Records an event of the present block.
     pub fn push(&mut self, what: Happening) {
         if self.events.len() < self.limit {
-            self.events.push(Event { at: self.at, what });
+            self.events.push(Event { at: self.at, what, rounded: self.rounded });
         } else {
             self.full = true;
         }
@@ -101,6 +107,6 @@ impl Trace {
     /// Records an alarm.
     pub fn alarm(&mut self, stop: &Stop) {
         // The alarm is the one event that a full trace still takes.
-        self.events.push(Event { at: self.at, what: Happening::Alarm(stop.clone()) });
+        self.events.push(Event { at: self.at, what: Happening::Alarm(stop.clone()), rounded: self.rounded });
     }
 }

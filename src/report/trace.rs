@@ -56,7 +56,7 @@ impl<'a> Lines<'a> {
 pub fn trace_json(run: &Run, inputs: &[Input]) -> String {
     let lines = Lines::new(run, inputs);
     let mut out = String::new();
-    for Event { at, what } in &run.events {
+    for Event { at, what, .. } in &run.events {
         let (program, file, line, column) = lines.place(*at);
         let block = [at.span.start, at.span.end];
         let line = Line { what, program, file, line, column, block };
@@ -73,7 +73,7 @@ pub fn trace_json(run: &Run, inputs: &[Input]) -> String {
 pub fn trace_text(run: &Run, inputs: &[Input]) -> String {
     let lines = Lines::new(run, inputs);
     let mut out = String::new();
-    for Event { at, what } in &run.events {
+    for Event { at, what, .. } in &run.events {
         let (program, _, line, _) = lines.place(*at);
         let place = format!("{program}:{line}");
         let _ = writeln!(out, "{place:>12}  {}", describe(what, run).trim_end());

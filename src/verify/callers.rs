@@ -36,7 +36,7 @@ pub fn do_the_same(job: &Job<'_>, program: ProgramRef, tolerance: Tolerance) -> 
             let circumstances = on_target(&scenario, job.names, (job.source, job.target), false);
             let other = (job.target.execute)(job.target.files, there, job.target.control, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
-            if compared.difference.is_some() {
+            if compared.difference.or(compared.hair).is_some() {
                 return Some(false);
             }
             found = Some(true);

@@ -14,6 +14,8 @@ use std::collections::BTreeSet;
 pub struct Tolerance {
     /// Positions that words rounded: the coarser least increment of the two controls, millimetres.
     pub rounded: f64,
+    /// True where both controls round the words that a program computes; else one of them goes where the numbers say.
+    both: bool,
 }
 
 impl Tolerance {
@@ -23,19 +25,36 @@ impl Tolerance {
             let numbers = side.control.numbers();
             numbers.increment_mm.max(numbers.increment_inch * 25.4)
         };
-        Self { rounded: increment(source).max(increment(target)) * 1.0001 }
+        let rounds = |side: &Side<'_>| side.control.is("word.rounds.to.increment");
+        Self {
+            rounded: increment(source).max(increment(target)) * 1.0001,
+            both: rounds(source) && rounds(target),
+        }
+    }
+
+    /// How far apart what the words of two events rounded may have put them.
+    fn between(&self, source: f64, target: f64) -> f64 {
+        ARITHMETIC + if self.both { source + target } else { source.max(target) }
     }
 }
+
+/// How far apart arithmetic in another order, or by an emulation, may put positions, millimetres.
+const ARITHMETIC: f64 = 1e-5;
 
 /// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
 /// the end, and the centre in two axes, each by a half.
 const ARC_ROUNDINGS: f64 = 2.0;
+
+/// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
+const LEAST_WAIT: f64 = 0.000_501;
 
 /// What a comparison found.
 #[derive(Clone, Debug, Default)]
 pub struct Comparison<'r> {
     /// The first difference.
     pub difference: Option<Difference<'r>>,
+    /// The first difference that is no more than a least increment, where the words of both sides rounded less.
+    pub hair: Option<Difference<'r>>,
     /// The largest distance between positions that counted as the same, millimetres.
     pub largest: f64,
     /// Texts that are written differently: messages, outputs, alarm numbers.
@@ -81,8 +100,8 @@ struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
     tolerance: Tolerance,
     found: Comparison<'r>,
-    /// Where each side's tool is; none before its first move.
-    at: [Option<Position>; 2],
+    /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
+    at: [Option<(Position, f64)>; 2],
     /// True where the source returns without a work offset, which the target cannot.
     uncancelled: bool,
 }
@@ -96,10 +115,10 @@ impl<'r> Pairs<'_, 'r> {
             let (a, b) = (ours.get(i), theirs.get(j));
             let what = match (a, b) {
                 (None, None) => return,
-                (Some(a), Some(b)) => match self.differ(a, b, 0.0) {
+                (Some(a), Some(b)) => match self.differ(a, b, self.near(a, b)) {
                     None => {
-                        self.moved(0, &a.what);
-                        self.moved(1, &b.what);
+                        self.moved(0, a);
+                        self.moved(1, b);
                         (i, j) = (i + 1, j + 1);
                         continue;
                     }
@@ -109,39 +128,55 @@ impl<'r> Pairs<'_, 'r> {
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
-            if a.is_some_and(|a| self.passes(0, &a.what)) {
+            if a.is_some_and(|a| self.passes(0, a)) {
                 i += 1;
-            } else if b.is_some_and(|b| self.passes(1, &b.what)) {
+            } else if b.is_some_and(|b| self.passes(1, b)) {
                 j += 1;
-            } else if let (Some(a), Some(b)) = (a, b)
-                && self.drifts(a, b)
-            {
-                self.moved(0, &a.what);
-                self.moved(1, &b.what);
-                (i, j) = (i + 1, j + 1);
             } else {
                 let (source, target) = (a.map(|a| a.event), b.map(|b| b.event));
-                self.found.difference = Some(Difference { source, target, what });
-                return;
+                let difference = Difference { source, target, what };
+                match (a, b) {
+                    (Some(a), Some(b)) if self.drifts(a, b) => {}
+                    (Some(a), Some(b)) if self.differ(a, b, self.tolerance.rounded).is_none() => {
+                        self.found.hair.get_or_insert(difference);
+                    }
+                    _ => {
+                        self.found.difference = Some(difference);
+                        return;
+                    }
+                }
+                a.into_iter().for_each(|a| self.moved(0, a));
+                b.into_iter().for_each(|b| self.moved(1, b));
+                (i, j) = (i + 1, j + 1);
             }
         }
     }
 
-    fn moved(&mut self, side: usize, what: &Happening) {
-        if let Some(to) = leaves(what) {
-            self.at[side] = Some(to);
+    fn moved(&mut self, side: usize, act: &Act<'r>) {
+        if let Some(to) = leaves(&act.what) {
+            self.at[side] = Some((to, act.event.rounded));
         }
+    }
+
+    /// How far apart two acts may lie that count as the same: what their words rounded, a least increment at the
+    /// most.
+    fn near(&self, source: &Act<'r>, target: &Act<'r>) -> f64 {
+        self.tolerance.between(source.event.rounded, target.event.rounded).min(self.tolerance.rounded)
     }
 
     /// True where one side's act has no counterpart and needs none: a move within the least increment that
     /// leaves the tool where the other side's is, a limit on reading ahead, or what the target cannot do and
     /// no axis moves for.
-    fn passes(&mut self, side: usize, what: &Happening) -> bool {
+    fn passes(&mut self, side: usize, act: &Act<'r>) -> bool {
+        let what: &Happening = &act.what;
         if let Some((_, to)) = ends(what) {
-            let near = self.at[1 - side].is_some_and(|other| apart(&to, &other) <= self.tolerance.rounded);
+            let near = self.at[1 - side].is_some_and(|(other, rounded)| {
+                let allowed = self.tolerance.between(act.event.rounded, rounded);
+                apart(&to, &other) <= allowed.min(self.tolerance.rounded)
+            });
             let passes = near && goes_nowhere(what, self.tolerance.rounded);
             if passes {
-                self.moved(side, what);
+                self.moved(side, act);
             }
             return passes;
         }
@@ -158,21 +193,19 @@ impl<'r> Pairs<'_, 'r> {
         left_out.is_some()
     }
 
-    /// True where two acts are the same but for how far apart the tools are already. Each move rounds once more, and
-    /// what incremental ones round adds up; that it was this cannot be told from here.
+    /// True where two acts are the same but for what incremental words rounded, one move after the other.
     fn drifts(&mut self, source: &Act<'r>, target: &Act<'r>) -> bool {
-        let [Some(ours), Some(theirs)] = &self.at else { return false };
-        let drift = apart(ours, theirs);
-        let same = drift > 0.0 && self.differ(source, target, drift).is_none();
+        let allowed = self.tolerance.between(source.event.rounded, target.event.rounded);
+        let same = allowed > self.tolerance.rounded && self.differ(source, target, allowed).is_none();
         if same {
-            let what = "positions drift apart move by move, as roundings of incremental moves do";
+            let what = "positions drift apart by more than a least increment: what incremental moves round adds up";
             self.found.substituted.insert(what.into());
         }
         same
     }
 
-    /// What differs between two acts, if anything does; positions may lie apart by `more` than the tolerance.
-    fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, more: f64) -> Option<String> {
+    /// What differs between two acts, if anything does, where positions may lie so far apart.
+    fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, allowed: f64) -> Option<String> {
         let stands = stands_for(self.target, &source.what, &target.what);
         let (a, b) = (&source.what, &target.what);
         if let Some(text) = stands.or_else(|| is_builders(a, b).filter(|_| a != b)) {
@@ -180,8 +213,12 @@ impl<'r> Pairs<'_, 'r> {
             return None;
         }
         let mut largest = self.found.largest;
-        let tolerance = Tolerance { rounded: self.tolerance.rounded + more };
-        let what = differ((&source.what, &target.what), target.room, tolerance, &mut largest);
+        let paths = match source.event.rounded.max(target.event.rounded) {
+            // What the words of an arc rounded moves its middle farther than its ends.
+            rounded if rounded > 0.0 => ARC_ROUNDINGS * allowed.max(self.tolerance.rounded),
+            _ => ARC_ROUNDINGS * allowed,
+        };
+        let what = differ((&source.what, &target.what), target.room, (allowed, paths), &mut largest);
         match what {
             None => {
                 self.found.largest = largest;
@@ -233,22 +270,23 @@ fn variables_differ(source: (&Side<'_>, &Run), target: (&Side<'_>, &Run), names:
     None
 }
 
-/// The events' difference, if they have one; `room` is what the target's text could have had more.
+/// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
+/// is what the target's text could have had more.
 fn differ(
     (source, target): (&Happening, &Happening),
     room: Option<usize>,
-    tolerance: Tolerance,
+    (allowed, paths): (f64, f64),
     largest: &mut f64,
 ) -> Option<&'static str> {
     use Happening::*;
-    let allowed = tolerance.rounded;
     let mut beyond = |most: f64| {
         *largest = largest.max(if most <= allowed { most } else { 0.0 });
         most > allowed
     };
     let far = |a: &Position, b: &Position| apart(a, b);
     let differs = |a: f64, b: f64| exceeds((a - b).abs(), 1e-6 * a.abs().max(b.abs()).max(1.0));
-    let about = |a: f64, b: f64| exceeds((a - b).abs(), allowed.max(1e-4 * a.abs()));
+    let about = |a: f64, b: f64| exceeds((a - b).abs(), 1e-4 * a.abs());
+    let written = |a: f64, b: f64| exceeds((a - b).abs(), allowed.max(1e-9 * a.abs()));
     match (source, target) {
         (Rapid { from, to }, Rapid { from: other_from, to: other }) => (beyond(far(from, other_from))
             || beyond(far(to, other)))
@@ -265,7 +303,7 @@ fn differ(
         ) => {
             if beyond(far(to, other)) {
                 Some("the arc ends elsewhere")
-            } else if exceeds(arcs_apart(source, target), ARC_ROUNDINGS * allowed) {
+            } else if exceeds(arcs_apart(source, target), paths) {
                 Some(match exceeds((sweep - other_sweep).abs(), 90.0) {
                     true => "the arc goes the other way or another number of turns",
                     false => "the arc is another",
@@ -285,7 +323,7 @@ fn differ(
             (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move is another")
         }
         (Dwell { seconds }, Dwell { seconds: other }) => {
-            exceeds((seconds - other).abs(), 1e-3).then_some("the wait is another")
+            exceeds((seconds - other).abs(), LEAST_WAIT).then_some("the wait is another")
         }
         (
             Spindle { direction, speed, surface },
@@ -307,7 +345,7 @@ fn differ(
         (
             Write { state, subscripts, value },
             Write { state: other_state, subscripts: other_subscripts, value: other },
-        ) => (state != other_state || subscripts != other_subscripts || about(*value, *other))
+        ) => (state != other_state || subscripts != other_subscripts || written(*value, *other))
             .then_some("another state of the machine is written"),
         (Message { text }, Message { text: other }) | (Output { text }, Output { text: other }) => {
             (!say_the_same(text, other, room)).then_some("the text is another")

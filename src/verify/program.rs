@@ -191,7 +191,14 @@ impl<'v, 'j> Verifier<'v, 'j> {
             self.because(Why::Substituted, &text);
         }
         self.compared += usize::from(!is_cut(run) && !is_cut(&other));
-        match found.difference {
+        // A hair that the last digit decides is no fault of the conversion; any other is.
+        let hair = found.hair.filter(|_| found.difference.is_none());
+        let hangs = hair.is_some() && self.wavers((there, &circumstances), &other);
+        if let Some(hair) = hair.as_ref().filter(|_| hangs) {
+            let text = format!("the last digit of its arithmetic decides where it goes: {}", hair.what);
+            self.because(Why::Substituted, &text);
+        }
+        match found.difference.or(hair.filter(|_| !hangs)) {
             // Where the source's control itself stops the program, the program says nothing.
             Some(difference) if faults(run) && at_the_end(run, &difference) => {
                 let text = match &run.end {
@@ -217,13 +224,27 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 });
             }
             None if self.sensitive != Some(true) && !is_cut(&other) => {
-                let nudged = Scenario { digits: Some(FEWER_DIGITS), ..circumstances };
-                let nudged = (target.execute)(target.files, there, target.control, &nudged);
+                let nudged = self.nudged((there, &circumstances));
                 let apart = compare((target, &other), (target, &nudged), &Names::default(), self.tolerance);
                 self.sensitive = Some(apart.difference.is_some());
             }
             None => {}
         }
+    }
+
+    /// The target's run with fewer digits.
+    fn nudged(&self, (there, circumstances): (ProgramRef, &Scenario)) -> Run {
+        let target = self.job.target;
+        let nudged = Scenario { digits: Some(FEWER_DIGITS), ..circumstances.clone() };
+        (target.execute)(target.files, there, target.control, &nudged)
+    }
+
+    /// True where the target goes elsewhere, by however little, with fewer digits.
+    fn wavers(&self, of: (ProgramRef, &Scenario), run: &Run) -> bool {
+        let target = self.job.target;
+        let nudged = self.nudged(of);
+        let apart = compare((target, run), (target, &nudged), &Names::default(), self.tolerance);
+        apart.difference.is_some() || apart.hair.is_some()
     }
 
     fn because(&mut self, why: Why, text: &str) {

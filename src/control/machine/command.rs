@@ -15,6 +15,8 @@ pub struct Command {
     pub words: SmallVec<[(Role, f64); 8]>,
     /// The code of an operation that only this control has, for the trace.
     pub own_code: Option<String>,
+    /// By how much the control rounded words to their least increment, where it did.
+    pub rounded: SmallVec<[(Role, f64); 2]>,
 }
 
 impl Command {
@@ -23,6 +25,7 @@ impl Command {
         self.ops.clear();
         self.words.clear();
         self.own_code = None;
+        self.rounded.clear();
     }
 
     /// True where it says nothing.

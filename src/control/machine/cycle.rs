@@ -47,6 +47,8 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
         return Err(Stop::unnamed("no drilling cycle is in force"));
     };
     cycle.read(command, (unit, incremental), along);
+    machine.round_cycle(command, along, begins.is_some());
+    machine.round_in(&across(command, along), trace);
     let names = |axis: usize| axis != along;
     let places = command.axes().any(|(axis, _)| names(axis)) || command.has(Op::CycleHere);
     let depths = command.word(Role::CycleR).is_some() || command.axes().any(|(axis, _)| axis == along);
@@ -66,7 +68,10 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     if !runs || count == 0 {
         return place_only(machine, command, (runs, count), trace);
     }
-    for _ in 0..count {
+    for turn in 0..count {
+        if turn > 0 {
+            machine.round_in(&across(command, along), trace);
+        }
         let mut to = machine.target(&across(command, along));
         to[along] = machine.position[along];
         if to[first] != machine.position[first]
@@ -104,7 +109,7 @@ fn place_only(
 /// The block without its word along the drilling axis, which is the depth.
 fn across(command: &Command, along: usize) -> Command {
     let words = command.words.iter().copied().filter(|(role, _)| axis(*role) != Some(along));
-    Command { ops: command.ops.clone(), words: words.collect(), own_code: None }
+    Command { ops: command.ops.clone(), words: words.collect(), rounded: command.rounded.clone(), own_code: None }
 }
 
 /// Drills at the present place.

@@ -9,6 +9,8 @@ use crate::control::trace::{FeedMode, Happening, Position, Spindle, Trace};
 
 /// Drills where the machine stands over the hole.
 pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
+    // The bottom may count from the retract plane, and that from the initial one.
+    trace.rounded += 2.0 * machine.rounding.cycle;
     let mut driver = Driver::new(machine, planes, trace);
     driver.rapid(planes.r);
     let at = Position(driver.machine.position);
@@ -99,6 +101,7 @@ impl<'a> Driver<'a> {
         let mut depth = 0.0;
         while depth < whole && !self.trace.is_full() {
             if depth > 0.0 {
+                self.trace.rounded += self.machine.rounding.cycle;
                 let back = (depth - clearance).max(0.0);
                 if cycle.op == Op::CyclePeck {
                     self.rapid(r);

@@ -13,6 +13,7 @@ mod expand;
 mod frame;
 mod motion;
 mod offsets;
+mod rounding;
 mod rules;
 mod state;
 mod system;
@@ -29,6 +30,7 @@ use super::trace::{FeedMode, Plane, Side, Spindle, Trace};
 use crate::canon::{Op, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
+use rounding::Rounding;
 use rules::Rules;
 use std::collections::{BTreeMap, HashMap};
 
@@ -39,6 +41,7 @@ pub const INCH: f64 = 25.4;
 #[derive(Debug)]
 pub struct Machine {
     rules: Rules,
+    rounding: Rounding,
     /// Machine position.
     position: Axes,
     /// Machine position at the end of the last block that moved.
@@ -90,6 +93,7 @@ impl Machine {
     pub fn new(control: &Control, scenario: &Scenario) -> Self {
         let mut machine = Self {
             rules: Rules::new(control),
+            rounding: Rounding::new(control),
             position: scenario.start,
             probed: scenario.start,
             frame: Frame::new(scenario),

@@ -18,6 +18,12 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     if command.has(Op::CycleOff) {
         machine.cycle = None;
     }
+    let drills = machine.cycle.is_some()
+        || command.ops.iter().any(|op| op.is_cycle())
+        || command.has(Op::CycleHere);
+    if !drills && !takes_axes(command) {
+        machine.round_in(command, trace);
+    }
     for &op in &command.ops {
         match op {
             Op::ReferenceReturn => return reference(machine, command, 0, trace),
@@ -47,14 +53,10 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
             _ => {}
         }
     }
-    let takes_axes = command.ops.iter().any(|op| {
-        matches!(op, Op::LocalShift | Op::SetPosition | Op::WriteWork | Op::RotateOn | Op::ScaleOn)
-            || matches!(op, Op::MirrorOn | Op::MirrorOff | Op::Pole | Op::Dwell)
-    });
-    if takes_axes {
+    if takes_axes(command) {
         return Ok(());
     }
-    if machine.cycle.is_some() || command.ops.iter().any(|op| op.is_cycle()) || command.has(Op::CycleHere) {
+    if drills {
         return cycle::run(machine, command, trace);
     }
     let arc_words = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| command.word(*role).is_some());
@@ -97,6 +99,14 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     Ok(())
 }
 
+/// True where the axis words of a block are not for moving.
+fn takes_axes(command: &Command) -> bool {
+    command.ops.iter().any(|op| {
+        matches!(op, Op::LocalShift | Op::SetPosition | Op::WriteWork | Op::RotateOn | Op::ScaleOn)
+            || matches!(op, Op::MirrorOn | Op::MirrorOff | Op::Pole | Op::Dwell)
+    })
+}
+
 /// To the reference position of the named axes, by way of the block's point.
 fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut Trace) -> Result<(), Stop> {
     let home = machine.references[which];
@@ -112,6 +122,7 @@ fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut
     for axis in named {
         let axis = machine.own_axis(axis).0;
         to[axis] = home[axis];
+        machine.round_home(axis);
     }
     machine.rapid_to(to, trace);
     Ok(())

@@ -15,6 +15,7 @@ pub(super) fn write_by_code(
     trace: &mut Trace,
 ) -> Result<(), Stop> {
     let row = command.number(Role::OffsetRow).unwrap_or(0);
+    trace.rounded = machine.off_by() + machine.most_off(command, |_| true);
     if op == Op::WriteWork {
         for (axis, value) in command.axes() {
             let state = if row == 0 { Sys::ExternalShift } else { Sys::WorkOffset };

@@ -43,6 +43,7 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
 /// Selects and shapes the frame of coordinates.
 pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     for &op in &command.ops {
+        machine.round_frame(op, command);
         match op {
             Op::SelectWork => {
                 let number = command.number(Role::WorkOffset).unwrap_or(machine.frame.number);

@@ -9,7 +9,7 @@ fn machine(scenario: &Scenario) -> Machine {
 }
 
 fn run(machine: &mut Machine, ops: &[Op], words: &[(Role, f64)]) -> Vec<Happening> {
-    let command = Command { ops: ops.into(), words: words.iter().copied().collect(), own_code: None };
+    let command = Command { ops: ops.into(), words: words.iter().copied().collect(), ..Command::default() };
     let mut trace = Trace::new(1000);
     machine.run(&command, &mut trace).expect("no alarm");
     trace.events.into_iter().map(|event| event.what).collect()
@@ -107,7 +107,7 @@ fn a_peck_of_nothing_and_endless_repeats_end() {
     let command = Command {
         ops: [Op::CyclePeck].into_iter().collect(),
         words: words.into_iter().collect(),
-        own_code: None,
+        ..Command::default()
     };
     machine.run(&command, &mut trace).expect("no alarm");
     assert!(trace.is_full());

@@ -137,7 +137,13 @@ impl<'c> Runner<'c> {
                 }
             }
             _ => match increment {
-                Some(increment) if self.rules.word_rounds => to_increment(value, increment),
+                Some(increment) if self.rules.word_rounds => {
+                    let word = to_increment(value, increment);
+                    if let Some(role) = role.filter(|_| word != value) {
+                        self.command.rounded.push((role, (word - value).abs()));
+                    }
+                    word
+                }
                 _ => value,
             },
         }

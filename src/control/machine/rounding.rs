@@ -1,0 +1,152 @@
+//! How far the rounding of words may have put the machine off.
+//!
+//! Words have a least increment. What a program computes for a word seldom is a whole number of it, so two
+//! controls that get the same number may go to two places. Here is kept how far: nothing where all words
+//! were whole increments, one rounding for each absolute word, the sum of them for incremental ones.
+
+use super::command::{axis, is_rotary};
+use super::{Command, Machine};
+use crate::canon::{Op, Role};
+use crate::control::scenario::AXES;
+use crate::control::trace::Trace;
+use crate::dialect::Control;
+
+/// What lies nearer to a whole number of increments than this is one.
+const WHOLE: f64 = 1e-9;
+
+/// The least increments, and how far things may be off, millimetres or degrees.
+#[derive(Clone, Debug)]
+pub(super) struct Rounding {
+    increment_mm: f64,
+    increment_inch: f64,
+    increment_degrees: f64,
+    axes: [f64; AXES],
+    /// The local shift, the set position, work offsets written, the shape (rotation, scale).
+    frame: [f64; 4],
+    /// The angle of a rotation, degrees.
+    turn: f64,
+    /// The planes and steps of the drilling cycle.
+    pub cycle: f64,
+    /// What the program computed from a position that was off.
+    carried: f64,
+}
+
+impl Rounding {
+    pub(super) fn new(control: &Control) -> Self {
+        let numbers = control.numbers();
+        Self {
+            increment_mm: numbers.increment_mm,
+            increment_inch: numbers.increment_inch,
+            increment_degrees: numbers.increment_degrees,
+            axes: [0.0; AXES],
+            frame: [0.0; 4],
+            turn: 0.0,
+            cycle: 0.0,
+            carried: 0.0,
+        }
+    }
+}
+
+impl Machine {
+    /// How far a word may be off, millimetres or degrees.
+    fn off(&self, command: &Command, role: Role, value: f64) -> f64 {
+        let turns = matches!(role, Role::Angle | Role::PolarAngle) || axis(role).is_some_and(is_rotary);
+        let increment = match (turns, self.inch) {
+            (true, _) => self.rounding.increment_degrees,
+            (false, true) => self.rounding.increment_inch,
+            (false, false) => self.rounding.increment_mm,
+        };
+        if increment <= 0.0 || !value.is_finite() {
+            return 0.0;
+        }
+        let own = (value - (value / increment).round() * increment).abs();
+        let told = command.rounded.iter().filter(|(found, _)| *found == role).map(|(_, by)| *by);
+        let off = told.fold(own, f64::max);
+        if off < WHOLE { 0.0 } else { off * if turns { 1.0 } else { self.unit() } }
+    }
+
+    /// The most that a length of a block may be off.
+    pub(super) fn most_off(&self, command: &Command, of: impl Fn(Role) -> bool) -> f64 {
+        let lengths = command.words.iter().filter(|(role, _)| role.is_length() && of(*role));
+        lengths.map(|(role, value)| self.off(command, *role, *value)).fold(0.0, f64::max)
+    }
+
+    /// Takes in the words of a block that moves; what moves by it may be as far off as `trace` is told.
+    pub(super) fn round_in(&mut self, command: &Command, trace: &mut Trace) {
+        let before = self.off_by();
+        let (reach, incremental) = (self.position.iter().fold(0.0f64, |a, b| a.max(b.abs())), self.incremental);
+        for (role, value) in &command.words {
+            let off = match (axis(*role), role) {
+                (Some(_), _) | (_, Role::PolarDistance) => self.off(command, *role, *value),
+                (_, Role::PolarAngle) => self.off(command, *role, *value).to_radians() * reach,
+                _ => continue,
+            };
+            let named = axis(*role).map(|axis| self.own_axis(axis));
+            for (at, kept) in self.rounding.axes.iter_mut().enumerate() {
+                // A polar word moves both axes of the plane.
+                if named.map_or(at < 3, |(axis, _)| axis == at) {
+                    let adds = incremental || named.is_none_or(|(_, by_itself)| by_itself);
+                    *kept = off + if adds { *kept } else { 0.0 };
+                }
+            }
+        }
+        let centre = self.most_off(command, |role| axis(role).is_none());
+        trace.rounded = before.max(self.off_by()) + centre;
+    }
+
+    /// Takes in the words of a block that sets the frame of coordinates.
+    pub(super) fn round_frame(&mut self, op: Op, command: &Command) {
+        let off = self.most_off(command, |role| axis(role).is_some());
+        let angle = command.word(Role::Angle).map_or(0.0, |angle| self.off(command, Role::Angle, angle));
+        let there = self.rounding.axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
+        let [local, set, work, shape] = &mut self.rounding.frame;
+        match op {
+            Op::LocalShift => *local = off,
+            // The place that the machine is at counts from now on as the one that is said.
+            Op::SetPosition => *set += off + there,
+            Op::ShiftCancel => (*local, *set) = (0.0, 0.0),
+            Op::WriteWork => *work = work.max(off),
+            Op::RotateOn => (*shape, self.rounding.turn) = (off + there, angle),
+            Op::RotateOff => self.rounding.turn = 0.0,
+            Op::ScaleOn | Op::MirrorOn => *shape = shape.max(off + there),
+            _ => {}
+        }
+    }
+
+    /// Takes in the words of a drilling cycle.
+    pub(super) fn round_cycle(&mut self, command: &Command, along: usize, begins: bool) {
+        let across = |role: Role| axis(role).is_some_and(|axis| axis != along);
+        let off = self.most_off(command, |role| !across(role));
+        self.rounding.cycle = if begins { off } else { self.rounding.cycle.max(off) };
+    }
+
+    /// A position is read by the program: what it computes from it may be off in a way that nothing here follows.
+    pub(super) fn round_read(&mut self) {
+        if self.off_by() > 0.0 {
+            let inch = self.inch;
+            let least = if inch { self.rounding.increment_inch } else { self.rounding.increment_mm };
+            self.rounding.carried = least * self.unit();
+        }
+    }
+
+    /// An axis stands where the machine knows.
+    pub(super) fn round_home(&mut self, axis: usize) {
+        self.rounding.axes[axis] = 0.0;
+    }
+
+    /// How far the machine may be off in any axis.
+    pub(super) fn off_by(&self) -> f64 {
+        let Rounding { axes, frame, turn, carried, .. } = &self.rounding;
+        let mut off = axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
+        if off > 0.0 && self.frame.is_shaped() {
+            let scale = self.frame.scale.map_or(1.0, |(factors, _)| factors.iter().fold(1.0, |a, b| b.abs().max(a)));
+            // What is turned by 45 degrees is off by both of its parts.
+            off *= scale * std::f64::consts::SQRT_2;
+        }
+        if *turn > 0.0 {
+            let reach = self.position.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+            off += turn.to_radians() * reach * std::f64::consts::SQRT_2;
+        }
+        off + frame.iter().sum::<f64>() + carried
+    }
+}
