@@ -73,7 +73,14 @@ pub struct Trace {
 impl Trace {
     /// An empty trace that keeps at most so many events.
     pub fn new(limit: usize) -> Self {
-        Self { events: Vec::new(), at: Place::default(), rounded: 0.0, limit, full: false, doubted: HashSet::new() }
+        Self {
+            events: Vec::new(),
+            at: Place::default(),
+            rounded: 0.0,
+            limit,
+            full: false,
+            doubted: HashSet::new(),
+        }
     }
 
     /// Records an event of the present block.

@@ -61,13 +61,14 @@ pub fn judge(
     }
     let job = Job { source: &from, target: &to, names: &names, reported: &reported, effort };
     let wanted = wanted(conversion, &from.programs(), inputs.len());
-    let verified: Vec<Option<Certificate>> = wanted
+    let mut verified: Vec<Option<Certificate>> = wanted
         .par_iter()
         .map(|wanted| {
             let programs: Vec<ProgramRef> = wanted.iter().map(|(_, program)| *program).collect();
             (!programs.is_empty()).then(|| verify::verify(&job, &programs))
         })
         .collect();
+    verify::implicate(verified.iter_mut().flatten());
     for (file, certificate) in verified.iter().enumerate() {
         let Some(certificate) = certificate else { continue };
         for ((at, program), found) in wanted[file].iter().zip(&certificate.programs) {

@@ -1,56 +1,184 @@
 //! A program as those of its library call it.
 //!
 //! Its callers give a program its arguments and the modes it runs in, and a conversion may rest on that. Run by
-//! itself, in circumstances that no caller makes, it may then do something else.
+//! itself, in circumstances that no caller makes, it may then do something else. That is no fault only where the
+//! callers' runs come to the very place and do the same; and never more than undecided, because runs show what
+//! callers give, not that they never give anything else.
 
-use super::compare::{Tolerance, compare};
-use super::inputs::inputs;
-use super::program::Job;
+use super::compare::{Tolerance, compare, is_cut};
+use super::inputs::{calls, inputs};
+use super::program::{Job, stops_by_itself};
 use super::scenarios::{Proposals, on_target, unit};
-use crate::control::{End, ProgramRef, Run, Scenario};
+use super::{Certificate, Outcome, ProgramCertificate};
+use crate::control::{ProgramRef, Run, Scenario};
 use crate::syntax::ProgramName;
+use crate::text::Span;
 use std::collections::BTreeSet;
 
-/// Runs of each caller.
-const RUNS: usize = 12;
+/// A block of a library: its file and place.
+pub type Spot = (usize, Span);
+
+/// Where a difference showed itself.
+#[derive(Debug, Default)]
+pub struct Shown {
+    /// The blocks on both sides; none where that side did nothing more.
+    pub source: Option<Spot>,
+    /// The block of the target.
+    pub target: Option<Spot>,
+    /// The ways that branches of the program went in that run.
+    pub ways: BTreeSet<(Spot, i64)>,
+}
+
+/// Runs of all callers together, and the fewest of each.
+const RUNS: usize = 240;
+const FEWEST: usize = 12;
 /// Runs in which a program shows what it calls.
 const LOOKS: usize = 3;
 
-/// Whether the runs that come through a program do the same on the target where they begin in programs
-/// that nothing calls; none where no such run comes through it.
-pub fn do_the_same(job: &Job<'_>, program: ProgramRef, tolerance: Tolerance) -> Option<bool> {
-    let all = job.source.programs();
-    let called = |run: &Run| all.iter().copied().filter(|other| enters(job, run, *other)).collect::<Vec<_>>();
-    let mut entered = BTreeSet::new();
-    for caller in &all {
-        let runs = scenarios(job, *caller).take(LOOKS).flat_map(|(_, run)| called(&run));
-        entered.extend(runs.filter(|other| other != caller));
+/// What the runs that come through a program show of it.
+#[derive(Debug, Default)]
+pub struct Through {
+    /// The programs that such runs begin in.
+    pub callers: BTreeSet<String>,
+    /// How many of them came to the place in question.
+    pub reached: usize,
+    /// Ways to the difference that none of them went.
+    pub untried: usize,
+    /// True where one of them did something else.
+    pub differs: bool,
+    /// Programs that call it and have no conversion to run.
+    pub absent: BTreeSet<String>,
+}
+
+impl Through {
+    /// Why a difference that shows by itself is none as the library calls the program, in words; none where
+    /// nothing says so.
+    pub fn excuses(&self) -> Option<String> {
+        if self.differs || self.reached == 0 || self.untried > 0 {
+            return None;
+        }
+        let list = |all: &BTreeSet<String>| all.iter().cloned().collect::<Vec<_>>().join(", ");
+        let mut text = format!(
+            "it does the same in {} runs that come to this place from {}; that these never give it anything else \
+             is not shown",
+            self.reached,
+            list(&self.callers)
+        );
+        if !self.absent.is_empty() {
+            text += &format!(", and {}, which calls it too, could not be run", list(&self.absent));
+        }
+        Some(text)
     }
-    let mut found = None;
-    for caller in all.iter().filter(|caller| **caller != program && !entered.contains(caller)) {
+}
+
+/// Runs what calls a program, and looks at the runs that come through it to where it showed a difference.
+pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tolerance) -> Through {
+    let mut found = Through::default();
+    let mut gone = BTreeSet::new();
+    let all = job.source.programs();
+    let is_root = roots(job, &all);
+    let has_target = |caller: &ProgramRef| job.names.program(job.source, *caller, job.target).is_some();
+    for caller in all.iter().filter(|caller| **caller != program && !has_target(caller)) {
+        let mut blocks = job.source.text(*caller).iter();
+        if blocks.any(|block| calls(job.source, &block.items).any(|called| called == program)) {
+            found.absent.insert(name(job, *caller));
+        }
+    }
+    let callers = || all.iter().filter(|caller| **caller != program && is_root(caller));
+    let runs = (RUNS / callers().count().max(1)).max(FEWEST);
+    for caller in callers() {
         let Some(there) = job.names.program(job.source, *caller, job.target) else { continue };
-        for (scenario, run) in scenarios(job, *caller).take(RUNS) {
-            if run.end != End::Ended || !enters(job, &run, program) {
+        for (at, (scenario, run)) in scenarios(job, *caller, runs).enumerate() {
+            if !enters(job, &run, program) {
+                // One that never comes through it in its first runs is none of its callers.
+                if at >= FEWEST && !found.callers.contains(&name(job, *caller)) {
+                    break;
+                }
                 continue;
             }
             let circumstances = on_target(&scenario, job.names, (job.source, job.target), false);
             let other = (job.target.execute)(job.target.files, there, job.target.control, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
-            if compared.difference.or(compared.hair).is_some() {
-                return Some(false);
+            let cut = is_cut(&run) || is_cut(&other);
+            match compared.difference.or(compared.hair) {
+                // Where the source's control stops the run, the program says nothing.
+                Some(difference) if stops_by_itself(&run, &difference) => {}
+                Some(_) => {
+                    found.differs = true;
+                    return found;
+                }
+                None if !cut => {
+                    found.callers.insert(name(job, *caller));
+                    let came = comes_to(&run, shown.source) && comes_to(&other, shown.target);
+                    found.reached += usize::from(came);
+                    gone.extend(ways(&run, program.file));
+                }
+                None => {}
             }
-            found = Some(true);
         }
     }
+    found.untried = shown.ways.difference(&gone).count();
     found
 }
 
+/// The ways that the branches of a file went in a run.
+pub fn ways(run: &Run, file: usize) -> impl Iterator<Item = (Spot, i64)> + '_ {
+    let here = move |at: u32| run.programs.get(at as usize).is_some_and(|program| program.file == file);
+    let branches = run.branches.iter().filter(move |(branch, _)| here(branch.at.program));
+    branches.flat_map(move |(branch, ways)| ways.iter().map(move |way| ((file, branch.at.span), *way)))
+}
+/// Lets what showed itself in a called program count for that program too: it may be the same by itself, and differ in
+/// the circumstances that a caller makes.
+pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
+    let mut all: Vec<&mut Certificate> = certificates.collect();
+    let number = |name: &str| name.trim_start_matches(['O', '0']).to_owned();
+    let place = |program: &ProgramCertificate| {
+        let named = program.program.as_deref().unwrap_or_default();
+        (program.source.clone(), number(named))
+    };
+    let mut shown = Vec::new();
+    for program in all.iter().flat_map(|certificate| &certificate.programs) {
+        let moment = program.witness.as_ref().filter(|_| program.outcome == Outcome::Different);
+        let Some((witness, moment)) = moment.and_then(|witness| Some((witness, witness.source.as_ref()?)))
+        else {
+            continue;
+        };
+        shown.push(((moment.file.clone(), number(&moment.program)), witness.clone()));
+    }
+    for certificate in &mut all {
+        for program in certificate.programs.iter_mut().filter(|p| p.outcome != Outcome::Different) {
+            let here = place(program);
+            if let Some((_, witness)) = shown.iter().find(|(there, _)| *there == here) {
+                program.outcome = Outcome::Different;
+                program.witness = Some(witness.clone());
+            }
+        }
+        certificate.sum_up();
+    }
+}
+
+/// Whether a program is one that no other enters, as far as a few runs show.
+fn roots(job: &Job<'_>, all: &[ProgramRef]) -> impl Fn(&ProgramRef) -> bool + use<> {
+    let mut entered = BTreeSet::new();
+    for caller in all {
+        let called =
+            |run: &Run| all.iter().copied().filter(|other| enters(job, run, *other)).collect::<Vec<_>>();
+        let runs = scenarios(job, *caller, LOOKS).flat_map(|(_, run)| called(&run));
+        entered.extend(runs.filter(|other| other != caller));
+    }
+    move |program| !entered.contains(program)
+}
+
 /// Circumstances of a program, and its runs in them.
-fn scenarios<'j>(job: &'j Job<'_>, program: ProgramRef) -> impl Iterator<Item = (Scenario, Run)> + 'j {
+fn scenarios<'j>(
+    job: &'j Job<'_>,
+    program: ProgramRef,
+    runs: usize,
+) -> impl Iterator<Item = (Scenario, Run)> + 'j {
     let inputs = inputs(job.source, program);
     let mut proposals: Vec<Scenario> = Vec::new();
     let mut proposed = Proposals::new(&inputs, job.effort);
-    while proposals.len() < RUNS
+    while proposals.len() < runs
         && let Some(mut scenario) = proposed.next()
     {
         scenario.inch = unit(job.source, job.target).or(inputs.inch);
@@ -64,7 +192,26 @@ fn scenarios<'j>(job: &'j Job<'_>, program: ProgramRef) -> impl Iterator<Item = 
 
 /// True where a run came through a program.
 fn enters(job: &Job<'_>, run: &Run, program: ProgramRef) -> bool {
-    let Some(ProgramName::Number(number)) = job.source.name(program) else { return false };
-    let name = format!("O{number}");
+    let name = match job.source.name(program) {
+        Some(ProgramName::Number(number)) => format!("O{number}"),
+        Some(ProgramName::Name(name)) => name.clone(),
+        None => return false,
+    };
     run.programs.iter().any(|other| other.file == program.file && other.name == name)
+}
+
+/// True where something happened in a block, or none is asked for.
+fn comes_to(run: &Run, spot: Option<Spot>) -> bool {
+    let file = |at: u32| run.programs.get(at as usize).map(|program| program.file);
+    spot.is_none_or(|(there, span)| {
+        run.events.iter().any(|event| event.at.span == span && file(event.at.program) == Some(there))
+    })
+}
+
+fn name(job: &Job<'_>, program: ProgramRef) -> String {
+    match job.source.name(program) {
+        Some(ProgramName::Number(number)) => format!("O{number:04}"),
+        Some(ProgramName::Name(name)) => name.clone(),
+        None => job.source.files.get(program.file).map_or_else(String::new, |file| file.name.to_owned()),
+    }
 }

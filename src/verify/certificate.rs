@@ -132,6 +132,8 @@ pub struct Witness {
 pub struct Moment {
     /// The file.
     pub file: String,
+    /// The program of it that ran, as its control names it.
+    pub program: String,
     /// The line.
     pub line: u32,
     /// The block.
@@ -154,6 +156,11 @@ impl Certificate {
             steps: effort.steps,
             programs,
         }
+    }
+
+    /// Takes the worst outcome of its programs anew.
+    pub(super) fn sum_up(&mut self) {
+        self.outcome = self.programs.iter().map(|program| program.outcome).max().unwrap_or(self.outcome);
     }
 
     /// As JSON text.

@@ -198,7 +198,8 @@ impl<'r> Pairs<'_, 'r> {
         let allowed = self.tolerance.between(source.event.rounded, target.event.rounded);
         let same = allowed > self.tolerance.rounded && self.differ(source, target, allowed).is_none();
         if same {
-            let what = "positions drift apart by more than a least increment: what incremental moves round adds up";
+            let what =
+                "positions drift apart by more than a least increment: what incremental moves round adds up";
             self.found.substituted.insert(what.into());
         }
         same

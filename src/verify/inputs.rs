@@ -72,7 +72,7 @@ fn moves(side: &Side<'_>, letter: char) -> bool {
 }
 
 /// The programs that a block may call: those whose numbers stand in its P words.
-fn calls<'s>(side: &'s Side<'_>, items: &'s [Item]) -> impl Iterator<Item = ProgramRef> + 's {
+pub(super) fn calls<'s>(side: &'s Side<'_>, items: &'s [Item]) -> impl Iterator<Item = ProgramRef> + 's {
     items.iter().filter_map(|item| {
         let ItemKind::Word(word) = &item.kind else { return None };
         let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else {

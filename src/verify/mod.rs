@@ -29,6 +29,7 @@ mod tests;
 mod texts;
 
 pub use branches::NotReached;
+pub use callers::implicate;
 pub use certificate::{Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness};
 pub use names::{Names, Side};
 pub use program::{Job, verify};

@@ -1,7 +1,7 @@
 //! The verification of one program.
 
 use super::branches::Coverage;
-use super::callers::do_the_same;
+use super::callers::{Shown, implicate, through, ways};
 use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::inputs::{inputs, is_called};
@@ -53,7 +53,9 @@ const ENDLESS: usize = 4;
 pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
     let all = if programs.is_empty() { job.source.programs() } else { programs.to_vec() };
     let found = all.into_iter().map(|program| Verifier::new(job, program).run()).collect();
-    Certificate::new(job.source.control, job.target.control, job.effort, found)
+    let mut certificate = Certificate::new(job.source.control, job.target.control, job.effort, found);
+    implicate(std::slice::from_mut(&mut certificate).iter_mut());
+    certificate
 }
 
 struct Verifier<'v, 'j> {
@@ -75,6 +77,8 @@ struct Verifier<'v, 'j> {
     endless: BTreeSet<String>,
     sensitive: Option<bool>,
     witness: Option<Witness>,
+    /// Where the witness was.
+    shown: Shown,
 }
 
 impl<'v, 'j> Verifier<'v, 'j> {
@@ -95,6 +99,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             endless: BTreeSet::new(),
             sensitive: None,
             witness: None,
+            shown: Shown::default(),
         }
     }
 
@@ -192,15 +197,15 @@ impl<'v, 'j> Verifier<'v, 'j> {
         }
         self.compared += usize::from(!is_cut(run) && !is_cut(&other));
         // A hair that the last digit decides is no fault of the conversion; any other is.
-        let hair = found.hair.filter(|_| found.difference.is_none());
+        let hair = found.hair;
         let hangs = hair.is_some() && self.wavers((there, &circumstances), &other);
         if let Some(hair) = hair.as_ref().filter(|_| hangs) {
             let text = format!("the last digit of its arithmetic decides where it goes: {}", hair.what);
             self.because(Why::Substituted, &text);
         }
-        match found.difference.or(hair.filter(|_| !hangs)) {
+        match hair.filter(|_| !hangs).or(found.difference) {
             // Where the source's control itself stops the program, the program says nothing.
-            Some(difference) if faults(run) && at_the_end(run, &difference) => {
+            Some(difference) if stops_by_itself(run, &difference) => {
                 let text = match &run.end {
                     End::Alarm { stop, .. } => format!("{} {}", stop.number, stop.text),
                     _ => String::new(),
@@ -216,6 +221,15 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 self.because(Why::SourceAlarms, &text);
             }
             Some(difference) => {
+                let spot = |run: &Run, event: Option<&Event>| {
+                    let at = event?.at;
+                    Some((run.programs.get(at.program as usize)?.file, at.span))
+                };
+                self.shown = Shown {
+                    source: spot(run, difference.source),
+                    target: spot(&other, difference.target),
+                    ways: ways(run, self.program.file).collect(),
+                };
                 self.witness = Some(Witness {
                     what: difference.what.clone(),
                     scenario: scenario.clone(),
@@ -279,12 +293,13 @@ impl<'v, 'j> Verifier<'v, 'j> {
             (None, false) => Outcome::Undecided,
             (None, true) => Outcome::Same,
         };
-        if let Some(witness) = &self.witness
-            && do_the_same(self.job, self.program, self.tolerance) == Some(true)
-        {
-            let text = format!("as it is called it does the same, but not by itself: {}", witness.what);
-            self.because(Why::NotByItself, &text);
-            outcome = Outcome::Undecided;
+        if let Some(witness) = &self.witness {
+            let excuse = through(self.job, self.program, &self.shown, self.tolerance).excuses();
+            if let Some(excuse) = excuse {
+                let text = format!("by itself it differs ({}), but {excuse}", witness.what);
+                self.because(Why::NotByItself, &text);
+                outcome = Outcome::Undecided;
+            }
         }
         let (branches_total, branches_covered) = self.coverage.totals();
         let reasons = self
@@ -319,6 +334,11 @@ fn faults(run: &Run) -> bool {
     matches!(&run.end, End::Alarm { stop, .. } if stop.program_number.is_none())
 }
 
+/// True where the difference is that the control stopped the run: the program says nothing of what comes then.
+pub(super) fn stops_by_itself(run: &Run, difference: &Difference<'_>) -> bool {
+    faults(run) && at_the_end(run, difference)
+}
+
 /// How far an arc ends off its circle, where that is more than words round.
 fn off_its_circle(difference: &Difference<'_>) -> Option<f64> {
     match difference.source?.what {
@@ -337,16 +357,18 @@ fn at_the_end(run: &Run, difference: &Difference<'_>) -> bool {
 }
 
 fn moment(side: &Side<'_>, run: &Run, event: &Event) -> Moment {
-    let file = run.programs.get(event.at.program as usize).and_then(|program| side.files.get(program.file));
-    let Some(file) = file else {
+    let ran = run.programs.get(event.at.program as usize);
+    let program = ran.map_or_else(String::new, |program| program.name.clone());
+    let Some(file) = ran.and_then(|program| side.files.get(program.file)) else {
         let event = serde_json::to_value(&event.what).unwrap_or_default();
-        return Moment { file: String::new(), line: 0, block: String::new(), event };
+        return Moment { file: String::new(), program, line: 0, block: String::new(), event };
     };
     let source = file.parsed.source;
     let (line, _) = LineIndex::new(source).place(event.at.span.start);
     let block = source.split(|byte| *byte == b'\n').nth(line.saturating_sub(1) as usize).unwrap_or_default();
     Moment {
         file: file.name.to_owned(),
+        program,
         line,
         block: String::from_utf8_lossy(block).trim_end().to_owned(),
         event: serde_json::to_value(&event.what).unwrap_or_default(),

@@ -109,7 +109,12 @@ fn place_only(
 /// The block without its word along the drilling axis, which is the depth.
 fn across(command: &Command, along: usize) -> Command {
     let words = command.words.iter().copied().filter(|(role, _)| axis(*role) != Some(along));
-    Command { ops: command.ops.clone(), words: words.collect(), rounded: command.rounded.clone(), own_code: None }
+    Command {
+        ops: command.ops.clone(),
+        words: words.collect(),
+        rounded: command.rounded.clone(),
+        own_code: None,
+    }
 }
 
 /// Drills at the present place.

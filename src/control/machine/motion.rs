@@ -18,9 +18,8 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     if command.has(Op::CycleOff) {
         machine.cycle = None;
     }
-    let drills = machine.cycle.is_some()
-        || command.ops.iter().any(|op| op.is_cycle())
-        || command.has(Op::CycleHere);
+    let drills =
+        machine.cycle.is_some() || command.ops.iter().any(|op| op.is_cycle()) || command.has(Op::CycleHere);
     if !drills && !takes_axes(command) {
         machine.round_in(command, trace);
     }

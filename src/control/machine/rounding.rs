@@ -74,7 +74,8 @@ impl Machine {
     /// Takes in the words of a block that moves; what moves by it may be as far off as `trace` is told.
     pub(super) fn round_in(&mut self, command: &Command, trace: &mut Trace) {
         let before = self.off_by();
-        let (reach, incremental) = (self.position.iter().fold(0.0f64, |a, b| a.max(b.abs())), self.incremental);
+        let (reach, incremental) =
+            (self.position.iter().fold(0.0f64, |a, b| a.max(b.abs())), self.incremental);
         for (role, value) in &command.words {
             let off = match (axis(*role), role) {
                 (Some(_), _) | (_, Role::PolarDistance) => self.off(command, *role, *value),
@@ -139,7 +140,8 @@ impl Machine {
         let Rounding { axes, frame, turn, carried, .. } = &self.rounding;
         let mut off = axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
         if off > 0.0 && self.frame.is_shaped() {
-            let scale = self.frame.scale.map_or(1.0, |(factors, _)| factors.iter().fold(1.0, |a, b| b.abs().max(a)));
+            let scale =
+                self.frame.scale.map_or(1.0, |(factors, _)| factors.iter().fold(1.0, |a, b| b.abs().max(a)));
             // What is turned by 45 degrees is off by both of its parts.
             off *= scale * std::f64::consts::SQRT_2;
         }
