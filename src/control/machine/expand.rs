@@ -17,7 +17,10 @@ pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: 
     let bottom = driver.place(planes.bottom)[driver.along];
     driver.trace.push(Happening::Hole { cycle: cycle.op, at, bottom });
     driver.drill(cycle);
-    if !driver.machine.return_to_r {
+    if driver.machine.return_to_r {
+        let along = driver.along;
+        driver.machine.round_at_r(along);
+    } else {
         driver.rapid(planes.initial);
     }
 }

@@ -27,6 +27,8 @@ pub(super) struct Rounding {
     turn: f64,
     /// The planes and steps of the drilling cycle.
     pub cycle: f64,
+    /// The plane that the cycle began at.
+    initial: f64,
     /// What the program computed from a position that was off.
     carried: f64,
 }
@@ -42,6 +44,7 @@ impl Rounding {
             frame: [0.0; 4],
             turn: 0.0,
             cycle: 0.0,
+            initial: 0.0,
             carried: 0.0,
         }
     }
@@ -118,7 +121,15 @@ impl Machine {
     pub(super) fn round_cycle(&mut self, command: &Command, along: usize, begins: bool) {
         let across = |role: Role| axis(role).is_some_and(|axis| axis != along);
         let off = self.most_off(command, |role| !across(role));
+        if begins {
+            self.rounding.initial = self.rounding.axes[along];
+        }
         self.rounding.cycle = if begins { off } else { self.rounding.cycle.max(off) };
+    }
+
+    /// A cycle left its axis on the retract plane.
+    pub(super) fn round_at_r(&mut self, along: usize) {
+        self.rounding.axes[along] = self.rounding.initial + 2.0 * self.rounding.cycle;
     }
 
     /// A position is read by the program: what it computes from it may be off in a way that nothing here follows.
