@@ -16,6 +16,7 @@ mod branches;
 mod callers;
 mod certificate;
 mod compare;
+mod differ;
 mod inputs;
 mod names;
 mod observe;

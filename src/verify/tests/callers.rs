@@ -1,0 +1,121 @@
+//! Called programs: what their callers show of them, and what they do not.
+
+use super::programs;
+use crate::verify::{Outcome, ProgramCertificate, Why};
+
+/// O2 rests on the mode that its caller is in.
+#[test]
+fn what_callers_give_a_program_is_not_missed_from_it() {
+    let library = |moves: &str| format!("O1\nG90G0X1.\nG91\nM98P2\nM30\nO2\n{moves}\nM99\n");
+    let source = library("G0X5.");
+    let outcomes = |moves: &str| {
+        let found = programs(("fanuc", &source), ("fanuc", &library(moves)), &[]);
+        let alone = found[1].reasons.iter().any(|reason| reason.why == Why::NotByItself);
+        (found[0].outcome == Outcome::Different, found[1].outcome, alone)
+    };
+    assert_eq!(outcomes("G91G0X5."), (false, Outcome::Undecided, true));
+    assert_eq!(outcomes("G91G0X6."), (true, Outcome::Different, false));
+}
+
+/// A library of programs in one file, changed in one place; the outcomes of its programs, and what excuses them.
+#[track_caller]
+fn library(source: &str, from: &str, to: &str) -> Vec<(Outcome, String)> {
+    assert_eq!(source.matches(from).count(), 1, "{from} stands once");
+    let found = programs(("fanuc", source), ("fanuc", &source.replace(from, to)), &[]);
+    let excuse = |program: &ProgramCertificate| {
+        let reasons = program.reasons.iter().filter(|reason| reason.why == Why::NotByItself);
+        reasons.map(|reason| reason.text.clone()).collect::<String>()
+    };
+    found.iter().map(|program| (program.outcome, excuse(program))).collect()
+}
+
+/// O2 is called with 1 and with 4, from O1 and by way of O3.
+const CALLED: &str = "\
+O1
+G90G0X1.
+G65P2A1.B2.
+G65P3
+G0X2.
+G91
+M98P5
+G90
+M30
+O3
+#1=4
+G65P2A#1B#101
+M99
+O2
+G0X#1Y#2Z5.
+IF[#1GT3]GOTO5
+G1Z-1.F100.
+N5G17G2X0Y0R50.
+#503=#1
+M99
+O5
+G0X5.
+M99
+";
+
+#[test]
+fn what_callers_can_show_is_different() {
+    use Outcome::Different;
+    // By an argument that one of the callers gives, a sign, a plane, a local, a value kept.
+    for (from, to) in [
+        ("X#1Y#2Z5.", "X#1Y-#2Z5."),
+        ("#1GT3]", "#1GT4]"),
+        ("N5G17", "N5G18"),
+        ("#503=#1", "#503=#2"),
+        ("G1Z-1.F100.", "G1Z-1.F110."),
+        ("G1Z-1.", "G1Z-1.001"),
+    ] {
+        let found = library(CALLED, from, to);
+        assert_eq!(found[2].0, Different, "{from} made {to}: {}", found[2].1);
+    }
+}
+
+#[test]
+fn what_no_caller_shows_is_excused_only_where_they_come_by() {
+    use Outcome::{Different, Undecided};
+    // The caller is in G91 already.
+    let (outcome, excuse) = &library(CALLED, "O5\nG0X5.", "O5\nG91G0X5.")[3];
+    assert_eq!(*outcome, Undecided, "{excuse}");
+    assert!(excuse.contains("O0001") && excuse.contains("is not shown"), "{excuse}");
+    // It is in G91, and the fault shows there only: G90 stays the same by itself.
+    let found = library(CALLED, "O5\nG0X5.", "O5\nG90G0X5.");
+    assert_eq!((found[0].0, found[3].0), (Different, Different));
+    // No caller gives 9: but none came that way either, so nothing excuses it.
+    let never = CALLED.replace("#503=#1\n", "#503=#1\nIF[#1NE9]GOTO6\nG0Z9.\nN6\n");
+    assert_eq!(library(&never, "G0Z9.", "G0Z8.")[2].0, Different);
+    // Nor where a way to it was not gone and no block of it shows: a value that is kept.
+    let kept = CALLED.replace("#503=#1\n", "#503=#1\nIF[#1NE9]GOTO6\n#504=1\nN6\n");
+    assert_eq!(library(&kept, "#504=1", "#504=2")[2].0, Different);
+}
+
+#[test]
+fn callers_that_cannot_be_run_excuse_nothing() {
+    use Outcome::{Different, Undecided};
+    // Nothing calls it.
+    let alone = "O1\nM30\nO5\nG0X5.\nM99\n";
+    assert_eq!(library(alone, "O5\nG0", "O5\nG91G0")[1].0, Different);
+    // Its one caller has no conversion.
+    let lost = |callers: &str, wanted: Outcome| {
+        let source = format!("{callers}O5\nG0X5.\nM99\n");
+        let target = source.replace("O7\nG91\nM98P5\nM30\n", "").replace("O5\nG0", "O5\nG91G0");
+        let found = programs(("fanuc", &source), ("fanuc", &target), &[]);
+        let called = found.iter().find(|program| program.program.as_deref() == Some("O0005")).unwrap();
+        assert_eq!(called.outcome, wanted, "{:?}", called.reasons);
+        called.reasons.iter().map(|reason| reason.text.as_str()).collect::<String>()
+    };
+    lost("O7\nG91\nM98P5\nM30\n", Different);
+    // One of two is there, and the other is named.
+    let text = lost("O7\nG91\nM98P5\nM30\nO1\nG91\nM98P5\nM30\n", Undecided);
+    assert!(text.contains("O0007, which calls it too, could not be run"), "{text}");
+    // A caller that goes on for ever on the target shows nothing.
+    let source = "O1\nG91\nM98P5\nM30\nO5\nG0X5.\nM99\n";
+    let target = "O1\nG91\nM98P5\nN1X1.\nX-1.\nGOTO1\nO5\nG91G0X5.\nM99\n";
+    let found = programs(("fanuc", source), ("fanuc", target), &[]);
+    assert_eq!(found[1].outcome, Different, "{:?}", found[1].reasons);
+    // An alarm of the program's own counts as any end.
+    let source = "O1\nG65P5A#101\nM30\nO5\nIF[#1GT3]GOTO9\nG0X#1\nM99\nN9#3000=1(TOO FAR)\n";
+    assert_eq!(library(source, "TOO FAR", "TOO NEAR")[1].0, Different);
+}
