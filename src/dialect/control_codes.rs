@@ -31,6 +31,11 @@ impl Control {
         fitting.max_by_key(|(rank, _)| *rank).map(|(_, row)| row)
     }
 
+    /// All rows of a code, whatever words they want beside it.
+    pub fn rows_of(&self, head: CodeHead) -> impl Iterator<Item = &CodeMeaning> {
+        self.codes.get(&head).into_iter().flatten().filter_map(|(at, _)| self.dialect.codes.get(*at))
+    }
+
     /// True where the word that a row wants stands in the block. A word with any
     /// value does not count where another code of the block reads its letter:
     /// the P of `G54 M98 P8099` is the program.
@@ -51,9 +56,7 @@ impl Control {
         let heads = others.filter_map(|(letter, value)| CodeHead::new(*letter, (*value)?));
         heads
             .filter(|head| Some(*head) != own)
-            .filter_map(|head| self.codes.get(&head))
-            .flatten()
-            .filter_map(|(at, _)| self.dialect.codes.get(*at))
+            .flat_map(|head| self.rows_of(head))
             .any(|row| row.words.keys().any(|word| address(word) == Some((letter, false))))
     }
 

@@ -22,9 +22,12 @@ use crate::ir::Program;
 use crate::text::Span;
 use std::ops::Range;
 
-/// Writes a program for a control. What it cannot write exactly comes back as
-/// diagnostics, all of them at once, and then there is no text.
-pub type Emit = fn(program: &Program, names: &Naming, control: &Control) -> Result<Emitted, Vec<Diagnostic>>;
+/// Gathers what all programs of a library need to be written for a control.
+pub type Emit = for<'a> fn(names: &'a Naming, control: &'a Control) -> Writer<'a>;
+
+/// Writes a program. What it cannot write exactly comes back as diagnostics, all of them at once,
+/// and then there is no text.
+pub type Writer<'a> = Box<dyn Fn(&Program) -> Result<Emitted, Vec<Diagnostic>> + Sync + 'a>;
 
 /// A program as the target reads it.
 #[derive(Clone, Debug, Default, PartialEq)]

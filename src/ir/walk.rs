@@ -3,7 +3,9 @@
 //! "Outermost" expressions are those that stand in a statement by themselves; [`Expr::walk`]
 //! goes on into their operands. Order is the order of evaluation.
 
-use super::{Call, Callee, Cond, Expr, NcItem, OutputPart, Place, PrintPart, StmtKind, TermKind};
+use super::{
+    Call, Callee, Cond, Expr, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind, Var,
+};
 
 /// Writes a visitor by shared and by exclusive reference from one text.
 macro_rules! visitors {
@@ -183,6 +185,35 @@ impl StmtKind {
         match self {
             StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } => Some(target),
             _ => None,
+        }
+    }
+}
+
+impl Program {
+    /// Visits every variable that the program names, as often as it does.
+    pub fn variables(&self, f: &mut dyn FnMut(Var)) {
+        let mut read = |e: &Expr| e.variables(f);
+        for block in &self.blocks {
+            for stmt in &block.stmts {
+                stmt.kind.exprs(&mut read);
+                match (&stmt.kind, stmt.kind.target()) {
+                    (StmtKind::SetNames { first: var, .. }, _) | (_, Some(Place::Var(var))) => {
+                        read(&Expr::Var(*var));
+                    }
+                    _ => {}
+                }
+            }
+            block.term.kind.exprs(&mut read);
+        }
+    }
+}
+
+impl Expr {
+    /// Visits every variable in the expression.
+    pub fn variables(&self, f: &mut dyn FnMut(Var)) {
+        match self {
+            Expr::Var(var) => f(*var),
+            e => e.exprs(&mut |operand| operand.variables(f)),
         }
     }
 }

@@ -14,7 +14,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let answer = |control: &crate::dialect::Control| {
         control.behaviour(FACT).filter(|row| row.value != "unknown").map(|row| row.value.clone())
     };
-    let same_family = context.source.dialect().family == context.target.dialect().family;
+    let same_family = context.same_family();
     if same_family || answer(context.source).is_some_and(|value| Some(value) == answer(context.target)) {
         return;
     }

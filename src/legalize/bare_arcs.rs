@@ -19,11 +19,6 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     };
     let (here, there) = (answer(context.source), answer(context.target));
     let spelled_out = here.as_deref() == Some("straight");
-    let curves = |nc: &Nc| nc.ops().any(is_arc);
-    let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
-    if !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if curves(nc))) {
-        return;
-    }
     let facts = ModalFacts::of(module, &context.entry);
     for (index, program) in module.programs.iter().enumerate() {
         for (at, block) in program.blocks.iter().enumerate() {

@@ -7,10 +7,7 @@ use super::Context;
 use crate::ir::{Module, StmtKind};
 
 /// Leaves empty blocks out.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if context.source.dialect().family == context.target.dialect().family {
-        return;
-    }
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
         let says = |site: &crate::ir::Site| site.sequence.is_some() || !site.remarks.is_empty();
         block.stmts.retain(|stmt| stmt.kind != StmtKind::Remark || says(&stmt.site));

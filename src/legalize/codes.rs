@@ -15,13 +15,6 @@ use crate::text::Span;
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let coded = |program: &Program| {
-        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-        stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.items.iter().any(|i| matches!(i, NcItem::Code(..)))))
-    };
-    if !module.programs.iter().any(coded) {
-        return;
-    }
     let summaries = Summaries::of(module);
     let mut found: Vec<(usize, Span, Finding)> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
@@ -44,7 +37,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
             }
             Finding::Any(letter) => {
-                let same = context.source.dialect().family == context.target.dialect().family;
+                let same = context.same_family();
                 let what = format!(
                     "which {letter} code is computed here is not known: each that it may be must mean the same on the target"
                 );

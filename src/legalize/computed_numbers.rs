@@ -20,14 +20,6 @@ const MOST_LOOKED_UP: usize = 50;
 
 /// Checks and shifts computed numbers.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let indirect = |program: &Program| {
-        let mut any = false;
-        each_index(program, &mut |_, _, _, _| any = true);
-        any
-    };
-    if !module.programs.iter().any(indirect) {
-        return;
-    }
     let mut numbers = Numbers::new(context.source, context.target);
     if numbers.all_alike() {
         return;

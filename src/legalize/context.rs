@@ -32,6 +32,11 @@ impl<'a> Context<'a> {
         Self { source, target, entry: Modal::unknown(), origins: (0..programs).collect(), findings }
     }
 
+    /// True where both controls are of one family.
+    pub fn same_family(&self) -> bool {
+        self.source.dialect().family == self.target.dialect().family
+    }
+
     /// Adds a finding to a program.
     pub fn add(&mut self, program: usize, diagnostic: Diagnostic) {
         let origin = self.origins.get(program).copied().unwrap_or(program);

@@ -70,13 +70,13 @@ impl Exposed {
 
 /// The shared variables that programs read.
 fn universe(module: &Module) -> Universe {
-    let mut all = BTreeSet::new();
+    let mut all = Vec::new();
     for block in module.programs.iter().flat_map(|program| &program.blocks) {
-        let mut note = |e: &Expr| read(e, &mut |var| all.extend([var]));
+        let mut note = |e: &Expr| read(e, &mut |var| all.push(var));
         block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut note));
         block.term.kind.exprs(&mut note);
     }
-    Universe::new(&all)
+    Universe::new(all)
 }
 
 /// Which routine a call runs.
@@ -217,7 +217,7 @@ fn transfer(block: &Block, universe: &Universe) -> (Row, Row) {
         backward(block, &mut live, universe);
         live
     };
-    (through(universe.none()), through(universe.classes(|_| true)))
+    (through(universe.none()), through(universe.all()))
 }
 
 fn backward(block: &Block, live: &mut Row, universe: &Universe) {
@@ -239,11 +239,9 @@ fn backward(block: &Block, live: &mut Row, universe: &Universe) {
 }
 
 fn read(e: &Expr, f: &mut dyn FnMut(Var)) {
-    e.walk(&mut |e| {
-        if let Expr::Var(var) = e
-            && var.class.shared()
-        {
-            f(*var);
+    e.variables(&mut |var| {
+        if var.class.shared() {
+            f(var);
         }
     });
 }

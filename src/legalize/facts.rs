@@ -31,9 +31,13 @@ pub fn of_source(module: &Module, context: &mut Context<'_>) {
     }
 }
 
+/// What matters only where a variable may be vacant.
+const VACANCY: [&str; 3] = ["vacant.eq.zero", "vacant.compares.as.zero", "vacant.arithmetic.zero"];
+
 fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &str) {
     // Where nothing is computed, nothing vacant is.
-    let own = context.source.is("vacancy") && Census::of(&module.programs).has(Thing::Computed);
+    let asked = VACANCY.iter().any(|name| control.behaviour(name).is_some_and(|row| !row.origin.confirmed));
+    let own = asked && context.source.is("vacancy") && Census::of(&module.programs).has(Thing::Computed);
     let summaries = if own { Summaries::of(module) } else { Summaries::default() };
     let given = given(module);
     let none = BTreeSet::new();

@@ -11,17 +11,6 @@ use crate::ir::{BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind
 
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let mut any = false;
-    for program in &module.programs {
-        for block in &program.blocks {
-            let mut note = |e: &Expr| e.walk(&mut |e| any |= matches!(e, Expr::Increments(_)));
-            block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut note));
-            block.term.kind.exprs(&mut note);
-        }
-    }
-    if !any {
-        return;
-    }
     let (source, target) = (context.source, context.target);
     let mut entry = context.entry.clone();
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), source.units()) {

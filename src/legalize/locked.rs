@@ -6,7 +6,6 @@
 
 use super::Context;
 use super::registers::{Registers, name_of};
-use super::rewrite::variables_of;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::Module;
 use std::collections::BTreeMap;
@@ -47,7 +46,7 @@ pub fn check(
         );
         for (index, program) in module.programs.iter().enumerate() {
             let mut named = false;
-            variables_of(program, &mut |other| named |= other == var);
+            program.variables(&mut |other| named |= other == var);
             if named {
                 context.add(index, Diagnostic::new(Code::OutOfRegisters, program.site.span, what.clone()));
             }

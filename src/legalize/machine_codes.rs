@@ -7,10 +7,17 @@
 //! A code for turns per minute says nothing to a control without constant surface speed, and is left out.
 
 use super::Context;
+use super::census::{Census, Thing};
 use crate::canon::Op;
 use crate::dialect::Control;
 use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// True where there are M codes, or what is left out.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    let here = |op: Op| op == Op::TurnsPerMinute || is_m_code(op, context.target);
+    census.has(Thing::Emptied) || census.has(Thing::Code) || census.any_op(here)
+}
 
 /// Gives each M code a block of its own, past those that the target takes together.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {

@@ -4,16 +4,29 @@
 //! in the words of the machine and not of a table.
 
 use super::Context;
+use super::census::Census;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
 use crate::ir::{Module, StmtKind};
 use std::collections::BTreeSet;
 
+/// The operations that a control has.
+fn had(control: &Control) -> BTreeSet<Op> {
+    let dialect = control.dialect();
+    let codes = dialect.codes.iter().filter(|row| row.preferred).map(|row| row.op);
+    codes.chain(dialect.words.iter().filter_map(|row| row.op)).collect()
+}
+
+/// True where an operation stands that the target has not.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    let had = had(context.target);
+    census.any_op(|op| !had.contains(&op))
+}
+
 /// Refuses what the target cannot do.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let target = context.target.dialect();
-    let codes = target.codes.iter().filter(|row| row.preferred).map(|row| row.op);
-    let had: BTreeSet<Op> = codes.chain(target.words.iter().filter_map(|row| row.op)).collect();
+    let (target, had) = (context.target.dialect(), had(context.target));
     let mut found = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {

@@ -71,7 +71,7 @@ pub struct Pass {
     /// Its name, for tests, dumps and `--stop-after`.
     pub name: &'static str,
     /// Whether anything in a library concerns it: where not, it would change nothing and say nothing.
-    concerns: fn(&Census) -> bool,
+    concerns: fn(&Census, &Context<'_>) -> bool,
     /// What it does to a library.
     run: Run,
 }
@@ -91,7 +91,7 @@ impl Pass {
 
     /// As [`Pass::apply`]; true where that may have changed the library.
     fn apply_to(&self, census: &Census, module: &mut Module, context: &mut Context<'_>) -> bool {
-        if !(self.concerns)(census) {
+        if !(self.concerns)(census, context) {
             return false;
         }
         match self.run {
@@ -104,67 +104,75 @@ impl Pass {
 
 /// The passes, in the order they run in.
 pub const PASSES: &[Pass] = &[
-    Pass { name: "source-facts", concerns: |c| c.has(Thing::Computed), run: Reports(facts::of_source) },
-    Pass { name: "blanks", concerns: |_| true, run: Rewrites(blanks::run) },
-    Pass { name: "link", concerns: |c| c.has(Thing::Call) || c.has(Thing::Chain), run: Rewrites(link::run) },
-    Pass { name: "outline", concerns: |c| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
-    Pass { name: "codes", concerns: |c| c.has(Thing::Code), run: Reports(codes::run) },
-    Pass { name: "chain", concerns: |c| c.has(Thing::Chain), run: Rewrites(chain::chain) },
-    Pass { name: "repeats", concerns: |c| c.role(Role::Repeat), run: Rewrites(repeats::run) },
-    Pass { name: "modal-calls", concerns: |c| c.has(Thing::Modal), run: Rewrites(modal_calls::run) },
+    Pass { name: "source-facts", concerns: |c, _| c.has(Thing::Computed), run: Reports(facts::of_source) },
+    Pass { name: "blanks", concerns: |_, context| !context.same_family(), run: Rewrites(blanks::run) },
+    Pass {
+        name: "link",
+        concerns: |c, _| c.has(Thing::Call) || c.has(Thing::Chain),
+        run: Rewrites(link::run),
+    },
+    Pass { name: "outline", concerns: |c, _| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
+    Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
+    Pass { name: "chain", concerns: |c, _| c.has(Thing::Chain), run: Rewrites(chain::chain) },
+    Pass { name: "repeats", concerns: |c, _| c.role(Role::Repeat), run: Rewrites(repeats::run) },
+    Pass { name: "modal-calls", concerns: |c, _| c.has(Thing::Modal), run: Rewrites(modal_calls::run) },
     // Behind the modal calls: the calls that they become must look at the register too.
-    Pass { name: "return-to", concerns: |c| c.has(Thing::ReturnTo), run: Rewrites(chain::return_to) },
+    Pass { name: "return-to", concerns: |c, _| c.has(Thing::ReturnTo), run: Rewrites(chain::return_to) },
     Pass {
         name: "polar",
-        concerns: |c| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance),
+        concerns: |c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance),
         run: Rewrites(polar::run),
     },
     Pass {
         name: "bare-arcs",
-        concerns: |c| c.op(Op::ArcCw) || c.op(Op::ArcCcw),
+        concerns: |c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw),
         run: Reports(bare_arcs::run),
     },
-    Pass { name: "active-offsets", concerns: |c| c.has(Thing::System), run: Reports(active_offsets::run) },
-    Pass { name: "increments", concerns: |c| c.has(Thing::Increments), run: Rewrites(increments::run) },
-    Pass { name: "units", concerns: |_| true, run: Rewrites(units::run) },
-    Pass { name: "tapping", concerns: |c| c.role(Role::Lead), run: Rewrites(tapping::run) },
-    Pass { name: "reference", concerns: |c| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
-    Pass { name: "shift", concerns: |c| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },
+    Pass { name: "active-offsets", concerns: |c, _| c.has(Thing::System), run: Reports(active_offsets::run) },
+    Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Rewrites(increments::run) },
+    Pass { name: "units", concerns: |_, _| true, run: Rewrites(units::run) },
+    Pass { name: "tapping", concerns: |c, _| c.role(Role::Lead), run: Rewrites(tapping::run) },
+    Pass { name: "reference", concerns: |c, _| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
+    Pass { name: "shift", concerns: |c, _| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },
     Pass {
         name: "computed-numbers",
-        concerns: |c| c.has(Thing::Indirect),
+        concerns: |c, _| c.has(Thing::Indirect),
         run: Rewrites(computed_numbers::run),
     },
     Pass {
         name: "state",
-        concerns: |c| c.has(Thing::System) || c.op(Op::WriteRadius),
+        concerns: |c, _| c.has(Thing::System) || c.op(Op::WriteRadius),
         run: Rewrites(state::run),
     },
-    Pass { name: "alarms", concerns: |c| c.has(Thing::Message), run: Reports(alarms::run) },
+    Pass { name: "alarms", concerns: |c, _| c.has(Thing::Message), run: Reports(alarms::run) },
     Pass {
         name: "dwell",
-        concerns: |c| c.op(Op::Dwell) || c.role(Role::CycleDwell),
+        concerns: |c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell),
         run: Rewrites(dwell::run),
     },
     Pass {
         name: "lookahead",
-        concerns: |c| c.has(Thing::Wait) || c.has(Thing::Emptied),
+        concerns: |c, _| c.has(Thing::Wait) || c.has(Thing::Emptied),
         run: Rewrites(lookahead::run),
     },
     Pass {
         name: "cycle-here",
-        concerns: |c| c.any_op(|op| op.is_cycle() || op == Op::CycleHere),
+        concerns: |c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere),
         run: Rewrites(cycle_here::run),
     },
-    Pass { name: "substitutes", concerns: |_| true, run: Rewrites(substitutes::run) },
-    Pass { name: "machine-codes", concerns: |_| true, run: Rewrites(machine_codes::run) },
-    Pass { name: "missing", concerns: |_| true, run: Reports(missing::run) },
-    Pass { name: "functions", concerns: |c| c.has(Thing::Computed), run: Rewrites(functions::run) },
-    Pass { name: "truth", concerns: |c| c.has(Thing::Computed), run: Rewrites(truth::run) },
-    Pass { name: "conditions", concerns: |c| c.has(Thing::Branch), run: Rewrites(conditions::run) },
-    Pass { name: "constants", concerns: |c| c.has(Thing::Long), run: Rewrites(constants::run) },
-    Pass { name: "printed-values", concerns: |c| c.has(Thing::Print), run: Rewrites(operator::hold_values) },
-    Pass { name: "vacancy", concerns: |c| c.has(Thing::Variable), run: Rewrites(vacancy::run) },
+    Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Rewrites(substitutes::run) },
+    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Rewrites(machine_codes::run) },
+    Pass { name: "missing", concerns: missing::concerns, run: Reports(missing::run) },
+    Pass { name: "functions", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(functions::run) },
+    Pass { name: "truth", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(truth::run) },
+    Pass { name: "conditions", concerns: |c, _| c.has(Thing::Branch), run: Rewrites(conditions::run) },
+    Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Rewrites(constants::run) },
+    Pass {
+        name: "printed-values",
+        concerns: |c, _| c.has(Thing::Print),
+        run: Rewrites(operator::hold_values),
+    },
+    Pass { name: "vacancy", concerns: |c, _| c.has(Thing::Variable), run: Rewrites(vacancy::run) },
 ];
 
 /// Runs every pass.

@@ -18,9 +18,6 @@ use crate::syntax::ProgramName;
 
 /// Replaces modal calls by explicit ones.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if !module.programs.iter().any(is_modal) {
-        return;
-    }
     let native = context.target.statement("call.modal").is_some();
     let facts = match native {
         true => ModalFacts::of(module, &context.entry),

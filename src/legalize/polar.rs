@@ -22,10 +22,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let polar = |nc: &Nc| nc.word(Role::PolarAngle).is_some() || nc.word(Role::PolarDistance).is_some();
-    let used = |stmt: &Stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Pole) || polar(nc));
-    if !module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(used) {
-        return;
-    }
     let facts = ModalFacts::of(module, &context.entry);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {

@@ -70,7 +70,7 @@ impl Programmed {
         match &stmt.kind {
             StmtKind::ClearAll(class) => drop(written.classes.insert(*class)),
             StmtKind::Nc(nc) => {
-                written.join(&summaries.of_nc(nc).writes);
+                written.join(summaries.by_nc(nc));
                 if !nc.ops().all(keeps_coordinates)
                     || modal.calls.as_ref().is_none_or(|calls| !calls.is_empty())
                 {

@@ -7,7 +7,6 @@
 
 use super::census::{Census, Thing};
 use super::clear;
-use super::rewrite::variables_of;
 use super::{Context, Position, Rewriter, rewrite_program};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, VariableClass};
@@ -56,7 +55,7 @@ pub fn allocate(
     // Where no program names any, there is nothing to look for.
     let named = module.programs.iter().enumerate().filter(|_| census.has(Thing::Variable));
     for (index, program) in named {
-        variables_of(program, &mut |var| {
+        program.variables(&mut |var| {
             users.entry(var).or_insert((index, program.site.span));
         });
     }

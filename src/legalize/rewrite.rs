@@ -186,43 +186,34 @@ fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
 }
 
 /// Applies `rewrite` to the parts of an expression, then to itself.
-fn map(e: Expr, position: Position, rewrite: &mut Rewrite<'_>, rewriter: &mut Rewriter<'_>) -> Expr {
-    let mut inner = |e: Box<Expr>, p: Position| Box::new(map(*e, p, rewrite, rewriter));
-    let mapped = match e {
-        Expr::Negate(a) => Expr::Negate(inner(a, position)),
-        Expr::Binary(op, a, b) => {
-            let a = inner(a, position);
-            Expr::Binary(op, a, inner(b, position))
+fn map(e: &mut Expr, position: Position, rewrite: &mut Rewrite<'_>, rewriter: &mut Rewriter<'_>) {
+    match e {
+        Expr::Negate(a) => map(a, position, rewrite, rewriter),
+        Expr::Binary(_, a, b) => {
+            map(a, position, rewrite, rewriter);
+            map(b, position, rewrite, rewriter);
         }
-        Expr::Indirect(bank, index) => Expr::Indirect(bank, inner(index, Position::Subscript)),
-        Expr::System(state, subscripts) => Expr::System(
-            state,
-            subscripts.into_iter().map(|s| map(s, Position::Subscript, rewrite, rewriter)).collect(),
-        ),
-        Expr::Call(function, arguments) => {
-            Expr::Call(function, arguments.into_iter().map(|a| map(a, position, rewrite, rewriter)).collect())
+        Expr::Indirect(_, index) => map(index, Position::Subscript, rewrite, rewriter),
+        Expr::System(_, subscripts) => {
+            subscripts.iter_mut().for_each(|s| map(s, Position::Subscript, rewrite, rewriter));
         }
-        Expr::Truth(mut cond) => {
-            condition(&mut cond, &mut |e, p| map(e, p, rewrite, rewriter));
-            Expr::Truth(cond)
+        Expr::Call(_, arguments) => {
+            arguments.iter_mut().for_each(|a| map(a, position, rewrite, rewriter));
         }
-        leaf @ (Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_)) => leaf,
-    };
-    rewrite(mapped, position, rewriter)
+        Expr::Truth(cond) => condition(cond, &mut |e, p| map(e, p, rewrite, rewriter)),
+        Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
+    }
+    *e = rewrite(std::mem::replace(e, Expr::Vacant), position, rewriter);
 }
 
-type Each<'f> = dyn FnMut(Expr, Position) -> Expr + 'f;
-
-fn replace(e: &mut Expr, position: Position, f: &mut Each<'_>) {
-    *e = f(std::mem::replace(e, Expr::Vacant), position);
-}
+type Each<'f> = dyn FnMut(&mut Expr, Position) + 'f;
 
 fn place(target: &mut Place, f: &mut Each<'_>) {
     match target {
         Place::Var(_) => {}
-        Place::Indirect(_, index) => replace(index, Position::Subscript, f),
+        Place::Indirect(_, index) => f(index, Position::Subscript),
         Place::System(_, subscripts) => {
-            subscripts.iter_mut().for_each(|s| replace(s, Position::Subscript, f));
+            subscripts.iter_mut().for_each(|s| f(s, Position::Subscript));
         }
     }
 }
@@ -230,8 +221,8 @@ fn place(target: &mut Place, f: &mut Each<'_>) {
 fn condition(cond: &mut Cond, f: &mut Each<'_>) {
     match cond {
         Cond::Compare(_, a, b) => {
-            replace(a, Position::Condition, f);
-            replace(b, Position::Condition, f);
+            f(a, Position::Condition);
+            f(b, Position::Condition);
         }
         Cond::And(parts) | Cond::Or(parts) => parts.iter_mut().for_each(|part| condition(part, f)),
         Cond::Not(inner) => condition(inner, f),
@@ -241,20 +232,20 @@ fn condition(cond: &mut Cond, f: &mut Each<'_>) {
 
 fn call(call: &mut Call, f: &mut Each<'_>) {
     if let crate::ir::Callee::Computed(e) = &mut call.callee {
-        replace(e, Position::Other, f);
+        f(e, Position::Other);
     }
     for argument in &mut call.arguments {
-        replace(&mut argument.value, Position::Argument(argument.local), f);
+        f(&mut argument.value, Position::Argument(argument.local));
     }
-    call.count.iter_mut().for_each(|count| replace(count, Position::Other, f));
+    call.count.iter_mut().for_each(|count| f(count, Position::Other));
 }
 
 fn nc(nc: &mut Nc, f: &mut Each<'_>) {
     for item in &mut nc.items {
         match item {
             NcItem::Op(_) => {}
-            NcItem::Word(role, value) => replace(value, Position::Word(*role), f),
-            NcItem::Code(_, value) => replace(value, Position::Code, f),
+            NcItem::Word(role, value) => f(value, Position::Word(*role)),
+            NcItem::Code(_, value) => f(value, Position::Code),
         }
     }
 }
@@ -263,30 +254,30 @@ fn nc(nc: &mut Nc, f: &mut Each<'_>) {
 pub(super) fn statement(kind: &mut StmtKind, f: &mut Each<'_>) {
     match kind {
         StmtKind::Assign { target, value } => {
-            replace(value, Position::Value, f);
+            f(value, Position::Value);
             place(target, f);
         }
         StmtKind::Nc(block) => nc(block, f),
         StmtKind::ModalCall(c) => call(c, f),
         StmtKind::Alarm { number, .. } | StmtKind::StopMessage { number, .. } => {
-            replace(number, Position::Other, f);
+            f(number, Position::Other);
         }
         StmtKind::Output(parts) => {
             for part in parts {
                 if let OutputPart::Value { value, .. } = part {
-                    replace(value, Position::Output, f);
+                    f(value, Position::Output);
                 }
             }
         }
         StmtKind::Print { parts, .. } => {
             for part in parts {
                 if let PrintPart::Value(value) = part {
-                    replace(value, Position::Output, f);
+                    f(value, Position::Output);
                 }
             }
         }
         StmtKind::Input { target, .. } => place(target, f),
-        StmtKind::LimitLookahead(blocks) => replace(blocks, Position::Other, f),
+        StmtKind::LimitLookahead(blocks) => f(blocks, Position::Other),
         _ => {}
     }
 }
@@ -295,9 +286,9 @@ pub(super) fn statement(kind: &mut StmtKind, f: &mut Each<'_>) {
 pub(super) fn terminator(kind: &mut TermKind, f: &mut Each<'_>) {
     match kind {
         TermKind::Branch { cond, .. } => condition(cond, f),
-        TermKind::Computed { value, .. } => replace(value, Position::Other, f),
+        TermKind::Computed { value, .. } => f(value, Position::Other),
         TermKind::Call { call: c, .. } => call(c, f),
-        TermKind::Return { to: Some(to) } => replace(to, Position::Other, f),
+        TermKind::Return { to: Some(to) } => f(to, Position::Other),
         _ => {}
     }
 }
@@ -305,35 +296,10 @@ pub(super) fn terminator(kind: &mut TermKind, f: &mut Each<'_>) {
 /// The highest number of a temporary in a program.
 pub(super) fn highest_temp(program: &Program) -> u32 {
     let mut highest = 0;
-    variables_of(program, &mut |var| {
+    program.variables(&mut |var| {
         if var.class == Class::Temp {
             highest = highest.max(var.number);
         }
     });
     highest
-}
-
-/// Calls `f` on every variable that a program names.
-pub fn variables_of(program: &Program, f: &mut dyn FnMut(Var)) {
-    let mut read = |e: &Expr| {
-        e.walk(&mut |e| {
-            if let Expr::Var(var) = e {
-                f(*var);
-            }
-        });
-    };
-    for block in &program.blocks {
-        for stmt in &block.stmts {
-            stmt.kind.exprs(&mut read);
-            match &stmt.kind {
-                StmtKind::SetNames { first, .. } => read(&Expr::Var(*first)),
-                kind => kind.target().into_iter().for_each(|place| {
-                    if let Place::Var(var) = place {
-                        read(&Expr::Var(*var));
-                    }
-                }),
-            }
-        }
-        block.term.kind.exprs(&mut read);
-    }
 }

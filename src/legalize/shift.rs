@@ -16,10 +16,9 @@ use std::collections::BTreeMap;
 
 /// Marks the moves under cancelled shifts.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let cancels = |stmt: &Stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::ShiftCancel));
     let lacks = context.target.code_for(Op::ShiftCancel, &BTreeMap::new()).is_none()
         && context.target.word_for(Op::ShiftCancel).is_none();
-    if !lacks || !module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(cancels) {
+    if !lacks {
         return;
     }
     let facts = ModalFacts::of(module, &context.entry);

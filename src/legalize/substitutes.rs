@@ -4,6 +4,7 @@
 //! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here.
 
 use super::Context;
+use super::census::{Census, Thing};
 use super::emptied::drop_emptied;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
@@ -25,6 +26,11 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
         "acceleration ramps on: the target has no such code, and rounds or stops at corners as it is set",
     ),
 ];
+
+/// True where an operation with a row stands, or a block that it may have left empty.
+pub fn concerns(census: &Census) -> bool {
+    census.has(Thing::Emptied) || ROWS.iter().any(|(op, ..)| census.op(*op))
+}
 
 /// Puts substitutes in the place of operations that the target lacks.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {

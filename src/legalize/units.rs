@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let checked: Vec<Option<Units>> = module.programs.iter_mut().map(take_checks).collect();
     let (ours, theirs) = (context.source.units(), context.target.units());
-    let same_family = context.source.dialect().family == context.target.dialect().family;
+    let same_family = context.same_family();
     if same_family && ours.is_some() && ours == theirs {
         return;
     }

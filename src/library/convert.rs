@@ -4,7 +4,7 @@ use super::names::{number_programs, report_twins};
 use super::{Input, Lock};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
-use crate::emit::{Emitted, Naming, Register};
+use crate::emit::{Emitted, Naming, Register, Writer};
 use crate::ir::{Module, Program, validate};
 use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
 use crate::lower::Lowered;
@@ -221,8 +221,9 @@ pub(super) fn make(
     }
     match validate(&module) {
         Ok(_) => {
+            let write = target.entry().emit.map(|emit| emit(&naming, target));
             let emitted: Vec<_> =
-                module.programs.par_iter().map(|program| emit(program, &naming, target)).collect();
+                module.programs.par_iter().map(|program| emit(program, write.as_ref(), target)).collect();
             for (origin, result) in origins.into_iter().zip(emitted) {
                 match result {
                     Ok(mut text) => {
@@ -251,13 +252,13 @@ fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
 }
 
 /// Emits a program, and reads the text back: what the target's own grammar refuses is never written.
-fn emit(program: &Program, naming: &Naming, target: &Control) -> Result<Emitted, Vec<Diagnostic>> {
-    let (Some(emit), parse) = (target.entry().emit, target.entry().parse) else {
+fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Result<Emitted, Vec<Diagnostic>> {
+    let Some(write) = write else {
         let what = format!("programs cannot be written for {}", target.dialect().title);
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
     };
-    let emitted = emit(program, naming, target)?;
-    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), parse)
+    let emitted = write(program)?;
+    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), target.entry().parse)
         .into_iter()
         .filter(|fault| fault.code.severity() == Severity::Error)
         .map(|fault| {

@@ -30,8 +30,8 @@ struct Sizes {
 }
 
 const USUAL: Sizes = Sizes { long: 1024 * 1024, piece: 64 * 1024 };
-/// Pieces that are worked on at a time.
-const BATCH: usize = 32;
+/// Pieces that each thread is given at a time: few, so that what they need stays in its cache.
+const BATCH: usize = 2;
 
 /// Converts a long plain file; none where it is not one.
 pub fn convert(
@@ -57,13 +57,14 @@ fn convert_in(
     if input.bytes.len() < sizes.long || options.draft || !family {
         return None;
     }
-    let mut sink = Sink::default();
+    let mut sink = Sink { expected: input.bytes.len() + input.bytes.len() / 8, ..Sink::default() };
     let mut state = Modal::unknown();
     let lines = Lines::new(&input.bytes);
     let mut pieces =
         Pieces { source: &input.bytes, control: source, lines, held: None, mode: None, size: sizes.piece };
     loop {
-        let batch: Vec<Piece> = std::iter::from_fn(|| pieces.next()).take(BATCH).collect();
+        let many = BATCH * rayon::current_num_threads();
+        let batch: Vec<Piece> = std::iter::from_fn(|| pieces.next()).take(many).collect();
         if batch.is_empty() {
             break;
         }
@@ -243,6 +244,8 @@ struct Sink {
     programs: Vec<(Option<String>, Vec<Diagnostic>, String)>,
     said: BTreeSet<(usize, &'static str, String)>,
     tape: bool,
+    /// Bytes that the first program may come to; memory that is not written to costs nothing.
+    expected: usize,
 }
 
 impl Sink {
@@ -250,7 +253,8 @@ impl Sink {
         self.tape |= tape;
         for ((name, found), parts) in names.into_iter().zip(made.found).zip(made.parts) {
             if name.is_some() || self.programs.is_empty() {
-                self.programs.push((name, Vec::new(), String::new()));
+                let text = String::with_capacity(std::mem::take(&mut self.expected));
+                self.programs.push((name, Vec::new(), text));
             }
             let at = self.programs.len() - 1;
             let (_, all, text) = &mut self.programs[at];

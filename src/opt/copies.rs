@@ -76,7 +76,7 @@ impl Known<'_> {
                 written.classes.insert(*class);
             }
             StmtKind::Nc(nc) => {
-                written.join(&summaries.of_nc(nc).writes);
+                written.join(summaries.by_nc(nc));
             }
             _ => {}
         }

@@ -8,7 +8,7 @@
 
 use super::pass::{Level, Pass};
 use super::retarget::{drop_statements, has_temps};
-use crate::ir::analysis::{Exit, Liveness, Summaries};
+use crate::ir::analysis::{Liveness, Ways};
 use crate::ir::{Class, Module, Place, Program, StmtKind};
 
 /// The pass.
@@ -20,13 +20,10 @@ impl Pass for DeadTemps {
     }
 
     fn run(&self, module: &mut Module, _: Level) {
-        if !module.programs.iter().any(has_temps) {
-            return;
-        }
-        let summaries = Summaries::of(module);
+        let ways = Ways::of(module);
         for program in &mut module.programs {
             // What a removed assignment read may be dead in its turn.
-            let _ = (0..SWEEPS).find(|_| !has_temps(program) || !sweep(program, &summaries));
+            let _ = (0..SWEEPS).find(|_| !has_temps(program) || !sweep(program, ways));
         }
     }
 }
@@ -35,8 +32,8 @@ impl Pass for DeadTemps {
 const SWEEPS: usize = 16;
 
 /// Removes what is dead now; true where that was anything.
-fn sweep(program: &mut Program, summaries: &Summaries) -> bool {
-    let live = Liveness::of(program, summaries, Exit::Observable);
+fn sweep(program: &mut Program, ways: Ways) -> bool {
+    let live = Liveness::of(program, ways);
     let mut dead = Vec::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         live.backward(id, &mut |at, is_live| {

@@ -8,7 +8,7 @@
 //! **Counter-example.** `tmp.1 = #2; #3 = tmp.1` with `#2` vacant: `#3` is 0, not vacant.
 
 use super::pass::{Level, Pass};
-use crate::ir::analysis::{Exit, Liveness, Summaries};
+use crate::ir::analysis::{Liveness, Ways};
 use crate::ir::{BlockId, Class, Expr, Module, Place, Program, Stmt, StmtKind, Var};
 use std::collections::BTreeSet;
 
@@ -21,12 +21,9 @@ impl Pass for Retarget {
     }
 
     fn run(&self, module: &mut Module, _: Level) {
-        if !module.programs.iter().any(has_temps) {
-            return;
-        }
-        let summaries = Summaries::of(module);
-        for program in &mut module.programs {
-            let found = pairs(program, &summaries);
+        let ways = Ways::of(module);
+        for program in module.programs.iter_mut().filter(|program| has_temps(program)) {
+            let found = pairs(program, ways);
             for (block, at) in &found {
                 let Some(block) = program.blocks.get_mut(block.index()) else { continue };
                 let [first, second, ..] = block.stmts.get_mut(*at..).unwrap_or_default() else { continue };
@@ -55,11 +52,8 @@ pub(super) fn drop_statements(program: &mut Program, places: &[(BlockId, usize)]
 }
 
 /// Places of the first statements of pairs. No statement is in two of them.
-fn pairs(program: &Program, summaries: &Summaries) -> Vec<(BlockId, usize)> {
-    if !has_temps(program) {
-        return Vec::new();
-    }
-    let live = Liveness::of(program, summaries, Exit::Observable);
+fn pairs(program: &Program, ways: Ways) -> Vec<(BlockId, usize)> {
+    let live = Liveness::of(program, ways);
     let mut found: Vec<(BlockId, usize)> = Vec::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         let mut taken = usize::MAX;

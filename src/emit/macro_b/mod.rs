@@ -23,7 +23,7 @@ mod system;
 mod tests;
 mod words;
 
-use super::{Emitted, Naming};
+use super::{Emitted, Naming, Writer};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::Program;
@@ -39,31 +39,28 @@ pub struct Style {
     pub words_beside_call: bool,
 }
 
-/// Writes a program in the family's text; see [`super::Emit`].
-pub fn emit(
-    program: &Program,
-    names: &Naming,
-    control: &Control,
-    style: &Style,
-) -> Result<Emitted, Vec<Diagnostic>> {
+/// Writes programs in the family's text; see [`super::Emit`].
+pub fn emit<'a>(names: &'a Naming, control: &'a Control, style: &'static Style) -> Writer<'a> {
     let spellings = Spellings::of(control);
-    let mut emitter = Emitter {
-        program,
-        names,
-        control,
-        style,
-        spellings: &spellings,
-        labels: Labels::default(),
-        emitted: Emitted::default(),
-        faults: Vec::new(),
-        span: Span::default(),
-        line: Line::default(),
-        depth: 0,
-        nested: 0,
-        place: expressions::Place::Statement,
-    };
-    emitter.program();
-    if emitter.faults.is_empty() { Ok(emitter.emitted) } else { Err(emitter.faults) }
+    Box::new(move |program| {
+        let mut emitter = Emitter {
+            program,
+            names,
+            control,
+            style,
+            spellings: &spellings,
+            labels: Labels::default(),
+            emitted: Emitted::default(),
+            faults: Vec::new(),
+            span: Span::default(),
+            line: Line::default(),
+            depth: 0,
+            nested: 0,
+            place: expressions::Place::Statement,
+        };
+        emitter.program();
+        if emitter.faults.is_empty() { Ok(emitter.emitted) } else { Err(emitter.faults) }
+    })
 }
 
 /// The state of writing one program.

@@ -1,4 +1,4 @@
-//! The spellings of a control, gathered once a program so that no word looks them up.
+//! The spellings of a control, gathered once a library so that no word looks them up.
 
 use crate::canon::{Func, Op, Role};
 use crate::dialect::{CodeMeaning, Control, Function};
@@ -261,8 +261,7 @@ fn beside_letters(codes: &[Code]) -> Vec<Option<(char, bool)>> {
 }
 
 fn shared(row: &CodeMeaning, control: &Control) -> bool {
-    let mut rows = control.dialect().codes.iter().filter(|other| other.head() == row.head());
-    rows.any(|other| other.op != row.op)
+    row.head().is_some_and(|head| control.rows_of(head).any(|other| other.op != row.op))
 }
 
 /// The code and the constant words beside it; a word with any value is written as a word.

@@ -1,4 +1,4 @@
-//! What programs may read and write, calls included.
+//! What programs may write, calls included.
 
 use super::call_graph::CallGraph;
 use crate::canon::Op;
@@ -15,27 +15,18 @@ pub struct Vars {
     pub classes: BTreeSet<Class>,
 }
 
-/// What may be read and written.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Effects {
-    /// What may be read.
-    pub reads: Vars,
-    /// What may be written.
-    pub writes: Vars,
-}
-
-/// The effects of every program of a module, on all but its temporaries.
+/// What every program of a module may write, its temporaries aside.
 #[derive(Clone, Debug, Default)]
 pub struct Summaries {
-    /// By program: all it may read and write, what it calls included.
-    effects: Vec<Effects>,
+    /// By program: what it calls included.
+    written: Vec<Vars>,
     names: BTreeMap<ProgramName, usize>,
-    /// Of the modal calls that an NC block may make.
-    modal: Effects,
-    /// Of a body in the same program, or of what cannot be told.
-    everything: Effects,
-    /// Of code outside the library, which may see its caller's locals too.
-    unknown: Effects,
+    /// By the modal calls that an NC block may make.
+    modal: Vars,
+    /// By a body in the same program, or by what cannot be told.
+    everything: Vars,
+    /// By code outside the library, which may see its caller's locals too.
+    unknown: Vars,
     come_back: bool,
 }
 
@@ -85,6 +76,13 @@ impl Vars {
     /// All that other programs see.
     pub fn shared() -> Self {
         Self { vars: BTreeSet::new(), classes: SHARED.into() }
+    }
+
+    /// All that a body in the same program sees.
+    fn everything() -> Self {
+        let mut all = Self::shared();
+        all.classes.extend([Class::Local, Class::Temp]);
+        all
     }
 
     /// The classes whose variables a computed number of this bank may mean.
@@ -144,34 +142,16 @@ impl Vars {
     }
 }
 
-impl Effects {
-    /// Of a body in the same program, or of what cannot be told: everything.
-    pub fn everything() -> Self {
-        let mut all = Vars::shared();
-        all.classes.extend([Class::Local, Class::Temp]);
-        Self { reads: all.clone(), writes: all }
-    }
-
-    fn join(&mut self, other: &Effects, level: bool) -> bool {
-        let seen = |vars| Seen { vars, level };
-        self.reads.join(seen(&other.reads)) | self.writes.join(seen(&other.writes))
-    }
-
-    fn without(self, class: Class) -> Self {
-        Self { reads: self.reads.without(class), writes: self.writes.without(class) }
-    }
-}
-
 impl Summaries {
     /// The summaries of a module.
     pub fn of(module: &Module) -> Self {
         let names = module.programs.iter().enumerate();
         let names = names.filter_map(|(at, p)| p.name.clone().map(|name| (name, at))).collect();
-        let everything = Effects::everything();
+        let everything = Vars::everything();
         let mut out = Self {
-            effects: module.programs.iter().map(own).collect(),
+            written: module.programs.iter().map(own).collect(),
             names,
-            modal: Effects::default(),
+            modal: Vars::default(),
             unknown: everything.clone().without(Class::Temp),
             everything,
             come_back: super::may_come_back(module),
@@ -184,50 +164,40 @@ impl Summaries {
     /// Adds to each program what its callees do.
     fn spread(&mut self, graph: &Graph) {
         // The modal calls stand behind the programs, as one more.
-        self.effects.push(std::mem::take(&mut self.modal));
+        self.written.push(std::mem::take(&mut self.modal));
         graph.calls.settle(|at| {
-            let mut mine = std::mem::take(&mut self.effects[at]);
+            let mut mine = std::mem::take(&mut self.written[at]);
             let mut changed = false;
             for (callee, level) in graph.calls.callees(at) {
-                changed |= mine.join(&self.effects[*callee], *level);
+                changed |= mine.join(Seen { vars: &self.written[*callee], level: *level });
             }
-            self.effects[at] = mine;
+            self.written[at] = mine;
             changed
         });
-        self.modal = self.effects.pop().unwrap_or_default();
+        self.modal = self.written.pop().unwrap_or_default();
         if graph.modal_body {
             self.modal = self.everything.clone();
         }
     }
 
-    /// What a call may read, as its caller sees it. A body in the same program is everything.
-    pub fn reads(&self, call: &Call) -> Seen<'_> {
-        let (effects, level) = self.of_call(call);
-        Seen { vars: &effects.reads, level }
-    }
-
     /// What a call may write, as its caller sees it. A body in the same program is everything.
-    pub fn writes(&self, call: &Call) -> Seen<'_> {
-        let (effects, level) = self.of_call(call);
-        Seen { vars: &effects.writes, level }
-    }
-
-    fn of_call(&self, call: &Call) -> (&Effects, bool) {
-        match &call.callee {
-            Callee::Program(name) => (self.of_program(name), call.level),
+    pub fn by_call(&self, call: &Call) -> Seen<'_> {
+        let (vars, level) = match &call.callee {
+            Callee::Program(name) => (self.by_program(name), call.level),
             Callee::Block(_) => (&self.everything, false),
             Callee::Computed(_) | Callee::Cycle(_) => (&self.unknown, call.level),
-        }
+        };
+        Seen { vars, level }
     }
 
-    /// All that a program of this name may read and write.
-    pub fn of_program(&self, name: &ProgramName) -> &Effects {
-        self.names.get(name).map_or(&self.unknown, |at| &self.effects[*at])
+    /// All that a program of this name may write.
+    pub fn by_program(&self, name: &ProgramName) -> &Vars {
+        self.names.get(name).map_or(&self.unknown, |at| &self.written[*at])
     }
 
-    /// What an NC block may read and write besides its words: by a modal call that it makes, or by
-    /// an operation that moves values between variables and tables.
-    pub fn of_nc(&self, nc: &Nc) -> &Effects {
+    /// What an NC block may write: by a modal call that it makes, or by an operation that moves values
+    /// between variables and tables.
+    pub fn by_nc(&self, nc: &Nc) -> &Vars {
         if moves_values(nc) { &self.everything } else { &self.modal }
     }
 
@@ -245,7 +215,7 @@ struct Graph {
 }
 
 impl Graph {
-    /// The graph; calls that leave the library are added to the effects at once.
+    /// The graph; what calls that leave the library write is added at once.
     fn of(module: &Module, summaries: &mut Summaries) -> Self {
         let modal = module.programs.len();
         let mut callees = vec![BTreeSet::new(); modal + 1];
@@ -260,8 +230,8 @@ impl Graph {
                 match place {
                     Some(place) => drop(callees[from].insert((*place, level))),
                     None => {
-                        let Summaries { effects, modal, unknown, .. } = &mut *summaries;
-                        effects.get_mut(from).unwrap_or(modal).join(unknown, level);
+                        let Summaries { written, modal, unknown, .. } = &mut *summaries;
+                        written.get_mut(from).unwrap_or(modal).join(Seen { vars: unknown, level });
                     }
                 }
             };
@@ -289,28 +259,20 @@ impl Graph {
 }
 
 /// True where the block moves values between variables and tables.
-fn moves_values(nc: &Nc) -> bool {
+pub(super) fn moves_values(nc: &Nc) -> bool {
     nc.ops().any(|op| matches!(op, Op::ReadOffset | Op::WriteVariable))
 }
 
-/// What a program reads and writes by itself, temporaries aside.
-fn own(program: &Program) -> Effects {
-    let mut out = Effects::default();
-    for block in &program.blocks {
-        for stmt in &block.stmts {
-            stmt.kind.exprs(&mut |e| out.reads.read(e));
-            stmt.kind.target().iter().for_each(|place| out.writes.write(place));
-            match &stmt.kind {
-                StmtKind::ClearAll(class) => {
-                    out.writes.classes.insert(*class);
-                }
-                StmtKind::Nc(nc) if moves_values(nc) => {
-                    out.join(&Effects::everything(), false);
-                }
-                _ => {}
-            }
+/// What a program writes by itself, temporaries aside.
+fn own(program: &Program) -> Vars {
+    let mut out = Vars::default();
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        stmt.kind.target().iter().for_each(|place| out.write(place));
+        match &stmt.kind {
+            StmtKind::ClearAll(class) => drop(out.classes.insert(*class)),
+            StmtKind::Nc(nc) if moves_values(nc) => drop(out.join(&Vars::everything())),
+            _ => {}
         }
-        block.term.kind.exprs(&mut |e| out.reads.read(e));
     }
     out.without(Class::Temp)
 }

@@ -1,4 +1,4 @@
-//! Questions about programs: where control goes, what is live, what may be vacant, which
+//! Questions about programs: where control goes, which temporaries are live, what may be vacant, which
 //! constants a variable may hold.
 //!
 //! Every answer errs to the safe side. Nothing recurses on the size of a program.
@@ -16,8 +16,8 @@ mod values;
 pub use call_graph::CallGraph;
 pub use cfg::{Cfg, may_come_back};
 pub use dominators::Dominators;
-pub use effects::{Effects, Seen, Summaries, Vars};
-pub use liveness::{Exit, Liveness};
+pub use effects::{Seen, Summaries, Vars};
+pub use liveness::{Liveness, Ways};
 pub use loops::{Loop, Loops};
 pub use set::{Row, Universe};
 pub use vacancy::Vacancy;

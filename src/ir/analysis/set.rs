@@ -1,7 +1,7 @@
 //! Sets of variables as bits.
 
 use crate::ir::{Class, Var};
-use std::collections::BTreeSet;
+use smallvec::{SmallVec, smallvec};
 
 /// The variables that an analysis speaks of, in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,13 +12,16 @@ pub struct Universe {
 /// A subset of a [`Universe`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    bits: Vec<u64>,
+    /// Two words are as large as what points to more.
+    bits: SmallVec<[u64; 2]>,
 }
 
 impl Universe {
     /// The universe of these variables.
-    pub fn new(vars: &BTreeSet<Var>) -> Self {
-        Self { vars: vars.iter().copied().collect() }
+    pub fn new(mut vars: Vec<Var>) -> Self {
+        vars.sort_unstable();
+        vars.dedup();
+        Self { vars }
     }
 
     /// A variable's place.
@@ -28,7 +31,12 @@ impl Universe {
 
     /// The empty subset.
     pub fn none(&self) -> Row {
-        Row { bits: vec![0; self.vars.len().div_ceil(64)] }
+        Row { bits: smallvec![0; self.vars.len().div_ceil(64)] }
+    }
+
+    /// All of it.
+    pub fn all(&self) -> Row {
+        self.classes(|_| true)
     }
 
     /// The variables of these classes.

@@ -79,52 +79,57 @@ fn calls_of_blocks_enter_and_return() {
     assert_eq!((steps.succs(BlockId(0)), steps.roots()), (&ids(&[1])[..], &ids(&[0, 2])[..]));
 }
 
-fn live(module: &Module, exit: Exit, block: u32) -> Vec<String> {
-    let summaries = Summaries::of(module);
-    let live = Liveness::of(&module.programs[0], &summaries, exit);
+fn live(module: &Module, block: u32) -> Vec<String> {
+    let live = Liveness::of(&module.programs[0], Ways::of(module));
     live.before(BlockId(block)).map(|v| v.to_string()).collect()
 }
 
 #[test]
 fn liveness_within_a_program() {
     let module = module(
-        "block0:\n tmp.1 = local.1\n common.100 = 5\n branch tmp.1 lt 3 ? block1 : block2
-block1:\n nc axis.x=local.2\n tmp.2 = 1 skip 1\n jump block2\nblock2:\n common.101 = tmp.2 + common.100\n end",
+        "block0:\n tmp.1 = local.1\n tmp.3 = 5\n branch tmp.1 lt 3 ? block1 : block2
+block1:\n nc axis.x=local.2\n tmp.2 = 1 skip 1\n jump block2\nblock2:\n common.101 = tmp.2 + tmp.3\n end",
     );
     // tmp.2 may be skipped, so that it is read as it was at the entry.
-    assert_eq!(live(&module, Exit::Nothing, 0), ["local.1", "local.2", "tmp.2"]);
-    assert_eq!(live(&module, Exit::Nothing, 2), ["common.100", "tmp.2"]);
-    assert_eq!(live(&module, Exit::Observable, 1), ["local.2", "common.100", "tmp.2"]);
+    assert_eq!(live(&module, 0), ["tmp.2"]);
+    assert_eq!(live(&module, 1), ["tmp.2", "tmp.3"]);
 }
 
 #[test]
 fn liveness_across_calls() {
-    let callee =
-        "program O2 {\nblock0:\n common.105 = local.7 + common.106\n common.107 = common.105\n return\n}\n";
-    let caller = |call: &str| {
-        format!("program O1 {{\nblock0:\n local.7 = 1\n call {call} -> block1\nblock1:\n end\n}}\n{callee}")
+    let body = |call: &str, other: &str| {
+        let caller = format!("block0:\n tmp.1 = 1\n tmp.2 = 2\n {call}\nblock1:\n tmp.1 = 3\n end");
+        parse(&format!("program O1 {{\n{caller}\n{other}\n}}\nprogram O2 {{\nblock0:\n return\n}}\n"))
+            .unwrap()
     };
-    let of = |call: &str| live(&parse(&caller(call)).unwrap(), Exit::Nothing, 0);
-    // Whatever a callee reads counts as read, written before or not.
-    assert_eq!(of("O2"), ["common.105", "common.106"]);
-    let module = parse(&caller("O2")).unwrap();
+    let behind = |module: &Module| {
+        let live = Liveness::of(&module.programs[0], Ways::of(module));
+        let mut found = Vec::new();
+        live.backward(BlockId(0), &mut |at, is_live| found.push((at, is_live(&var("tmp.1")))));
+        found
+    };
+    // Another program, in the library or not, does not see them; a body in the same one does.
+    for call in ["call O2 -> block1", "call O9 -> block1"] {
+        assert_eq!(behind(&body(call, "")), [(1, false), (0, false)], "{call}");
+    }
+    let own = body("call block2 -> block1", "block2:\n common.100 = tmp.1\n return");
+    assert_eq!(behind(&own), [(1, true), (0, true)]);
+}
+
+#[test]
+fn writes_of_callees() {
+    let module = parse(
+        "program O1 {\nblock0:\n call O2 -> block1\nblock1:\n call O9 level -> block2\nblock2:\n end\n}
+program O2 {\nblock0:\n common.105 = local.7 + common.106\n common.107 = common.105\n tmp.1 = 1\n return\n}\n",
+    )
+    .unwrap();
     let summaries = Summaries::of(&module);
-    let programs = &module.programs;
-    let live = Liveness::of(&programs[0], &summaries, Exit::Nothing);
-    let mut behind = Vec::new();
-    live.backward(BlockId(0), &mut |at, is_live| behind.push((at, is_live(&var("local.7")))));
-    assert_eq!(behind, [(0, true)]);
-    let name = programs[1].name.clone().unwrap();
-    let reads = &summaries.of_program(&name).reads;
-    assert_eq!(reads.vars, [var("local.7"), var("common.105"), var("common.106")].into());
-    let writes = &summaries.of_program(&name).writes;
-    assert!(writes.contains(var("common.107")) && !writes.contains(var("common.106")));
-    // A callee outside the library reads all that is shared.
-    let unknown =
-        parse("program O1 {\nblock0:\n common.100 = 1\n call O9 level -> block1\nblock1:\n end\n}").unwrap();
-    let summaries = Summaries::of(&unknown);
-    let live = Liveness::of(&unknown.programs[0], &summaries, Exit::Nothing);
-    live.backward(BlockId(0), &mut |_, is_live| assert!(is_live(&var("common.100"))));
+    let callee = summaries.by_program(module.programs[1].name.as_ref().unwrap());
+    assert_eq!(callee.vars, [var("common.105"), var("common.107")].into());
+    assert!(callee.classes.is_empty());
+    // A callee outside the library writes all that is shared.
+    let caller = summaries.by_program(module.programs[0].name.as_ref().unwrap());
+    assert!(caller.contains(var("common.100")) && !caller.contains(var("local.1")));
 }
 
 #[test]
@@ -193,7 +198,7 @@ fn large_programs_take_no_long() {
         let far = (id + 2).min(COUNT);
         let other = if id % 3 == 0 { 1 } else { far };
         text.push_str(&format!(
-            "block{id}:\n local.{} = local.2\n branch local.1 lt {id} ? block{} : block{other}\n",
+            "block{id}:\n local.{} = local.2 + tmp.2\n branch local.1 lt {id} ? block{} : block{other}\n",
             1 + id % 33,
             id + 1
         ));
@@ -207,8 +212,8 @@ fn large_programs_take_no_long() {
     let summaries = Summaries::of(&module);
     let vacancy = Vacancy::of(program, &summaries, &BTreeSet::new());
     assert!(vacancy.may_be_vacant(BlockId(COUNT), 0, var("local.3")));
-    let live = Liveness::of(program, &summaries, Exit::Observable);
-    assert!(live.is_live_before(BlockId(COUNT - 1), var("local.2")));
+    let live = Liveness::of(program, Ways::of(&module));
+    assert!(live.before(BlockId(COUNT - 1)).any(|temp| temp == var("tmp.2")));
     assert_eq!(values_at(program, &summaries, var("local.2"), BlockId(COUNT), 0), None);
     assert!(started.elapsed().as_secs() < 90, "{:?}", started.elapsed());
 }

@@ -4,7 +4,7 @@
 //! to be assigned (arguments that every call gives). Arithmetic never yields vacant; copies do
 //! where what they copy may be. A comparison with vacant settles it on each of its ways.
 
-use super::effects::{Seen, Summaries, Vars};
+use super::effects::{Seen, Summaries};
 use super::{Cfg, Row, Universe};
 use crate::canon::Sys;
 use crate::ir::{
@@ -25,36 +25,34 @@ pub struct Vacancy<'p> {
 impl<'p> Vacancy<'p> {
     /// Computes it. `assigned` are never vacant at the entry.
     pub fn of(program: &'p Program, summaries: &'p Summaries, assigned: &BTreeSet<Var>) -> Self {
-        let mut vars = Vars::default();
-        for block in &program.blocks {
-            for stmt in &block.stmts {
-                stmt.kind.exprs(&mut |e| vars.read(e));
-                stmt.kind.target().iter().for_each(|place| vars.write(place));
+        let mut vars = Vec::new();
+        program.variables(&mut |var| {
+            if var.class.nullable() {
+                vars.push(var);
             }
-            block.term.kind.exprs(&mut |e| vars.read(e));
+        });
+        for block in &program.blocks {
             // The arguments of a level are locals of the body that it enters.
             if let TermKind::Call { call, .. } = &block.term.kind {
-                let locals = call.arguments.iter().map(|a| Var { class: Class::Local, number: a.local });
-                vars.vars.extend(locals);
+                vars.extend(call.arguments.iter().map(|a| Var { class: Class::Local, number: a.local }));
             }
         }
-        vars.vars.retain(|var| var.class.nullable());
         let cfg = Cfg::whole(program, summaries.come_back());
-        let universe = Universe::new(&vars.vars);
+        let universe = Universe::new(vars);
         let mut out = Self { program, summaries, universe, before: vec![None; cfg.len()] };
         out.solve(&cfg, assigned);
         out
     }
 
     fn solve(&mut self, cfg: &Cfg, assigned: &BTreeSet<Var>) {
-        let mut entry = self.all();
+        let mut entry = self.universe.all();
         assigned.iter().filter_map(|var| self.universe.place(*var)).for_each(|at| entry.remove(at));
         let mut work = VecDeque::new();
         for root in cfg.roots() {
             // A body that a modal call enters is entered with anything.
             let called = *root != BlockId(0) && cfg.preds(*root).is_empty();
             if *root == BlockId(0) || called || self.is_modal(*root) {
-                let row = if *root == BlockId(0) { entry.clone() } else { self.all() };
+                let row = if *root == BlockId(0) { entry.clone() } else { self.universe.all() };
                 self.flow(*root, &row);
                 work.push_back(*root);
             }
@@ -85,10 +83,6 @@ impl<'p> Vacancy<'p> {
         }
     }
 
-    fn all(&self) -> Row {
-        self.universe.classes(|_| true)
-    }
-
     fn is_modal(&self, id: BlockId) -> bool {
         self.program
             .blocks
@@ -107,7 +101,7 @@ impl<'p> Vacancy<'p> {
             // What the operator gives is a number.
             StmtKind::Input { target, .. } => self.write(target, false, sure, row),
             StmtKind::ClearAll(class) if sure => row.subtract(&self.universe.classes(|c| c == *class)),
-            StmtKind::Nc(nc) => self.disturb((&self.summaries.of_nc(nc).writes).into(), row),
+            StmtKind::Nc(nc) => self.disturb(self.summaries.by_nc(nc).into(), row),
             _ => {}
         }
     }
@@ -123,7 +117,7 @@ impl<'p> Vacancy<'p> {
                 }
             }
             Place::Indirect(Bank::Numbered, _) if vacant => {
-                row.join(&self.all());
+                row.join(&self.universe.all());
             }
             Place::Indirect(..) | Place::System(..) => {}
         }
@@ -164,10 +158,10 @@ impl<'p> Vacancy<'p> {
                 }
                 Callee::Block(_) => {
                     if to == *next {
-                        self.disturb(self.summaries.writes(call), row);
+                        self.disturb(self.summaries.by_call(call), row);
                     }
                 }
-                _ => self.disturb(self.summaries.writes(call), row),
+                _ => self.disturb(self.summaries.by_call(call), row),
             },
             _ => {}
         }

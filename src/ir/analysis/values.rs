@@ -74,7 +74,7 @@ pub fn values_at(
         for pred in cfg.preds(id) {
             let block = program.block(*pred)?;
             if let TermKind::Call { call, .. } = &block.term.kind
-                && (matches!(call.callee, Callee::Block(_)) || summaries.writes(call).contains(var))
+                && (matches!(call.callee, Callee::Block(_)) || summaries.by_call(call).contains(var))
             {
                 return None;
             }
@@ -97,7 +97,7 @@ fn effect(stmt: &Stmt, var: Var, summaries: &Summaries) -> Option<Effect> {
     match &stmt.kind {
         StmtKind::Assign { target: Place::Var(target), value } => (*target == var).then(|| of(value)),
         StmtKind::ClearAll(class) => (*class == var.class).then_some(Effect::Constant(Constant::Number(0.0))),
-        StmtKind::Nc(nc) => summaries.of_nc(nc).writes.contains(var).then_some(Effect::Unknown),
+        StmtKind::Nc(nc) => summaries.by_nc(nc).contains(var).then_some(Effect::Unknown),
         kind => {
             let mut written = super::Vars::default();
             kind.target().iter().for_each(|place| written.write(place));
