@@ -8,19 +8,26 @@ mod generate;
 
 use generate::trial::{self, Judgement, Trial};
 use generate::{DIALECTS, Policy, Program, Source};
+use macroglot::verify::Reason;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::panic::catch_unwind;
-use std::time::Instant;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// How many programs of each dialect and policy are tried where nothing else is said.
 const PROGRAMS: u64 = 6;
 const SEED: u64 = 20_261;
 /// Programs with faults that are printed.
-const SHOWN: usize = 8;
+const SHOWN: usize = 24;
 /// Smaller programs that are tried for one with a fault.
 const SMALLER: usize = 400;
+/// Reasons of undecided conversions that are printed.
+const REASONS: usize = 25;
+/// The time that a program may take: more is a fault of its own. Small programs take milliseconds.
+const BUDGET: Duration = Duration::from_secs(20);
 
 fn setting(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).map_or(otherwise, |text| text.parse().unwrap_or_else(|_| panic!("{name}={text}")))
@@ -37,7 +44,50 @@ fn tried(program: &Program) -> Trial {
         useful: false,
         judged: Vec::new(),
         faults: vec!["panicked".into()],
+        reasons: Vec::new(),
+        took: Duration::ZERO,
     })
+}
+
+/// The programs that are being tried, by seed, and since when.
+#[derive(Default)]
+struct Running {
+    since: Mutex<BTreeMap<u64, Instant>>,
+    done: AtomicBool,
+}
+
+impl Running {
+    /// Tries a program; one that takes too long has a fault.
+    fn tried(&self, seed: u64, program: &Program) -> Trial {
+        self.since.lock().expect("nobody panics with it").insert(seed, Instant::now());
+        let mut trial = tried(program);
+        self.since.lock().expect("nobody panics with it").remove(&seed);
+        if trial.took > BUDGET {
+            trial.faults.push(format!("takes too long: {:?}", trial.took));
+        }
+        trial
+    }
+
+    /// Names the programs that take too long while they run, so that an endless one is known by its seed.
+    fn watch(&self) {
+        while !self.done.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(200));
+            let mut since = self.since.lock().expect("nobody panics with it");
+            for (seed, start) in since.iter_mut().filter(|(_, start)| start.elapsed() > BUDGET) {
+                eprintln!("seed {seed} still runs");
+                *start = Instant::now();
+            }
+        }
+    }
+}
+
+/// A reason without its numbers, names and places.
+fn sort_of(reason: &Reason) -> String {
+    let text = match reason.text.split_once(" was never ") {
+        Some(_) => "a branch went one way only".into(),
+        None => reason.text.chars().filter(|sign| !sign.is_ascii_digit()).take(90).collect::<String>(),
+    };
+    format!("{:?}: {text}", reason.why)
 }
 
 /// The first words of a fault without its target and numbers: what kind of fault it is.
@@ -68,39 +118,68 @@ fn smallest(program: Program, wanted: &str) -> Program {
 #[test]
 fn random_programs_do_the_same_on_the_target() {
     let (programs, seed) = (setting("MACROGLOT_PROGRAMS", PROGRAMS), setting("MACROGLOT_SEED", SEED));
+    let running = Running::default();
+    std::thread::scope(|scope| {
+        scope.spawn(|| running.watch());
+        let found = catch_unwind(|| search(&running, programs, seed));
+        running.done.store(true, Ordering::Relaxed);
+        if let Err(what) = found {
+            std::panic::resume_unwind(what);
+        }
+    });
+}
+
+fn search(running: &Running, programs: u64, seed: u64) {
     let start = Instant::now();
     let kinds: Vec<(&str, Policy)> =
         DIALECTS.iter().flat_map(|dialect| Policy::ALL.map(|policy| (*dialect, policy))).collect();
     let mut table = String::new();
     let (mut all, mut useful) = (0, 0);
+    let mut judgements: BTreeMap<Judgement, usize> = BTreeMap::new();
+    let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    let mut longest = (Duration::ZERO, 0);
     let mut faulty: Vec<(&str, Policy, u64, String)> = Vec::new();
     for (at, (dialect, policy)) in kinds.into_iter().enumerate() {
         let trials: Vec<(u64, Trial)> = (0..programs)
             .into_par_iter()
             .map(|number| {
                 let seed = seed.wrapping_add(((at as u64) << 32) + number);
-                (seed, tried(&drawn(dialect, policy, seed)))
+                (seed, running.tried(seed, &drawn(dialect, policy, seed)))
             })
             .collect();
         let share = trials.iter().filter(|(_, trial)| trial.useful).count();
         let mut verdicts: BTreeMap<Judgement, usize> = BTreeMap::new();
         for (_, judgement) in trials.iter().flat_map(|(_, trial)| &trial.judged) {
             *verdicts.entry(*judgement).or_default() += 1;
+            *judgements.entry(*judgement).or_default() += 1;
+        }
+        for (seed, trial) in &trials {
+            longest = longest.max((trial.took, *seed));
+            let sorts: BTreeSet<String> = trial.reasons.iter().map(sort_of).collect();
+            sorts.into_iter().for_each(|sort| *reasons.entry(sort).or_default() += 1);
         }
         (all, useful) = (all + trials.len(), useful + share);
         let _ = writeln!(table, "{dialect:6} {policy:12?} useful {share:6}/{programs} {verdicts:?}");
         for (seed, trial) in trials {
             faulty.extend(trial.faults.into_iter().map(|fault| (dialect, policy, seed, fault)));
         }
+        eprintln!("{dialect} {policy:?}: {} faults, {:?}", faulty.len(), start.elapsed());
     }
     println!(
-        "{table}seed {seed}, {programs} programs of each: {useful} of {all} useful, {:?}",
-        start.elapsed()
+        "{table}seed {seed}, {programs} programs of each: {useful} of {all} useful, {judgements:?}, {:?}; longest {:?}, seed {}",
+        start.elapsed(),
+        longest.0,
+        longest.1,
     );
+    let mut reasons: Vec<_> = reasons.into_iter().collect();
+    reasons.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
+    for (reason, times) in reasons.iter().take(REASONS) {
+        println!("{times:7} programs undecided: {reason}");
+    }
     let mut shown = String::new();
-    let mut seen: BTreeMap<(&str, String), usize> = BTreeMap::new();
+    let mut seen: BTreeMap<(&str, String, String), usize> = BTreeMap::new();
     for (dialect, policy, seed, fault) in &faulty {
-        let times = seen.entry((dialect, kind(fault))).or_default();
+        let times = seen.entry((dialect, format!("{policy:?}"), kind(fault))).or_default();
         *times += 1;
         if *times > 1 || shown.matches("== ").count() >= SHOWN {
             continue;

@@ -59,6 +59,9 @@ pub struct Scenario {
     /// Significant decimal digits that arithmetic keeps in place of the control's own, to find
     /// programs that depend on the last digit.
     pub digits: Option<u32>,
+    /// True where a control of which no source says whether it rounds computed words to the least increment is to
+    /// do so; else it leaves them as they are.
+    pub rounds_words: bool,
     /// Most blocks that are executed.
     pub steps: u64,
     /// Most events that are recorded.
@@ -129,6 +132,7 @@ impl Default for Scenario {
             peck_clearance: 1.0,
             variable_events: false,
             digits: None,
+            rounds_words: false,
             steps: 1_000_000,
             events: 1_000_000,
             milliseconds: Some(10_000),

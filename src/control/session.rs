@@ -186,6 +186,17 @@ impl<'r, 'f> Session<'r, 'f> {
         }
     }
 
+    /// The least increment that computed words are rounded to where the scenario has it so and no source says whether
+    /// they are, in the units in force.
+    pub fn unstated_increment(&self) -> Option<f64> {
+        let stated = self.control.behaviour("word.rounds.to.increment");
+        if !self.scenario.rounds_words || stated.is_some_and(|row| row.value != "unknown") {
+            return None;
+        }
+        let numbers = self.control.numbers();
+        Some(if self.machine.is_inch() { numbers.increment_inch } else { numbers.increment_mm })
+    }
+
     /// Notes an answer to a question of behaviour that mattered, where nobody confirmed it.
     pub fn rest_on(&mut self, behaviour: &str) {
         match self.control.behaviour(behaviour) {

@@ -2,6 +2,7 @@
 
 use super::machine::Command;
 use super::outcome::Stop;
+use super::session::Session;
 use super::trace::Trace;
 use crate::canon::{Group, Op, Role};
 use crate::dialect::{CodeMeaning, Control};
@@ -14,6 +15,8 @@ pub struct Spoken {
     pub letter: char,
     /// Its value.
     pub value: f64,
+    /// True where the value is computed, not written.
+    pub computed: bool,
 }
 
 /// The codes whose meaning of a letter lasts. Whoever drives the machine drops a cycle that
@@ -52,11 +55,12 @@ impl<'c> Read<'c> {
 
 /// Reads the words of a block. A code that the control does not have stops it.
 pub fn read<'c>(
-    control: &'c Control,
+    session: &mut Session<'c, '_>,
     words: &[Spoken],
     lasting: &mut Lasting<'c>,
-    trace: &mut Trace,
 ) -> Result<Read<'c>, Stop> {
+    let (control, increment) = (session.control, session.unstated_increment());
+    let trace = &mut session.trace;
     let block: SmallVec<[(char, Option<f64>); 12]> =
         words.iter().map(|word| (word.letter, Some(word.value))).collect();
     let mut read = Read::default();
@@ -72,7 +76,7 @@ pub fn read<'c>(
         }
     }
     for word in words.iter().filter(|word| !matches!(word.letter, 'G' | 'M')) {
-        value(control, *word, lasting, &mut read, trace);
+        value(control, *word, increment, lasting, &mut read, trace);
     }
     Ok(read)
 }
@@ -131,6 +135,7 @@ fn doubt_distance(words: &[Spoken], read: &Read<'_>, trace: &mut Trace) {
 fn value<'c>(
     control: &'c Control,
     word: Spoken,
+    increment: Option<f64>,
     lasting: &Lasting<'c>,
     read: &mut Read<'c>,
     trace: &mut Trace,
@@ -161,5 +166,17 @@ fn value<'c>(
         }
         value = value.round();
     }
+    if let Some(increment) = increment.filter(|_| word.computed && (role.is_length() || role.is_axis())) {
+        value = to_increment(value, increment);
+    }
     read.command.words.push((role, value));
+}
+
+/// The nearest multiple of an increment, half-way ones away from zero.
+pub fn to_increment(value: f64, increment: f64) -> f64 {
+    let count = (1.0 / increment).round();
+    let scaled = value * count;
+    // A value that means a half-way one may lie a last digit beside it.
+    let nearest = (scaled + scaled.signum() * 1e-9).round();
+    nearest / count
 }

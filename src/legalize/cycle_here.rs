@@ -39,7 +39,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere));
                 nc.items.retain(|item| *item != NcItem::Op(Op::CycleHere));
-                let placed = nc.word(Role::X).is_some() || nc.word(Role::Y).is_some();
+                let across = across(state.op(Group::Plane));
+                let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
                 let span = stmt.site.span;
                 let what = if defines && !here && !placed && stored && nc.word(Role::Repeat).is_none() {
                     nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
@@ -47,7 +48,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         "the source only stores a cycle that is defined without a position; a repeat of none does that on the target where it is so taken",
                     )
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
-                    match named.words() {
+                    match named.words().filter(|_| across[0].0 == Role::X) {
                         Some([x, y]) => {
                             nc.items.extend([NcItem::Word(Role::X, x), NcItem::Word(Role::Y, y)]);
                             Some("the cycle is run at the turned place by naming that place again")
@@ -59,7 +60,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         }
                     }
                 } else if here && !placed {
-                    place(nc, state.op(Group::Distance))
+                    place(nc, across, state.op(Group::Distance))
                         .err()
                         .or((!defines)
                             .then_some("the cycle is run where the tool stands by giving that place"))
@@ -76,14 +77,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
+/// The axes of a plane and their numbers: a cycle's position is in them, its depth along the third one.
+fn across(plane: Option<Op>) -> [(Role, f64); 2] {
+    match plane {
+        Some(Op::PlaneZx) => [(Role::Z, 3.0), (Role::X, 1.0)],
+        Some(Op::PlaneYz) => [(Role::Y, 2.0), (Role::Z, 3.0)],
+        _ => [(Role::X, 1.0), (Role::Y, 2.0)],
+    }
+}
+
 /// Adds the present place to a block.
-fn place(nc: &mut Nc, distance: Option<Op>) -> Result<(), &'static str> {
-    let here = |axis: f64| Expr::System(Sys::WorkPosition, vec![Expr::Number(axis)]);
+fn place(nc: &mut Nc, across: [(Role, f64); 2], distance: Option<Op>) -> Result<(), &'static str> {
     let words = match distance {
-        Some(Op::Absolute) => [NcItem::Word(Role::X, here(1.0)), NcItem::Word(Role::Y, here(2.0))],
-        Some(Op::Incremental) => {
-            [NcItem::Word(Role::X, Expr::Number(0.0)), NcItem::Word(Role::Y, Expr::Number(0.0))]
-        }
+        Some(Op::Absolute) => across.map(|(role, axis)| {
+            NcItem::Word(role, Expr::System(Sys::WorkPosition, vec![Expr::Number(axis)]))
+        }),
+        Some(Op::Incremental) => across.map(|(role, _)| NcItem::Word(role, Expr::Number(0.0))),
         _ => return Err("a cycle is run where the tool stands, and absolute or incremental is not known"),
     };
     let at = nc.items.iter().position(|item| matches!(item, NcItem::Word(..))).unwrap_or(nc.items.len());

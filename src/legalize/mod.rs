@@ -54,6 +54,7 @@ mod temporaries;
 mod truth;
 mod units;
 mod vacancy;
+mod vacant_writes;
 
 use census::{Census, Thing};
 pub use context::Context;
@@ -138,6 +139,11 @@ pub const PASSES: &[Pass] = &[
         name: "computed-numbers",
         concerns: |c, _| c.has(Thing::Indirect),
         run: Rewrites(computed_numbers::run),
+    },
+    Pass {
+        name: "vacant-writes",
+        concerns: |c, _| c.op(Op::WriteRadius) && c.has(Thing::Variable),
+        run: Rewrites(vacant_writes::run),
     },
     Pass {
         name: "state",

@@ -65,7 +65,6 @@ enum Finding {
     ReadOnly(Sys),
     Table(Sys),
     TargetTable,
-    VacantWord,
 }
 
 impl Finding {
@@ -100,10 +99,6 @@ impl Finding {
             Finding::TargetTable => {
                 let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
                 context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
-            }
-            Finding::VacantWord => {
-                let what = "a value that is vacant writes nothing on the source, and 0 on the target";
-                context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
             }
             Finding::Wiring => {
                 let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
@@ -265,6 +260,18 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
     found.push((span, Finding::Missing(*state)));
 }
 
+/// By what a number of the source's cutter table is multiplied to be one of the target's; none where neither is
+/// known to hold radii. A source that does not say is taken to hold diameters.
+pub(super) fn table_factor(source: &Control, target: &Control) -> Option<f64> {
+    let table = |control: &Control| control.behaviour("radius.offset.table").map(|row| row.value.clone());
+    Some(match (table(source).as_deref(), table(target).as_deref()) {
+        (Some("radius"), Some("diameter")) => 2.0,
+        (Some("radius"), Some("radius")) | (Some("diameter"), Some("diameter")) => 1.0,
+        (_, Some("radius")) => 0.5,
+        _ => return None,
+    })
+}
+
 /// What a block writes into the cutter table, as the target's table holds it.
 fn write_radius(
     nc: &mut Nc,
@@ -272,22 +279,16 @@ fn write_radius(
     span: Span,
     found: &mut Vec<(Span, Finding)>,
 ) {
-    let table = |control: &Control| control.behaviour("radius.offset.table").map(|row| row.value.clone());
-    let factor = match (table(source).as_deref(), table(target).as_deref()) {
-        (Some("diameter"), Some("radius")) => 0.5,
-        (Some("radius"), Some("diameter")) => 2.0,
-        (Some("radius"), Some("radius")) | (Some("diameter"), Some("diameter")) => 1.0,
-        (_, Some("radius")) => {
-            found.push((span, Finding::Table(Sys::RadiusGeometry)));
-            0.5
-        }
-        _ => return found.push((span, Finding::Table(Sys::DiameterOrRadius))),
-    };
+    let stated = |control: &Control| control.behaviour("radius.offset.table").map(|row| row.value.clone());
+    let factor = table_factor(source, target);
+    match (stated(source).as_deref(), factor) {
+        (_, None) => return found.push((span, Finding::Table(Sys::DiameterOrRadius))),
+        (Some("radius" | "diameter"), _) => {}
+        _ => found.push((span, Finding::Table(Sys::RadiusGeometry))),
+    }
+    let factor = factor.unwrap_or(1.0);
     for item in &mut nc.items {
         if let NcItem::Word(Role::OffsetValue, value) = item {
-            if factor != 1.0 && value.may_be_vacant() {
-                found.push((span, Finding::VacantWord));
-            }
             *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
         }
     }

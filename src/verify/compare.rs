@@ -1,10 +1,10 @@
 //! Whether two runs amount to the same.
 
-use super::differ::differ;
+use super::differ::{ANOTHER_FEED, differ};
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::substitutes::{cannot_cancel, is_builders, is_idle, is_left_out, stands_for};
+use super::substitutes::{cannot_cancel, has_no_feed, is_builders, is_idle, is_left_out, stands_for};
 use crate::control::trace::{Event, Happening, Position};
 use crate::control::{End, Run};
 use std::collections::BTreeSet;
@@ -223,7 +223,13 @@ impl<'r> Pairs<'_, 'r> {
                 self.found.texts.extend(texts(&source.what, &target.what));
                 None
             }
-            Some(what) => Some(what.to_owned()),
+            Some(what) => match has_no_feed(a).filter(|_| what == ANOTHER_FEED) {
+                Some(text) => {
+                    self.found.substituted.insert(text);
+                    None
+                }
+                None => Some(what.to_owned()),
+            },
         }
     }
 }

@@ -9,6 +9,9 @@ use crate::control::trace::{Happening, Position};
 /// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
 const LEAST_WAIT: f64 = 0.000_501;
 
+/// What differs where only the feed does.
+pub const ANOTHER_FEED: &str = "the feed is another";
+
 /// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
 /// is what the target's text could have had more.
 pub fn differ(
@@ -34,7 +37,7 @@ pub fn differ(
             if beyond(far(to, other)) {
                 return Some("the feed move goes elsewhere");
             }
-            (about(*feed, *other_feed) || mode != other_mode).then_some("the feed is another")
+            (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
         }
         (
             Arc { to, feed, mode, sweep, .. },
@@ -48,7 +51,7 @@ pub fn differ(
                     false => "the arc is another",
                 })
             } else {
-                (about(*feed, *other_feed) || mode != other_mode).then_some("the feed is another")
+                (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
             }
         }
         (Thread { to, lead, .. }, Thread { to: other, lead: other_lead, .. }) => {

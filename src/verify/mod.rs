@@ -23,6 +23,7 @@ mod observe;
 mod paths;
 mod program;
 mod random;
+mod rounding;
 mod scenarios;
 mod substitutes;
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What an observer of the machine could tell of a run.
 
 use super::names::Side as Library;
-use crate::canon::Op;
+use crate::canon::{Group, Op};
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Side, Spindle};
 use std::borrow::Cow;
@@ -67,7 +67,10 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
             seen.waiting.push((kind, event));
             continue;
         }
-        seen.settle(returns(&event.what));
+        // Which settings stand before a mode of corners and which behind it nobody could tell.
+        if !is_mode(&event.what) {
+            seen.settle(returns(&event.what));
+        }
         seen.act(event, run.events.get(at + 1));
     }
     seen.settle(false);
@@ -132,6 +135,12 @@ fn prompt(text: &str) -> &str {
         Some(rest) => rest.trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start(),
         None => rest,
     }
+}
+
+/// True for a mode of corners or ramps, or a limit on reading ahead: it acts in the moves behind it.
+pub fn is_mode(what: &Happening) -> bool {
+    let Happening::Other { operation, .. } = what else { return false };
+    operation.group() == Group::PathMode || *operation == Op::LimitLookahead
 }
 
 /// True for the end of a program that others call.

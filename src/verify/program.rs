@@ -6,6 +6,7 @@ use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha25
 use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::inputs::{inputs, is_called};
 use super::names::{Names, Side};
+use super::rounding::hangs_on_rounding;
 use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Effort, Outcome};
 use crate::control::trace::{Event, Happening};
@@ -219,6 +220,19 @@ impl<'v, 'j> Verifier<'v, 'j> {
                     "an arc of the source ends {off:.3} mm off its circle: no source says what comes of it"
                 );
                 self.because(Why::SourceAlarms, &text);
+            }
+            Some(_)
+                if hangs_on_rounding(
+                    self.job,
+                    self.tolerance,
+                    (self.program, scenario, run),
+                    (there, &circumstances, &other),
+                ) =>
+            {
+                let text =
+                    "behaviour:word.rounds.to.increment is not confirmed, and decides what is read back";
+                self.unconfirmed.insert("behaviour:word.rounds.to.increment".into(), false);
+                self.because(Why::Unconfirmed, text);
             }
             Some(difference) => {
                 let spot = |run: &Run, event: Option<&Event>| {

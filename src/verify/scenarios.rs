@@ -248,6 +248,16 @@ pub fn on_target(
             out.variables.insert(name, *value);
         }
     }
+    // What a program that is called finds its callers have seen to, whether it is known to read it or not.
+    if called {
+        let never_vacant =
+            |name: &String| class_of(source.control, name).is_some_and(|class| !class.nullable);
+        for name in names.variables.keys().filter(|name| never_vacant(name)) {
+            if let Some(there) = names.variable(name, source.control, target.control) {
+                out.variables.entry(there).or_insert(0.0);
+            }
+        }
+    }
     // Emulations take more blocks than what they stand for.
     out.steps = scenario.steps.saturating_mul(20);
     out

@@ -5,7 +5,8 @@
 //! needs it is undecided, and the certificate names what a person must accept.
 
 use super::names::Side;
-use crate::canon::{Group, Op};
+use super::observe::is_mode;
+use crate::canon::Op;
 use crate::control::trace::Happening;
 use std::collections::BTreeMap;
 
@@ -21,8 +22,8 @@ pub fn stands_for(target: &Side<'_>, source: &Happening, there: &Happening) -> O
 /// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
 pub fn is_left_out(target: &Side<'_>, source: &Happening) -> Option<String> {
     let Happening::Other { operation, .. } = source else { return None };
-    let quiet = operation.group() == Group::PathMode || *operation == Op::LimitLookahead;
-    (quiet && lacks(target, *operation)).then(|| format!("the target has no {operation}: it is left out"))
+    (is_mode(source) && lacks(target, *operation))
+        .then(|| format!("the target has no {operation}: it is left out"))
 }
 
 /// A return with no work offset in force, where the target always has one. The conversion marks the moves of the
@@ -30,6 +31,14 @@ pub fn is_left_out(target: &Side<'_>, source: &Happening) -> Option<String> {
 pub fn cannot_cancel(target: &Side<'_>, source: &Happening) -> Option<String> {
     let none = matches!(source, Happening::WorkOffset { number: 0 }) && lacks(target, Op::ShiftCancel);
     none.then(|| "it returns with all zero shifts cancelled, which the target cannot do".to_owned())
+}
+
+/// A move at feed of a source that was given no feed: what its control does then no source says.
+pub fn has_no_feed(source: &Happening) -> Option<String> {
+    let none = matches!(source, Happening::Feed { feed: 0.0, .. } | Happening::Arc { feed: 0.0, .. });
+    none.then(|| {
+        "the source moves at feed where no feed was given: what comes of it no source says".to_owned()
+    })
 }
 
 /// What the target does and nobody could tell: it reads ahead less far.

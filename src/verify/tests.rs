@@ -1,6 +1,7 @@
 //! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
 
 mod callers;
+mod random;
 
 use super::{Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
 use crate::control::LoadedFile;
@@ -22,6 +23,12 @@ fn programs(
     (to, target): (&str, &str),
     variables: &[(&str, u32)],
 ) -> Vec<ProgramCertificate> {
+    let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
+    named((from, source), (to, target), Names { variables, ..Names::default() })
+}
+
+/// Verifies a pair of files, with what a conversion tells of its names.
+fn named((from, source): (&str, &str), (to, target): (&str, &str), names: Names) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());
     let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
     let parsed: Vec<_> = [source, target]
@@ -34,8 +41,6 @@ fn programs(
     let theirs = [LoadedFile { name: "cycle2.nc", parsed: &parsed[1] }];
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
-    let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
-    let names = Names { variables, ..Names::default() };
     let reported = BTreeMap::new();
     let effort = Effort::default();
     let job = Job { source: &source, target: &target, names: &names, reported: &reported, effort };

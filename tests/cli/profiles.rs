@@ -81,20 +81,16 @@ fn a_program_called_from_both_units_has_no_size_of_increments() {
 
 /// A table of diameters gets twice the radius; a variable that is vacant would have written nothing.
 #[test]
-fn a_doubled_value_that_may_be_vacant_is_for_review() {
+fn a_doubled_value_that_is_vacant_writes_nothing_either() {
     let shop = Shop::with(&[
-        ("a.nc", "O1\nG90 G10 L12 P3 R#2\nM99\n"),
-        ("b.nc", "O1\nG90 G10 L12 P3 R[#2+1.]\nM99\n"),
+        ("a.nc", "O1\nG91 G10 L12 P3 R#2\nM99\n"),
+        ("b.nc", "O1\n#2=1.5\nG90 G10 L12 P3 R#2\nM99\n"),
         ("m.toml", "dialect = \"haas\"\n[settings]\n40 = \"diameter\"\n"),
     ]);
     let line = "--from fanuc --to haas --machine m.toml --no-verify";
     let run = shop.run(&format!("convert a.nc {line}"));
-    assert!(
-        run.out.contains("R[#2*2]") && run.err.contains("vacant writes nothing"),
-        "{} {}",
-        run.out,
-        run.err
-    );
+    let block = "IF [#2 EQ #0] GOTO 10\nG91 G10 L12 P3 R[#2*2]\nGOTO 20\nN10 G91 G10 L12 P3\nN20 M99";
+    assert!(run.out.contains(block), "{} {}", run.out, run.err);
     let run = shop.run(&format!("convert b.nc {line}"));
-    assert!(!run.err.contains("vacant writes nothing"), "{} {}", run.out, run.err);
+    assert!(run.out.contains("R[#2*2]") && !run.out.contains("IF"), "{} {}", run.out, run.err);
 }

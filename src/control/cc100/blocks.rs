@@ -7,7 +7,7 @@ use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
 use crate::control::words::{self, Read, Spoken};
-use crate::syntax::{Block, ItemKind};
+use crate::syntax::{Block, ExprKind, ItemKind};
 use smallvec::SmallVec;
 
 /// G800: cycle nn has the code G8nn.
@@ -22,9 +22,10 @@ impl<'r> Interpreter<'r, '_> {
             match &item.kind {
                 ItemKind::Word(word) => {
                     let Some(expr) = &word.value else { continue };
+                    let computed = !matches!(expr.kind, ExprKind::Number(_));
                     let value = self.operand(expr)?;
                     self.last.insert(word.letter, value);
-                    words.push(Spoken { letter: word.letter, value });
+                    words.push(Spoken { letter: word.letter, value, computed });
                 }
                 other => {
                     if let ItemKind::Assign { target, .. } = other {
@@ -47,7 +48,7 @@ impl<'r> Interpreter<'r, '_> {
         if session.machine.cycle().is_none() {
             self.lasting.cycle = None;
         }
-        let mut read = words::read(session.control, words, &mut self.lasting, &mut session.trace)?;
+        let mut read = words::read(session, words, &mut self.lasting)?;
         self.cycle(&mut read, set);
         let session = &mut self.session;
         let command = &mut read.command;

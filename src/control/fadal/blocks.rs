@@ -42,9 +42,10 @@ impl<'r> Interpreter<'r, '_> {
                 }
                 ItemKind::Word(word) => {
                     let Some(expr) = &word.value else { continue };
+                    let computed = !matches!(expr.kind, ExprKind::Number(_));
                     self.doubt_order(expr, &line);
                     let value = self.value(expr)?;
-                    line.words.push(Spoken { letter: word.letter, value });
+                    line.words.push(Spoken { letter: word.letter, value, computed });
                 }
                 ItemKind::Assign { target, value, by_sign: true } => {
                     let value = self.value(value)?;
@@ -81,7 +82,7 @@ impl<'r> Interpreter<'r, '_> {
         if session.machine.cycle().is_none() {
             self.lasting.cycle = None;
         }
-        let mut read = words::read(session.control, &line.words, &mut self.lasting, &mut session.trace)?;
+        let mut read = words::read(session, &line.words, &mut self.lasting)?;
         self.plane(&mut read, &line);
         self.before(&read, &line, asked)?;
         self.tell(&mut read, asked)?;
@@ -151,10 +152,13 @@ impl<'r> Interpreter<'r, '_> {
                 return Err(Halt::Error("G66 stands without the subroutine that it calls".into()));
             };
             self.session.rest_on("call.modal.block.calls");
-            self.modal = Some(call);
+            if self.in_modal || !self.modal.is_empty() {
+                self.session.rest_on("call.modal.nested");
+            }
+            self.modal.push(call);
         }
         if read.flows(Op::CallModalOff) {
-            self.modal = None;
+            self.modal.pop();
         }
         if read.flows(Op::WriteVariable) {
             let value = |letter| line.words.iter().find(|word| word.letter == letter).map(|word| word.value);
@@ -173,7 +177,7 @@ impl<'r> Interpreter<'r, '_> {
     fn tell(&mut self, read: &mut Read<'r>, asked: Asked) -> Flow<()> {
         let begins = read.codes.iter().any(|row| row.op.is_cycle());
         let drills = begins || self.session.machine.cycle().is_some() && !read.command.has(Op::CycleOff);
-        let here = read.command.has(Op::CycleHere) && !drills && self.modal.is_some();
+        let here = read.command.has(Op::CycleHere) && !drills && !self.modal.is_empty();
         if here {
             read.command.ops.retain(|op| *op != Op::CycleHere);
         }

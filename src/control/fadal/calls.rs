@@ -74,12 +74,14 @@ impl Interpreter<'_, '_> {
         Ok(())
     }
 
-    /// Runs the modal subroutine, which its own moves do not run again.
+    /// Runs the innermost modal subroutine, whose own moves run those that were in force before it. That they do
+    /// no source says; a single one never runs itself.
     pub(super) fn call_modal(&mut self) -> Flow<()> {
-        let Some(call) = self.modal.filter(|_| !self.in_modal) else { return Ok(()) };
-        self.in_modal = true;
+        let all = self.modal.clone();
+        let Some(call) = self.modal.pop() else { return Ok(()) };
+        let outer = std::mem::replace(&mut self.in_modal, true);
         self.call_local(call)?;
-        self.in_modal = false;
+        (self.in_modal, self.modal) = (outer, all);
         Ok(())
     }
 

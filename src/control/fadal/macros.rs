@@ -141,7 +141,7 @@ impl Interpreter<'_, '_> {
         self.session.trace.push(Happening::Stop);
         self.at = At { section, index: 0 };
         self.level = super::Level::Main;
-        self.modal = None;
+        self.modal.clear();
         Ok(())
     }
 }

@@ -38,7 +38,7 @@ pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, 
         level: Level::Main,
         depth: 0,
         lasting: Lasting::default(),
-        modal: None,
+        modal: Vec::new(),
         in_modal: false,
         line: String::new(),
         moving: false,
@@ -85,8 +85,9 @@ struct Interpreter<'r, 'f> {
     level: Level,
     depth: u32,
     lasting: Lasting<'r>,
-    /// The subroutine of G66 and its count.
-    modal: Option<calls::Local>,
+    /// The subroutines of G66 and their counts, innermost last.
+    modal: Vec<calls::Local>,
+    /// True in a subroutine that a modal call runs.
     in_modal: bool,
     /// What PRINT left on the line of the screen.
     line: String,

@@ -108,7 +108,7 @@ impl<'c> Runner<'c> {
             self.session.trace.doubt("numbers");
         }
         Ok(Some(match bare {
-            BareLength::Increments => super::eval::to_increment(number * increment, increment),
+            BareLength::Increments => crate::control::words::to_increment(number * increment, increment),
             _ => number,
         }))
     }

@@ -100,12 +100,3 @@ impl Runner<'_> {
         if self.session.machine.is_inch() { self.rules.increment_inch } else { self.rules.increment_mm }
     }
 }
-
-/// The nearest multiple of an increment, half-way ones away from zero.
-pub fn to_increment(value: f64, increment: f64) -> f64 {
-    let count = (1.0 / increment).round();
-    let scaled = value * count;
-    // A value that means a half-way one may lie a last digit beside it.
-    let nearest = (scaled + scaled.signum() * 1e-9).round();
-    nearest / count
-}

@@ -1,12 +1,12 @@
 //! The value of a word: decimal points, least increments, whole numbers, vacancy.
 
 use super::code::{Form, Meaning, Word};
-use super::eval::to_increment;
 use super::rules::{Dwell, VacantBracket};
 use super::run::Runner;
 use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
+use crate::control::words::to_increment;
 use crate::dialect::{BareLength, CodeMeaning};
 
 /// A word's role, and the code that gives it where one does.

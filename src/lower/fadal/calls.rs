@@ -219,6 +219,9 @@ impl<'b> Lowering<'b> {
 
     fn modal(&mut self, call: Call, span: Span) -> Option<()> {
         let _ = self.rely("call.modal.block.calls", span);
+        if self.state.modal > 0 || self.state.in_modal {
+            let _ = self.rely("call.modal.nested", span);
+        }
         self.push(StmtKind::ModalCall(call));
         Some(())
     }

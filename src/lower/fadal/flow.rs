@@ -1,7 +1,7 @@
 //! Which modal state holds where: forward over the ways that control can take.
 
 use super::shape::{Goal, Shape, goal};
-use super::state::{DEFAULT_PLACES, State, Values};
+use super::state::{DEFAULT_PLACES, MOST_MODAL, State, Values};
 use super::steps::{Step, parametric, steps};
 use super::words::{Codes, word};
 use crate::canon::Op;
@@ -173,7 +173,7 @@ impl<'b> Flow<'b> {
             match row.op {
                 Op::Absolute => state.incremental = Values::one(false),
                 Op::Incremental => state.incremental = Values::one(true),
-                Op::CallModalOff => state.modal = false,
+                Op::CallModalOff if state.modal < MOST_MODAL => state.modal = state.modal.saturating_sub(1),
                 _ => {}
             }
         }
@@ -186,9 +186,15 @@ impl<'b> Flow<'b> {
             state.after_cycle = false;
             state.resumed = false;
         }
-        if state.modal && (moves || codes.has(Op::CycleHere)) {
+        if state.modal > 0 && (moves || codes.has(Op::CycleHere)) {
+            let (modal, in_modal) = (state.modal, state.in_modal);
+            // The moves of the subroutine run what was in force before it.
+            let inside = if modal < MOST_MODAL { modal - 1 } else { modal };
             for sub in self.modal_subs.clone() {
-                self.call(sub, false, run, &mut state);
+                let mut entered = State { modal: inside, in_modal: true, ..state.clone() };
+                if self.call(sub, false, run, &mut entered) {
+                    state.join(&State { modal, in_modal, ..entered });
+                }
             }
         }
         // A register code: which variable it writes is the table's, not told apart here.
@@ -201,7 +207,7 @@ impl<'b> Flow<'b> {
                 Step::Local(value) => {
                     let subs = self.callees(value, &state);
                     if modal {
-                        state.modal = true;
+                        state.modal = (state.modal + 1).min(MOST_MODAL);
                         subs.iter().for_each(|sub| {
                             if !self.modal_subs.contains(sub) {
                                 self.modal_subs.push(*sub);

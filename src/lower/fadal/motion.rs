@@ -88,6 +88,12 @@ impl<'b> Lowering<'b> {
                     "moves in the motion mode of its caller; under an arc mode it would be straight";
                 self.once(Code::ModalAssumed, "entry", span, message.into());
             }
+            if mixed && self.state.after_cycle {
+                return self.conflict(
+                    span,
+                    "a drilling cycle, or the motion mode from before one, may be in force here",
+                );
+            }
             return Some(self.after_cycle(&modes, span));
         }
         if self.state.motion_entry {

@@ -54,6 +54,9 @@ impl<T: Copy + Ord> Values<T> {
 /// Places of rounding that SET never stated.
 pub const DEFAULT_PLACES: u8 = u8::MAX;
 
+/// Modal calls in force that are counted.
+pub const MOST_MODAL: u8 = 4;
+
 /// What the program has set, on the ways that lead to a place of it.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct State {
@@ -80,8 +83,10 @@ pub struct State {
     pub places: Values<u8>,
     /// True where moves may still be to come when a statement runs.
     pub moved: bool,
-    /// True under a modal call.
-    pub modal: bool,
+    /// How many modal calls may be in force, up to [`MOST_MODAL`]; so many may be any number.
+    pub modal: u8,
+    /// True in a subroutine that a modal call may run.
+    pub in_modal: bool,
     /// The constants that R0 to R9 may hold, as bits.
     pub r: [Values<u64>; 10],
 }
@@ -115,7 +120,8 @@ impl State {
         self.radians_outside |= other.radians_outside;
         self.places.join(&other.places);
         self.moved |= other.moved;
-        self.modal |= other.modal;
+        self.modal = self.modal.max(other.modal);
+        self.in_modal |= other.in_modal;
         self.r.iter_mut().zip(&other.r).for_each(|(mine, theirs)| mine.join(theirs));
         *self != before
     }

@@ -6,9 +6,10 @@ use macroglot::diag::Code;
 use macroglot::dialect::{Control, Profile, registry};
 use macroglot::library::{self, Input, Lock, Options, convert, judge};
 use macroglot::syntax::parse_file;
-use macroglot::verify::{Effort, Outcome, Witness};
+use macroglot::verify::{Effort, Outcome, Reason, Witness};
 use std::path::PathBuf;
 use std::sync::LazyLock;
+use std::time::{Duration, Instant};
 
 /// The machines of the project file at the root, and what it leaves open of the others.
 static CONTROLS: LazyLock<[Control; 4]> = LazyLock::new(|| {
@@ -36,6 +37,10 @@ pub struct Trial {
     pub judged: Vec<(&'static str, Judgement)>,
     /// What is wrong with macroglot, by this program.
     pub faults: Vec<String>,
+    /// Why conversions are undecided, by the certificates.
+    pub reasons: Vec<Reason>,
+    /// How long it took.
+    pub took: Duration,
 }
 
 /// What became of a conversion.
@@ -50,7 +55,8 @@ pub enum Judgement {
 /// Tries a program.
 pub fn run(dialect: &str, text: &str) -> Trial {
     let control = CONTROLS.iter().find(|control| control.name() == dialect).expect("a dialect");
-    let mut faults = Vec::new();
+    let start = Instant::now();
+    let (mut faults, mut reasons) = (Vec::new(), Vec::new());
     let parsed = parse_file(text.as_bytes(), control.entry().parse);
     if parsed.print() != text.as_bytes() {
         faults.push("bytes are lost".into());
@@ -65,10 +71,10 @@ pub fn run(dialect: &str, text: &str) -> Trial {
     let alive = does_something(&execute(&loaded, ProgramRef::FIRST, control, &scenario));
     let mut judged = Vec::new();
     for target in CONTROLS.iter().filter(|target| target.name() != dialect && target.entry().emit.is_some()) {
-        judged.push((target.entry().name, judgement(text, control, target, &mut faults)));
+        judged.push((target.entry().name, judgement(text, control, target, &mut faults, &mut reasons)));
     }
     let converted = judged.iter().any(|(_, judgement)| *judgement != Judgement::Refused);
-    Trial { useful: alive && converted, judged, faults }
+    Trial { useful: alive && converted, judged, faults, reasons, took: start.elapsed() }
 }
 
 fn does_something(run: &Run) -> bool {
@@ -78,7 +84,13 @@ fn does_something(run: &Run) -> bool {
     run.end == End::Ended && (!run.variables.is_empty() || run.events.iter().any(|event| moved(&event.what)))
 }
 
-fn judgement(text: &str, source: &Control, target: &Control, faults: &mut Vec<String>) -> Judgement {
+fn judgement(
+    text: &str,
+    source: &Control,
+    target: &Control,
+    faults: &mut Vec<String>,
+    reasons: &mut Vec<Reason>,
+) -> Judgement {
     let inputs = [Input {
         path: PathBuf::from("random.nc"),
         name: "random.nc".into(),
@@ -102,6 +114,9 @@ fn judgement(text: &str, source: &Control, target: &Control, faults: &mut Vec<St
             let what = format!("to {}: differs: {}", target.name(), witness.what);
             let name = program.program.as_deref().unwrap_or("the program");
             faults.push(format!("{what}\n{written}in {name}: {}", shown(witness)));
+        }
+        if program.outcome == Outcome::Undecided {
+            reasons.extend(program.reasons.iter().cloned());
         }
         found = found.max(match program.outcome {
             Outcome::Same => Judgement::Same,

@@ -181,3 +181,13 @@ fn reads_what_is_in_force_by_group() {
     let run = lines("G90 G17 G40 G1 F300.\n#V1=G(1)\n#V2=G(2)\n#V3=G(3)\nG91\n#V5=G(5)\nM2\n");
     assert_eq!(["V1", "V2", "V3", "V5"].map(|name| run.variables[name]), [2.0, 17.0, 40.0, 91.0]);
 }
+
+/// A modal call in the subroutine of another, by each of its moves, is for somebody to look up.
+#[test]
+fn a_modal_call_in_a_modal_subroutine_runs_for_its_moves() {
+    let subs = "L100\n#V1=V1+1\nL201 G66\nX1.\nX2.\nG67\nX3.\nL200\n#V2=V2+1\nM17\nM30\n";
+    let run = lines(&format!("{subs}#CLEAR\nG0 X0\nL101 G66\nX4.\nX5.\nG67\nX6.\nM2\n"));
+    ended(&run);
+    assert_eq!((run.variables["V1"], run.variables["V2"]), (2.0, 4.0));
+    assert!(doubts(&run).contains(&"behaviour:call.modal.nested"));
+}

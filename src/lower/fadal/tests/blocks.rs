@@ -165,6 +165,7 @@ fn what_is_not_understood_refuses_the_program() {
     }
     for (source, code) in [
         ("X1. I.5", "ModalConflict"), // the caller's arc?
+        ("G1 X1.\nG81 Z-1. R0+.1\n#IF V1=1 THEN GOTO :A\nG80\n#:A\nX2.", "ModalConflict"), // drills or feeds
         ("#IF V1=1 THEN GOTO :A\nG2 X1. I1.\n#:A\nG90 X2.", "ModalConflict"), // arc or the caller's mode
     ] {
         let found = found(&format!("O1\n{source}"), "");

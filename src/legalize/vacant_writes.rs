@@ -1,0 +1,80 @@
+//! Values that are vacant, and that the target's table holds doubled or halved.
+//!
+//! Law: a word whose value is vacant is not there, so a block that writes a table with it writes nothing; twice vacant
+//! is 0, and the target would write that. So where the value may be vacant, the block stands twice: without the value
+//! under the condition that it is vacant, and with it. Side condition: only values that are scaled.
+//! Counter-example without it: `G10 L12 P3 R#2` with #2 vacant clears the radius that the source leaves alone.
+
+use super::Context;
+use super::rewrite::{Part, rebuild};
+use super::state::table_factor;
+use crate::canon::{Op, Role};
+use crate::ir::analysis::{Summaries, Vacancy};
+use crate::ir::{BlockId, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind};
+use std::collections::BTreeSet;
+
+/// Writes such blocks twice.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if table_factor(context.source, context.target).is_none_or(|factor| factor == 1.0) {
+        return;
+    }
+    let summaries = Summaries::of(module);
+    for program in &mut module.programs {
+        let places = places(program, &summaries);
+        if !places.is_empty() {
+            split(program, &places);
+        }
+    }
+}
+
+/// The statements whose value may be vacant.
+fn places(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize)> {
+    let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
+    let mut found = BTreeSet::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        vacancy.forward(id, &mut |at, may| {
+            if let Some(StmtKind::Nc(nc)) = block.stmts.get(at).map(|stmt| &stmt.kind)
+                && written(nc).is_some_and(|value| value.may_be_vacant() && may(value))
+            {
+                found.insert((id, at));
+            }
+        });
+    }
+    found
+}
+
+fn written(nc: &Nc) -> Option<&Expr> {
+    nc.word(Role::OffsetValue).filter(|_| nc.has(Op::WriteRadius))
+}
+
+fn split(program: &mut Program, places: &BTreeSet<(BlockId, usize)>) {
+    let (mut block, mut at) = (BlockId(0), 0);
+    rebuild(program, &mut |builder, part| {
+        match &part {
+            Part::Start(id) => (block, at) = (*id, 0),
+            Part::Term(_) => {}
+            Part::Stmt(stmt) => {
+                at += 1;
+                if places.contains(&(block, at - 1))
+                    && let StmtKind::Nc(nc) = &stmt.kind
+                    && let Some(value) = written(nc).cloned()
+                {
+                    let (empty, full, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
+                    let cond = Cond::Compare(Relation::Equal, value, Expr::Vacant);
+                    builder.end(TermKind::Branch { cond, yes: empty, no: full }, Site::default());
+                    builder.start(full);
+                    builder.push(stmt.kind.clone(), stmt.site.clone());
+                    builder.end(TermKind::Jump(behind), Site::default());
+                    builder.start(empty);
+                    let mut without = nc.clone();
+                    without.items.retain(|item| !matches!(item, NcItem::Word(Role::OffsetValue, _)));
+                    let site = Site { skip: stmt.site.skip, span: stmt.site.span, ..Site::default() };
+                    builder.push(StmtKind::Nc(without), site);
+                    builder.start(behind);
+                    return;
+                }
+            }
+        }
+        part.keep(builder);
+    });
+}

@@ -1,0 +1,22 @@
+//! Whether a difference hangs on what no source says of a control: if it rounds computed words.
+
+use super::compare::{Tolerance, compare};
+use super::program::Job;
+use crate::control::{ProgramRef, Run, Scenario};
+
+/// True where two runs differ only while a control rounds no computed word of which no source says whether it does.
+/// Where moves end hardly tells that; what a program reads back of a position or a table does.
+pub fn hangs_on_rounding(
+    job: &Job<'_>,
+    tolerance: Tolerance,
+    (program, scenario, run): (ProgramRef, &Scenario, &Run),
+    (there, circumstances, other): (ProgramRef, &Scenario, &Run),
+) -> bool {
+    let (source, target) = (job.source, job.target);
+    let rounded = Scenario { rounds_words: true, ..scenario.clone() };
+    let again = (source.execute)(source.files, program, source.control, &rounded);
+    let rounded = Scenario { rounds_words: true, ..circumstances.clone() };
+    let there = (target.execute)(target.files, there, target.control, &rounded);
+    let changed = again.events != run.events || there.events != other.events;
+    changed && compare((source, &again), (target, &there), job.names, tolerance).difference.is_none()
+}

@@ -1,0 +1,77 @@
+//! What random programs showed, as small as it goes.
+
+use super::*;
+
+/// One third is 0.333 where words are rounded, and stays what it is where they are not.
+#[test]
+fn what_is_read_back_of_a_word_hangs_on_whether_words_are_rounded() {
+    let source = "G90\nG1 F100\nV31=1\nV33=V31/3\nX=V33\nV32=X\nM30\n";
+    let with = |read: &str| {
+        let target = format!("O1\nG21G90G1F100.\n#501=1\n#503=#501/3\nX#503\n#502={read}\nM30\n");
+        run("cc100", source, "fanuc", &target, &[("V31", 501), ("V32", 502), ("V33", 503)])
+    };
+    let found = with("#5041");
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("word.rounds.to.increment")));
+    assert_eq!(with("#5041+0.0005").outcome, Outcome::Different);
+    assert_eq!(with("#5042").outcome, Outcome::Different);
+}
+
+/// O2 hands on a variable before it writes it: what its callers left there is a number on the source.
+#[test]
+fn what_a_called_program_hands_on_is_never_vacant() {
+    let source = "O1\nM98 P2\nM2\nO2\nM98 P3\n#R7=1\nM98 P3\nM99\nO3\nG90 G0 Y+R7\nM99\n";
+    let target =
+        "O1\nIF[#507EQ#0]THEN#507=0\nM98P2\nM2\nO2\nM98P3\n#507=1\nM98P3\nM99\nO3\nG90G0Y#507\nM99\n";
+    let found = programs(("fadal", source), ("fanuc", target), &[("R7", 507)]);
+    assert!(found.iter().all(|program| program.witness.is_none()), "{found:#?}");
+    // O1 is not called: it has to see to the variable itself.
+    let found = programs(
+        ("fadal", source),
+        ("fanuc", &target.replace("IF[#507EQ#0]THEN#507=0\n", "")),
+        &[("R7", 507)],
+    );
+    assert_eq!(found[0].outcome, Outcome::Different);
+}
+
+/// Which settings stand before a code that the target lacks, and which behind it, nobody could tell.
+#[test]
+fn settings_are_told_apart_across_a_code_that_is_left_out() {
+    let program = |ramps: &str| format!("O1\nG90 G0 X1.\nS800 M3\n{ramps}S1200 M3\nG1 X2. F10.\nM2\n");
+    let across = |target: &str| run("fadal", &program("G8\n"), "fanuc", target, &[]);
+    let found = across(&program(""));
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("left out")), "{found:#?}");
+    assert_eq!(across(&program("").replace("S1200 ", "")).outcome, Outcome::Different);
+}
+
+#[test]
+fn a_move_where_no_feed_was_given_says_nothing_of_feeds() {
+    let across = |source: &str, target: &str| run("fadal", source, "fanuc", target, &[]);
+    let found = across("G90 G1 X1.\nM2\n", "G90 G1 X1. F100.\nM2\n");
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("no feed was given")), "{found:#?}");
+    let other = across("G90 G1 X1. F50.\nM2\n", "G90 G1 X1. F100.\nM2\n");
+    assert_eq!(other.outcome, Outcome::Different);
+    assert_eq!(across("G90 G1 X1.\nM2\n", "G90 G1 X2. F100.\nM2\n").outcome, Outcome::Different);
+}
+
+/// The moves show it: with offsets of their own, a move under G53 and one under G54 end in two places.
+#[test]
+fn which_work_offset_is_selected_shows_in_the_moves_alone() {
+    let source = "G90\nG53\nG0 X1\nY2\nG54\nG0 X2\nM30\n";
+    let across = |target: &str| run("cc100", source, "fanuc", target, &[]);
+    let found = across("G90G0G53X1.\nG53Y2.\nG54X2.\nM30\n");
+    assert_ne!(found.outcome, Outcome::Different, "{:#?}", found.witness);
+    assert_eq!(across("G90G0G53X1.\nY2.\nG54X2.\nM30\n").outcome, Outcome::Different);
+}
+
+/// A register for values in between has the number of a variable that the source never touches.
+#[test]
+fn registers_for_values_in_between_are_not_compared() {
+    let (source, target) = ("O1\n#502=5\nM30\n", "O1\n#501=4\n#502=#501+1\nM30\n");
+    assert_eq!(run("fanuc", source, "haas", target, &[]).outcome, Outcome::Different);
+    let scratch = [501].into();
+    let found = named(("fanuc", source), ("haas", target), Names { scratch, ..Names::default() });
+    assert_eq!(found[0].witness, None);
+}
