@@ -4,9 +4,9 @@
 //! in the machine; a reviewer must know it, because nothing is known of it. A maker's cycle that is not
 //! in the library has no number on the target and is an error.
 
-use super::{Context, calls_of};
+use super::{Context, calls_of, span_of};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Callee, Module, StmtKind, TermKind};
+use crate::ir::{Callee, Module, TermKind};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -29,15 +29,7 @@ fn report(module: &Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
             for call in calls_of(block) {
-                let span = block
-                    .stmts
-                    .iter()
-                    .find_map(|stmt| match &stmt.kind {
-                        StmtKind::ModalCall(c) if c == call => Some(stmt.site.span),
-                        _ => None,
-                    })
-                    .unwrap_or(block.term.site.span);
-                check(&call.callee, &known, index, span, context);
+                check(&call.callee, &known, index, span_of(block, call), context);
             }
             if let TermKind::Chain(name) = &block.term.kind {
                 check(&Callee::Program(name.clone()), &known, index, block.term.site.span, context);

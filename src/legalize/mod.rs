@@ -36,6 +36,7 @@ mod messages;
 mod missing;
 mod modal;
 mod modal_calls;
+mod nesting;
 mod operator;
 mod outline;
 mod polar;
@@ -58,7 +59,7 @@ mod vacant_writes;
 
 use census::{Census, Thing};
 pub use context::Context;
-pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable};
+pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable, span_of};
 use registers::allocate;
 pub use registers::{Register, Registers};
 pub use rewrite::{Position, Prelude, Rewriter, rewrite_program};
@@ -119,6 +120,11 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "modal-calls", concerns: |c, _| c.has(Thing::Modal), run: Rewrites(modal_calls::run) },
     // Behind the modal calls: the calls that they become must look at the register too.
     Pass { name: "return-to", concerns: |c, _| c.has(Thing::ReturnTo), run: Rewrites(chain::return_to) },
+    Pass {
+        name: "nesting",
+        concerns: |c, _| c.has(Thing::Call) || c.has(Thing::LocalCall),
+        run: Reports(nesting::run),
+    },
     Pass {
         name: "polar",
         concerns: |c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance),

@@ -8,6 +8,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::ir::{Block, BlockId, Call, Callee, Module, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::syntax::ProgramName;
+use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is in force of one group.
@@ -341,6 +342,12 @@ pub fn calls_of(block: &Block) -> impl Iterator<Item = &Call> {
         TermKind::Call { call, .. } => Some(call),
         _ => None,
     })
+}
+
+/// Where a call of [`calls_of`] stands.
+pub fn span_of(block: &Block, call: &Call) -> Span {
+    let modal = block.stmts.iter().find(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(c) if c == call));
+    modal.map_or(block.term.site.span, |stmt| stmt.site.span)
 }
 
 /// The blocks that a routine entered at `entry` can run, calls stepped over.

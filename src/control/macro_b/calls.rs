@@ -185,17 +185,26 @@ impl<'c> Runner<'c> {
         Ok(Next::Block)
     }
 
-    fn check_depth(&self, frame: &Frame<'c>) -> Result<(), Halt> {
+    fn check_depth(&mut self, frame: &Frame<'c>) -> Result<(), Halt> {
         let depth = self.frames.len();
         let levels = self.memory.levels.len() - 1;
-        let limit = |name: &str| self.session.control.limit(name).map(|max| max as usize);
         let subs = depth - self.frames.iter().filter(|frame| frame.level).count();
-        let exceeds = |count: usize, name: &str| limit(name).is_some_and(|max| count > max);
-        if depth > DEEPEST
-            || exceeds(depth, "call.all")
-            || (frame.level && exceeds(levels, "call.macro"))
-            || (!frame.level && exceeds(subs, "call.subprogram"))
-        {
+        let counts = [
+            ("call.all", Some(depth)),
+            ("call.macro", frame.level.then_some(levels)),
+            ("call.subprogram", (!frame.level).then_some(subs)),
+        ];
+        let control = self.session.control;
+        for (name, count) in counts {
+            if let (Some(row), Some(count)) = (control.limit_row(name), count)
+                && row.max.is_some_and(|max| count > max as usize)
+            {
+                self.session.trace.rest_on(row);
+                return Err(Halt::Alarm(Stop::alarm(self.style.alarms.too_deep, "calls nest too deep")));
+            }
+        }
+        if depth > DEEPEST {
+            self.session.trace.doubt("limit:call.all");
             return Err(Halt::Alarm(Stop::alarm(self.style.alarms.too_deep, "calls nest too deep")));
         }
         Ok(())
