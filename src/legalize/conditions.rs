@@ -8,20 +8,28 @@
 //! temporaries first. A temporary is never vacant: where an operand of EQ or NE may be, the truth of
 //! the comparison is kept instead.
 
-use super::Context;
+use super::measure::Measure;
 use super::rewrite::{Part, highest_temp, rebuild};
+use super::{Context, oversize};
 use crate::canon::Func;
 use crate::ir::{
     BinOp, BlockId, Builder, Class, Cond, Expr, Module, Place, Program, Relation, Site, StmtKind, TermKind,
     Terminator, Var,
 };
 
-/// Splits compound conditions where the target takes one comparison only.
+/// Splits compound conditions where the target takes one comparison only, or has no room for so many.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let joined = context.target.is("condition.and.or");
+    let measure = Measure::new(context.target);
+    let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
+    let room = oversize::room(context.target).saturating_sub("WHILE [] DO1".len());
+    let fits = |cond: &Cond| {
+        let size = measure.cond(cond).bracketed();
+        size.depth <= depth && size.length <= room
+    };
     for program in &mut module.programs {
         let compound = |cond: &Cond| match cond {
-            Cond::And(_) | Cond::Or(_) => !joined || cond.has_switch(),
+            Cond::And(_) | Cond::Or(_) => !joined || cond.has_switch() || !fits(cond),
             Cond::Not(inner) => !matches!(**inner, Cond::Switch(_)),
             _ => false,
         };

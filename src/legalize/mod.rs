@@ -32,6 +32,7 @@ mod link;
 mod locked;
 mod lookahead;
 mod machine_codes;
+mod measure;
 mod messages;
 mod missing;
 mod modal;
@@ -39,6 +40,7 @@ mod modal_calls;
 mod nesting;
 mod operator;
 mod outline;
+mod oversize;
 mod polar;
 mod programmed;
 mod reference;
@@ -60,6 +62,7 @@ mod vacant_writes;
 use census::{Census, Thing};
 pub use context::Context;
 pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable, span_of};
+pub use oversize::shares_line;
 use registers::allocate;
 pub use registers::{Register, Registers};
 pub use rewrite::{Position, Prelude, Rewriter, rewrite_program};
@@ -184,6 +187,7 @@ pub const PASSES: &[Pass] = &[
         concerns: |c, _| c.has(Thing::Print),
         run: Rewrites(operator::hold_values),
     },
+    Pass { name: "oversize", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(oversize::run) },
     Pass { name: "vacancy", concerns: |c, _| c.has(Thing::Variable), run: Rewrites(vacancy::run) },
 ];
 

@@ -10,4 +10,5 @@ mod domain;
 mod dwell;
 mod functions;
 mod harness;
+mod oversize;
 mod truth;

@@ -1,7 +1,9 @@
 //! How the end of each block is written, given that blocks stand in source order.
 
 use super::loops;
+use crate::dialect::Control;
 use crate::ir::{Block, BlockId, Call, Callee, Cond, Program, Stmt, StmtKind, TermKind};
+use crate::legalize::shares_line;
 use crate::syntax::Label;
 
 /// How the end of a block is written.
@@ -57,8 +59,10 @@ pub(super) struct Plan {
 }
 
 /// What the target can write, as far as layout depends on it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Abilities {
+#[derive(Clone, Copy)]
+pub(super) struct Abilities<'c> {
+    /// The target.
+    pub control: &'c Control,
     /// `IF[..]THEN` before a macro statement.
     pub then: bool,
     /// `IF[..]THEN` before words.
@@ -150,7 +154,7 @@ impl Plan {
     pub fn new(
         program: &Program,
         arrivals: &Arrivals,
-        abilities: Abilities,
+        abilities: Abilities<'_>,
         joined: impl Fn(&Block) -> bool,
     ) -> Self {
         let count = program.blocks.len();
@@ -174,7 +178,7 @@ impl Plan {
 struct Layout<'a, F> {
     program: &'a Program,
     arrivals: &'a Arrivals,
-    abilities: Abilities,
+    abilities: Abilities<'a>,
     joined: F,
     forms: Vec<Option<Form>>,
 }
@@ -206,14 +210,14 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                 let Cond::Switch(level) = **inner else { return Form::Fall };
                 self.switch(at, level, no, yes)
             }
-            _ if self.is_then(at, yes, no) => Form::Then,
+            _ if self.is_then(at, cond, yes, no) => Form::Then,
             _ if yes == next => Form::If { negated: true, to: no, otherwise: None },
             _ => Form::If { negated: false, to: yes, otherwise: (no != next).then_some(no) },
         }
     }
 
     /// One statement that runs where the condition holds, and then, either way, what is behind it.
-    fn is_then(&self, at: usize, yes: BlockId, no: BlockId) -> bool {
+    fn is_then(&self, at: usize, cond: &Cond, yes: BlockId, no: BlockId) -> bool {
         let body = at + 1;
         if yes.index() != body || !self.arrivals.is_only_from(body, at) {
             return false;
@@ -235,6 +239,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                 *join == no
                     && join.index() == body + 1
                     && is_silent(block)
+                    && shares_line(self.abilities.control, cond, &stmt.kind)
                     && stmt.site.skip.is_none()
                     && (stmt.site.sequence.is_none() || one_block(stmt.site.span))
                     && ((macro_statement && self.abilities.then)

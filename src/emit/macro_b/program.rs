@@ -43,10 +43,11 @@ impl<'p> Emitter<'p> {
         })
     }
 
-    fn abilities(&self) -> Abilities {
+    fn abilities(&self) -> Abilities<'p> {
         let control = self.control;
         let depth = ["do.depth", "do.numbers"].into_iter().filter_map(|name| control.limit(name)).min();
         Abilities {
+            control,
             then: control.statement("if.then").is_some(),
             then_words: control.statement("if.then.words").is_some() || control.is("then.words"),
             loops: control.statement("while").and(depth).unwrap_or(0),

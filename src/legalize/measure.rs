@@ -1,0 +1,158 @@
+//! How many brackets an expression has inside one another, and about how many characters, where it is written with as
+//! few brackets as keep its tree.
+//!
+//! Names of registers are not known yet: they count [`REGISTER`] characters. What is counted wrong is not written
+//! wrong: the emitter counts what it has written.
+
+use crate::dialect::Control;
+use crate::ir::{BinOp, Cond, Expr, Relation};
+
+/// Characters of a register's name.
+pub(super) const REGISTER: usize = 5;
+
+/// The size of something written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Size {
+    /// Brackets inside one another.
+    pub depth: u32,
+    /// Characters.
+    pub length: usize,
+}
+
+impl Size {
+    /// The same in brackets.
+    pub fn bracketed(self) -> Size {
+        Size { depth: self.depth + 1, length: self.length + 2 }
+    }
+
+    /// Beside another, with so many characters between them.
+    pub fn beside(self, other: Size, between: usize) -> Size {
+        Size { depth: self.depth.max(other.depth), length: self.length + other.length + between }
+    }
+}
+
+/// Measures for a control.
+#[derive(Clone, Copy)]
+pub(super) struct Measure<'c> {
+    control: &'c Control,
+}
+
+impl<'c> Measure<'c> {
+    pub fn new(control: &'c Control) -> Self {
+        Self { control }
+    }
+
+    /// The size of an expression to which nothing else is joined.
+    pub fn expr(&self, e: &Expr) -> Size {
+        let mut operands = Vec::new();
+        e.exprs(&mut |operand| operands.push(self.expr(operand)));
+        self.joined(e, &operands)
+    }
+
+    /// The size of an expression whose operands have these sizes.
+    pub fn joined(&self, e: &Expr, operands: &[Size]) -> Size {
+        let all = |between: usize| {
+            let first = operands.first().copied().unwrap_or_default();
+            operands.iter().skip(1).fold(first, |sum, operand| sum.beside(*operand, between))
+        };
+        let leaf = |length: usize| Size { depth: 0, length };
+        match e {
+            Expr::Number(value) => leaf(format!("{value}").len()),
+            Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => leaf(REGISTER),
+            Expr::System(..) if operands.iter().all(|operand| operand.length <= 3) => leaf(REGISTER),
+            // `#[5201+20*#1]`.
+            Expr::System(..) => all(4).bracketed().beside(leaf(1), 8),
+            Expr::Indirect(..) => all(0).bracketed().beside(leaf(1), 0),
+            Expr::Negate(inner) => {
+                let inner = if matches!(**inner, Expr::Binary(..)) { all(0).bracketed() } else { all(0) };
+                inner.beside(leaf(1), 0)
+            }
+            Expr::Binary(op, a, b) => {
+                let rank = self.rank(meaning(*op));
+                let spaces =
+                    if matches!(op, BinOp::Add | BinOp::Sub | BinOp::Mul | BinOp::Div) { 1 } else { 5 };
+                let [left, right] = [0, 1].map(|at| operands.get(at).copied().unwrap_or_default());
+                let left = if self.binds_less(a, rank, false) { left.bracketed() } else { left };
+                let right = if self.binds_less(b, rank, true) { right.bracketed() } else { right };
+                left.beside(right, spaces)
+            }
+            Expr::Call(function, arguments) => {
+                let row = self.control.function(*function, arguments.len());
+                let name = leaf(row.map_or(5, |row| row.spelling.len()));
+                match (row.and_then(|row| row.form.as_deref()), operands) {
+                    (Some("slash"), [a, b]) => a.bracketed().beside(b.bracketed(), 1).beside(name, 0),
+                    _ => all(1).bracketed().beside(name, 0),
+                }
+            }
+            Expr::Truth(cond) => self.cond(cond).bracketed(),
+        }
+    }
+
+    /// The size of a condition, without the brackets of its IF.
+    pub fn cond(&self, cond: &Cond) -> Size {
+        match cond {
+            Cond::Compare(relation, a, b) => {
+                let rank = self.rank(comparison(*relation));
+                let side = |e: &Expr| {
+                    let size = self.expr(e);
+                    if self.binds_less(e, rank, true) { size.bracketed() } else { size }
+                };
+                side(a).beside(side(b), 4)
+            }
+            Cond::And(parts) | Cond::Or(parts) => {
+                let mut parts = parts.iter().map(|part| self.cond(part).bracketed());
+                let first = parts.next().unwrap_or_default();
+                parts.fold(first, |sum, part| sum.beside(part, 5))
+            }
+            Cond::Not(inner) => self.cond(inner),
+            Cond::Switch(_) => Size::default(),
+        }
+    }
+
+    /// Higher binds tighter; 0 where nothing confirms what stands beside it.
+    fn rank(&self, meaning: &str) -> u32 {
+        let row = self.control.operator(meaning).filter(|row| row.origin.confirmed);
+        row.map_or(0, |row| row.rank.saturating_add(1))
+    }
+
+    /// True for an operand that needs brackets beside an operator of a rank.
+    fn binds_less(&self, operand: &Expr, rank: u32, right: bool) -> bool {
+        match operand {
+            Expr::Binary(op, ..) => {
+                let own = self.rank(meaning(*op));
+                rank == 0 || own == 0 || own < rank || (right && own == rank)
+            }
+            Expr::Call(function, arguments) => {
+                let slash = self.control.function(*function, 2);
+                arguments.len() <= 2 && slash.is_some_and(|row| row.form.as_deref() == Some("slash"))
+            }
+            Expr::Negate(_) => right,
+            Expr::Number(value) => right && value.is_sign_negative(),
+            _ => false,
+        }
+    }
+}
+
+fn meaning(op: BinOp) -> &'static str {
+    match op {
+        BinOp::Add => "add",
+        BinOp::Sub => "subtract",
+        BinOp::Mul => "multiply",
+        BinOp::Div => "divide",
+        BinOp::Mod => "modulo",
+        BinOp::And => "and.bits",
+        BinOp::Or => "or.bits",
+        BinOp::Xor => "xor.bits",
+    }
+}
+
+fn comparison(relation: Relation) -> &'static str {
+    match relation {
+        Relation::Equal => "eq",
+        Relation::NotEqual => "ne",
+        Relation::Less => "lt",
+        Relation::LessEqual => "le",
+        Relation::Greater => "gt",
+        Relation::GreaterEqual => "ge",
+    }
+}
