@@ -114,12 +114,11 @@ impl Cutter<'_> {
         }
     }
 
-    fn whole(&mut self, e: Expr, position: Position) -> Expr {
+    fn whole(&mut self, e: &mut Expr, position: Position) {
         let most = self.most(position);
-        if is_leaf(&e) || most.holds(self.measure.expr(&e)) {
-            return e;
+        if !is_leaf(e) && !most.holds(self.measure.expr(e)) {
+            *e = self.cut(std::mem::replace(e, Expr::Vacant), most).0;
         }
-        self.cut(e, most).0
     }
 
     /// An expression of which nothing is larger than it may be, its size, and whether it may be taken out.

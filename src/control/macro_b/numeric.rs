@@ -285,10 +285,10 @@ impl Numeric {
         let (a, b) = (self.number(a, trace), self.number(b, trace));
         match function {
             Func::Atan => {
-                // Zero over zero has no angle; no source says what a control makes of it.
+                // Zero over zero has no angle; no source says what a control makes of it, so nothing goes on from there.
                 if a == 0.0 && b == 0.0 {
                     trace.doubt("function:atan/2");
-                    return Ok(0.0);
+                    return Err(Stop::alarm(self.alarms.domain, "ATAN of 0 and 0"));
                 }
                 let angle = (a + 0.0).atan2(b + 0.0).to_degrees();
                 self.keep(if angle < 0.0 && self.atan2_full_turn.ask(trace) { angle + 360.0 } else { angle })
