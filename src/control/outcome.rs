@@ -1,5 +1,6 @@
 //! What a run amounts to.
 
+use super::machine::Left;
 use super::trace::{Event, Place, Program};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,6 +20,9 @@ pub struct Run {
     pub steps: u64,
     /// Which branching blocks went which way.
     pub branches: Branches,
+    /// What was in force at its end; none where it did not end by itself.
+    #[serde(skip)]
+    pub left: Option<Left>,
 }
 
 /// How a run ended.

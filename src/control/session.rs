@@ -220,6 +220,7 @@ impl<'r, 'f> Session<'r, 'f> {
     /// The finished run.
     pub fn finish(mut self, halt: Halt, variables: BTreeMap<String, f64>) -> Run {
         let at = self.trace.at;
+        let left = matches!(halt, Halt::Ended(_)).then(|| self.machine.left());
         let end = match halt {
             Halt::Ended(by) => {
                 self.machine.end(by, &mut self.trace);
@@ -240,6 +241,7 @@ impl<'r, 'f> Session<'r, 'f> {
             end,
             steps: self.steps,
             branches: self.branches,
+            left,
         }
     }
 }

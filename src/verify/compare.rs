@@ -1,6 +1,7 @@
 //! Whether two runs amount to the same.
 
 use super::differ::{ANOTHER_FEED, differ};
+use super::left::left_differs;
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
@@ -33,7 +34,7 @@ impl Tolerance {
     }
 
     /// How far apart what the words of two events rounded may have put them.
-    fn between(&self, source: f64, target: f64) -> f64 {
+    pub(super) fn between(&self, source: f64, target: f64) -> f64 {
         ARITHMETIC + if self.both { source + target } else { source.max(target) }
     }
 }
@@ -86,8 +87,10 @@ pub fn compare<'r>(
     if found.difference.is_some() || is_cut(source.1) || is_cut(target.1) {
         return found;
     }
+    let left = left_differs(source, target, tolerance, &mut found.substituted);
     found.difference = end_differs(&source.1.end, &target.1.end)
         .or_else(|| variables_differ(source, target, names))
+        .or(left)
         .map(|what| Difference { source: None, target: None, what });
     found
 }

@@ -18,6 +18,7 @@ mod certificate;
 mod compare;
 mod differ;
 mod inputs;
+mod left;
 mod names;
 mod observe;
 mod paths;

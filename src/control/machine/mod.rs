@@ -11,6 +11,7 @@ mod command;
 mod cycle;
 mod expand;
 mod frame;
+mod left;
 mod motion;
 mod offsets;
 mod rounding;
@@ -22,7 +23,8 @@ mod tests;
 mod tooling;
 
 pub use command::Command;
-pub use frame::Frame;
+pub use frame::{Frame, Rotation};
+pub use left::Left;
 
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};

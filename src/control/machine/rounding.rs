@@ -29,8 +29,6 @@ pub(super) struct Rounding {
     pub cycle: f64,
     /// The plane that the cycle began at.
     initial: f64,
-    /// What the program computed from a position that was off.
-    carried: f64,
 }
 
 impl Rounding {
@@ -45,7 +43,6 @@ impl Rounding {
             turn: 0.0,
             cycle: 0.0,
             initial: 0.0,
-            carried: 0.0,
         }
     }
 }
@@ -132,15 +129,6 @@ impl Machine {
         self.rounding.axes[along] = self.rounding.initial + 2.0 * self.rounding.cycle;
     }
 
-    /// A position is read by the program: what it computes from it may be off in a way that nothing here follows.
-    pub(super) fn round_read(&mut self) {
-        if self.off_by() > 0.0 {
-            let inch = self.inch;
-            let least = if inch { self.rounding.increment_inch } else { self.rounding.increment_mm };
-            self.rounding.carried = least * self.unit();
-        }
-    }
-
     /// An axis stands where the machine knows.
     pub(super) fn round_home(&mut self, axis: usize) {
         self.rounding.axes[axis] = 0.0;
@@ -148,7 +136,7 @@ impl Machine {
 
     /// How far the machine may be off in any axis.
     pub(super) fn off_by(&self) -> f64 {
-        let Rounding { axes, frame, turn, carried, .. } = &self.rounding;
+        let Rounding { axes, frame, turn, .. } = &self.rounding;
         let mut off = axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
         if off > 0.0 && self.frame.is_shaped() {
             let scale =
@@ -160,6 +148,6 @@ impl Machine {
             let reach = self.position.iter().fold(0.0f64, |a, b| a.max(b.abs()));
             off += turn.to_radians() * reach * std::f64::consts::SQRT_2;
         }
-        off + frame.iter().sum::<f64>() + carried
+        off + frame.iter().sum::<f64>()
     }
 }

@@ -31,11 +31,6 @@ impl Machine {
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             self.place_by_offset(trace);
         }
-        if matches!(state, Sys::MachinePosition | Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition)
-            || matches!(state, Sys::AxisPosition | Sys::SetPosition | Sys::WorkOffset)
-        {
-            self.round_read();
-        }
         match state {
             Sys::TimerMs => {
                 self.clock += self.tick;

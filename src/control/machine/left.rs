@@ -1,0 +1,52 @@
+//! The state of the machine that a program leaves to whoever goes on.
+
+use super::Machine;
+use super::frame::Rotation;
+use crate::canon::{Group, Op};
+use crate::control::scenario::{AXES, Axes};
+
+/// The groups whose codes a caller may rely on.
+const MODES: [Group; 8] = [
+    Group::Motion,
+    Group::Cycle,
+    Group::Plane,
+    Group::Distance,
+    Group::FeedMode,
+    Group::Units,
+    Group::ReturnPlane,
+    Group::SpeedMode,
+];
+
+/// What is in force, besides the offsets, spindle and coolant that events tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Left {
+    /// The operation in force in each modal group.
+    pub modes: Vec<(Group, Op)>,
+    /// The feed in force, millimetres.
+    pub feed: f64,
+    /// What is added to a programmed coordinate: work offset, shifts, tool length.
+    pub shift: Axes,
+    /// How far that may be off by rounding.
+    pub rounded: f64,
+    /// Mirrored axes and about which coordinate.
+    pub mirror: [Option<f64>; AXES],
+    /// Scale factors and their centre.
+    pub scale: Option<(Axes, Axes)>,
+    /// Rotation.
+    pub rotation: Option<Rotation>,
+}
+
+impl Machine {
+    /// What is in force now.
+    pub fn left(&self) -> Left {
+        Left {
+            modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
+            feed: self.feed,
+            shift: std::array::from_fn(|axis| self.frame.shift(axis)),
+            rounded: self.off_by(),
+            mirror: self.frame.mirror,
+            scale: self.frame.scale,
+            rotation: self.frame.rotation,
+        }
+    }
+}
