@@ -6,6 +6,7 @@
 use super::compare::Tolerance;
 use super::names::Side;
 use super::observe::returns;
+use super::substitutes::lacks;
 use crate::canon::Op;
 use crate::control::Run;
 use crate::control::machine::Left;
@@ -52,7 +53,9 @@ pub fn left_differs(
     }
     let allowed = tolerance.between(ours.rounded, theirs.rounded).min(tolerance.rounded);
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;
-    if (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis])) {
+    // Where the target cannot do without a work offset, the events say so.
+    let uncancelled = ours.work == 0 && lacks(target, Op::ShiftCancel);
+    if !uncancelled && (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis])) {
         return Some("it returns with another shift of coordinates".into());
     }
     let turn = |left: &Left| left.rotation.map_or(0.0, |turn| turn.degrees);

@@ -57,6 +57,7 @@ pub fn is_builders(source: &Happening, target: &Happening) -> Option<String> {
     }
 }
 
-fn lacks(target: &Side<'_>, op: Op) -> bool {
+/// True where the target can do an operation neither by a code nor by a word.
+pub fn lacks(target: &Side<'_>, op: Op) -> bool {
     target.control.code_for(op, &BTreeMap::new()).is_none() && target.control.word_for(op).is_none()
 }

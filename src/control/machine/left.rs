@@ -24,6 +24,8 @@ pub struct Left {
     pub modes: Vec<(Group, Op)>,
     /// The feed in force, millimetres.
     pub feed: f64,
+    /// The selected work offset: 0 none.
+    pub work: u32,
     /// What is added to a programmed coordinate: work offset, shifts, tool length.
     pub shift: Axes,
     /// How far that may be off by rounding.
@@ -42,6 +44,7 @@ impl Machine {
         Left {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
             feed: self.feed,
+            work: self.frame.number,
             shift: std::array::from_fn(|axis| self.frame.shift(axis)),
             rounded: self.off_by(),
             mirror: self.frame.mirror,
