@@ -1,7 +1,7 @@
 //! Traces of the corpus keep to `docs/trace.schema.json`. The schema uses few of its language's
 //! words, so that a small checker of our own can read it whole.
 
-use macroglot::control::{LoadedFile, ProgramRef, Scenario};
+use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::{Control, registry};
 use macroglot::library::Input;
 use macroglot::report::{backplot, trace_json, trace_text};
@@ -94,7 +94,7 @@ fn traces() -> Vec<(PathBuf, String)> {
             let parsed = parse_file(&inputs[0].bytes, entry.parse);
             let library = [LoadedFile { name: &inputs[0].name, parsed: &parsed }];
             let scenario = Scenario { steps: 500, variable_events: true, ..Scenario::default() };
-            let run = execute(&library, ProgramRef::FIRST, &control, &scenario);
+            let run = execute(&Library::new(&library), ProgramRef::FIRST, &control, &scenario);
             assert!(!trace_text(&run, &inputs).is_empty());
             let plot = backplot(&run.events, &inputs[0].name);
             assert!(plot.starts_with("<svg") && !plot.contains("NaN"), "{}", path.display());
@@ -137,7 +137,7 @@ fn drawings(profile: &str, text: &str) -> String {
     let parsed = parse_file(text.as_bytes(), control.entry().parse);
     let library = [LoadedFile { name: "t.nc", parsed: &parsed }];
     let execute = control.entry().execute.expect("an emulated control");
-    let run = execute(&library, ProgramRef::FIRST, &control, &Scenario::default());
+    let run = execute(&Library::new(&library), ProgramRef::FIRST, &control, &Scenario::default());
     backplot(&run.events, "t.nc")
 }
 

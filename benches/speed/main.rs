@@ -8,7 +8,7 @@ extern crate alloc; // what pest derives names it
 
 mod inputs;
 
-use macroglot::control::{LoadedFile, ProgramRef, Scenario};
+use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::Control;
 use macroglot::syntax::parse_file;
 use pest::Parser;
@@ -195,7 +195,7 @@ fn emulate(bytes: &[u8]) -> Option<u64> {
     let parsed = parse_file(bytes, control.entry().parse);
     let file = LoadedFile { name: "main.nc", parsed: &parsed };
     let scenario = Scenario { steps: 10_000_000, events: 10_000_000, ..Scenario::default() };
-    Some((control.entry().execute?)(&[file], ProgramRef::FIRST, &control, &scenario).steps)
+    Some((control.entry().execute?)(&Library::new(&[file]), ProgramRef::FIRST, &control, &scenario).steps)
 }
 
 /// Processor seconds and peak bytes of this process, as Linux tells them.

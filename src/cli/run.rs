@@ -3,7 +3,7 @@
 use super::common::{complain, control, dialect_of, own_profile, print, read};
 use super::{FOUND, WELL};
 use crate::control::trace::Place;
-use crate::control::{End, LoadedFile, ProgramRef, Run, Scenario};
+use crate::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::library::{Input, Output, write_all};
@@ -101,7 +101,7 @@ fn execute(inputs: &[Input], control: &Control, scenario: &Scenario) -> Result<R
     let files: Vec<LoadedFile<'_>> = (inputs.iter().zip(&parsed))
         .map(|(input, parsed)| LoadedFile { name: &input.name, parsed })
         .collect();
-    Ok(execute(&files, ProgramRef::FIRST, control, scenario))
+    Ok(execute(&Library::new(&files), ProgramRef::FIRST, control, scenario))
 }
 
 /// The scenario file with what the command line adds.

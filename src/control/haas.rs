@@ -1,6 +1,6 @@
 //! The control that runs Haas macros.
 
-use super::library::{LoadedFile, ProgramRef};
+use super::library::{Library, ProgramRef};
 use super::macro_b::{self, Alarms, Style};
 use super::{Run, Scenario};
 use crate::dialect::Control;
@@ -27,6 +27,6 @@ static STYLE: Style = Style {
 };
 
 /// Runs a program. See [`super::Execute`].
-pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
     macro_b::execute(&STYLE, library, main, control, scenario)
 }

@@ -13,6 +13,22 @@ pub struct LoadedFile<'f> {
     pub parsed: &'f ParsedFile<'f>,
 }
 
+/// Files that call each other, and the programs in them.
+#[derive(Clone, Debug)]
+pub struct Library<'f> {
+    /// The files.
+    pub files: &'f [LoadedFile<'f>],
+    /// Their programs.
+    pub sections: Sections,
+}
+
+impl<'f> Library<'f> {
+    /// Finds the programs of files.
+    pub fn new(files: &'f [LoadedFile<'f>]) -> Self {
+        Self { files, sections: Sections::new(files) }
+    }
+}
+
 /// A program of a library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ProgramRef {
@@ -68,6 +84,12 @@ impl Sections {
     /// All programs; what finds one gives its place in here.
     pub fn all(&self) -> &[Section] {
         &self.all
+    }
+
+    /// The program at a place.
+    pub fn program(&self, place: usize) -> Option<ProgramRef> {
+        let file = self.all.get(place)?.file;
+        Some(ProgramRef { file, program: place.checked_sub(self.files.get(file)?.start)? })
     }
 
     /// The place of a program.

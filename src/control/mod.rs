@@ -29,7 +29,7 @@ pub(crate) mod testing;
 pub mod trace;
 mod words;
 
-pub use library::{LoadedFile, ProgramRef};
+pub use library::{Library, LoadedFile, ProgramRef};
 pub use outcome::{Branch, Branches, End, Run, Stop};
 pub use scenario::Scenario;
 pub use trace::Trace;
@@ -42,4 +42,4 @@ use crate::dialect::Control;
 /// are looked through. The run ends by itself (the end of the program, an alarm, an error)
 /// or at a bound of the scenario; nothing makes it panic.
 pub type Execute =
-    for<'f> fn(library: &[LoadedFile<'f>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run;
+    for<'f> fn(library: &Library<'f>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run;

@@ -1,6 +1,6 @@
 //! A run in the making: what an interpreter keeps besides its own variables.
 
-use super::library::{LoadedFile, ProgramRef, Sections};
+use super::library::{Library, LoadedFile, ProgramRef, Sections};
 use super::machine::Machine;
 use super::outcome::{Branches, End, Run, Stop};
 use super::scenario::Scenario;
@@ -48,9 +48,9 @@ pub struct Session<'r, 'f> {
     /// What the program meets.
     pub scenario: &'r Scenario,
     /// The files.
-    pub library: &'r [LoadedFile<'f>],
+    pub files: &'r [LoadedFile<'f>],
     /// The programs in them.
-    pub sections: Sections,
+    pub sections: &'r Sections,
     /// The machine.
     pub machine: Machine,
     /// What happened so far.
@@ -66,14 +66,14 @@ pub struct Session<'r, 'f> {
 
 impl<'r, 'f> Session<'r, 'f> {
     /// A run that has not begun.
-    pub fn new(library: &'r [LoadedFile<'f>], control: &'r Control, scenario: &'r Scenario) -> Self {
+    pub fn new(library: &'r Library<'f>, control: &'r Control, scenario: &'r Scenario) -> Self {
         let deadline =
             scenario.milliseconds.and_then(|ms| Instant::now().checked_add(Duration::from_millis(ms)));
         Self {
             control,
             scenario,
-            library,
-            sections: Sections::new(library),
+            files: library.files,
+            sections: &library.sections,
             machine: Machine::new(control, scenario),
             trace: Trace::new(scenario.events),
             branches: Branches::default(),
@@ -94,12 +94,12 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn block(&self, section: usize, index: usize) -> Option<&'r Block> {
         let section = self.sections.all().get(section)?;
         let at = section.blocks.start.checked_add(index).filter(|at| *at < section.blocks.end)?;
-        self.library.get(section.file)?.parsed.blocks.get(at)
+        self.files.get(section.file)?.parsed.blocks.get(at)
     }
 
     /// The bytes of the file that holds a section.
     pub fn source(&self, section: usize) -> &'r [u8] {
-        let file = self.sections.all().get(section).and_then(|section| self.library.get(section.file));
+        let file = self.sections.all().get(section).and_then(|section| self.files.get(section.file));
         file.map_or(&[], |file| file.parsed.source)
     }
 

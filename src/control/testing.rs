@@ -1,6 +1,6 @@
 //! What the tests of the interpreters share: running text and the corpus, and the events by kind.
 
-use super::library::{LoadedFile, ProgramRef};
+use super::library::{Library, LoadedFile, ProgramRef};
 use super::trace::{Happening, Position};
 use super::{End, Run, Scenario};
 use crate::dialect::{Control, registry};
@@ -19,7 +19,7 @@ pub fn run_on(control: &Control, files: &[(&str, &[u8])], scenario: &Scenario) -
     let loaded: Vec<LoadedFile<'_>> =
         files.iter().zip(&parsed).map(|((name, _), parsed)| LoadedFile { name, parsed }).collect();
     let entry = registry::find(control.name()).unwrap();
-    entry.execute.unwrap()(&loaded, ProgramRef::FIRST, control, scenario)
+    entry.execute.unwrap()(&Library::new(&loaded), ProgramRef::FIRST, control, scenario)
 }
 
 /// Runs a corpus program, with others of its folder as the library.

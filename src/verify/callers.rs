@@ -97,7 +97,7 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
                 continue;
             }
             let circumstances = on_target(&scenario, job.names, (job.source, job.target), false);
-            let other = (job.target.execute)(job.target.files, there, job.target.control, &circumstances);
+            let other = (job.target.execute)(&job.target.library, there, job.target.control, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
             let cut = is_cut(&run) || is_cut(&other);
             match compared.difference.or(compared.hair) {
@@ -185,7 +185,7 @@ fn scenarios<'j>(
         proposals.push(scenario);
     }
     proposals.into_iter().map(move |scenario| {
-        let run = (job.source.execute)(job.source.files, program, job.source.control, &scenario);
+        let run = (job.source.execute)(&job.source.library, program, job.source.control, &scenario);
         (scenario, run)
     })
 }

@@ -1,6 +1,6 @@
 //! The two sides, and what is called what on each.
 
-use crate::control::{Execute, LoadedFile, ProgramRef, library::Sections};
+use crate::control::{Execute, Library, LoadedFile, ProgramRef};
 use crate::dialect::{Control, VariableClass};
 use crate::syntax::{Block, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,33 +13,33 @@ pub struct Side<'a> {
     pub execute: Execute,
     /// The files.
     pub files: &'a [LoadedFile<'a>],
-    sections: Sections,
+    /// Their programs.
+    pub library: Library<'a>,
 }
 
 impl<'a> Side<'a> {
     /// A library on a control.
     pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
-        Self { control, execute, files, sections: Sections::new(files) }
+        Self { control, execute, files, library: Library::new(files) }
     }
 
     /// Its programs, in the order of files and places.
     pub fn programs(&self) -> Vec<ProgramRef> {
         let of = |file| {
             let all = (0..).map(move |program| ProgramRef { file, program });
-            all.take_while(|program| self.sections.place(*program).is_some())
+            all.take_while(|program| self.library.sections.place(*program).is_some())
         };
         (0..self.files.len()).flat_map(of).collect()
     }
 
     /// The name of a program, as written; none for one without.
     pub fn name(&self, program: ProgramRef) -> Option<&ProgramName> {
-        self.sections.all().get(self.sections.place(program)?)?.name.as_ref()
+        self.library.sections.all().get(self.library.sections.place(program)?)?.name.as_ref()
     }
 
     /// The program with this number.
     pub fn numbered(&self, number: u32) -> Option<ProgramRef> {
-        let place = self.sections.numbered(number)?;
-        self.programs().into_iter().find(|program| self.sections.place(*program) == Some(place))
+        self.library.sections.program(self.library.sections.numbered(number)?)
     }
 
     /// The blocks of a program.
@@ -50,7 +50,7 @@ impl<'a> Side<'a> {
 
     /// The blocks of a program, as a range of its file's.
     pub fn blocks(&self, program: ProgramRef) -> std::ops::Range<usize> {
-        let section = self.sections.place(program).and_then(|at| self.sections.all().get(at));
+        let section = self.library.sections.place(program).and_then(|at| self.library.sections.all().get(at));
         section.map_or(0..0, |section| section.blocks.clone())
     }
 }

@@ -160,7 +160,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
 
     fn run_source(&self, scenario: &Scenario) -> Run {
         let source = self.job.source;
-        (source.execute)(source.files, self.program, source.control, scenario)
+        (source.execute)(&source.library, self.program, source.control, scenario)
     }
 
     fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
@@ -170,7 +170,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             // Only what both did so far is compared.
             circumstances.steps = scenario.steps.saturating_mul(3);
         }
-        let other = (target.execute)(target.files, there, target.control, &circumstances);
+        let other = (target.execute)(&target.library, there, target.control, &circumstances);
         for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
             match &library_run.end {
                 End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
@@ -264,7 +264,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
     fn nudged(&self, (there, circumstances): (ProgramRef, &Scenario)) -> Run {
         let target = self.job.target;
         let nudged = Scenario { digits: Some(FEWER_DIGITS), ..circumstances.clone() };
-        (target.execute)(target.files, there, target.control, &nudged)
+        (target.execute)(&target.library, there, target.control, &nudged)
     }
 
     /// True where the target goes elsewhere, by however little, with fewer digits.

@@ -14,9 +14,9 @@ pub fn hangs_on_rounding(
 ) -> bool {
     let (source, target) = (job.source, job.target);
     let rounded = Scenario { rounds_words: true, ..scenario.clone() };
-    let again = (source.execute)(source.files, program, source.control, &rounded);
+    let again = (source.execute)(&source.library, program, source.control, &rounded);
     let rounded = Scenario { rounds_words: true, ..circumstances.clone() };
-    let there = (target.execute)(target.files, there, target.control, &rounded);
+    let there = (target.execute)(&target.library, there, target.control, &rounded);
     let changed = again.events != run.events || there.events != other.events;
     let compared = compare((source, &again), (target, &there), job.names, tolerance);
     changed && compared.difference.is_none() && compared.hair.is_none()

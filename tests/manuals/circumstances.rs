@@ -1,7 +1,7 @@
 //! The first two parts of a case: what the program meets, and its text.
 
 use crate::support::root;
-use macroglot::control::{LoadedFile, ProgramRef, Run, Scenario};
+use macroglot::control::{Library, LoadedFile, ProgramRef, Run, Scenario};
 use macroglot::dialect::Control;
 use macroglot::syntax::parse_file;
 
@@ -104,5 +104,10 @@ pub fn run(dialect: &str, words: &str, source: &str) -> Run {
     let parsed: Vec<_> = files.iter().map(|(_, text)| parse_file(text, control.entry().parse)).collect();
     let loaded: Vec<LoadedFile<'_>> =
         files.iter().zip(&parsed).map(|((name, _), parsed)| LoadedFile { name, parsed }).collect();
-    control.entry().execute.expect("an emulated control")(&loaded, ProgramRef::FIRST, &control, &scenario)
+    control.entry().execute.expect("an emulated control")(
+        &Library::new(&loaded),
+        ProgramRef::FIRST,
+        &control,
+        &scenario,
+    )
 }

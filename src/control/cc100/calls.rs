@@ -57,7 +57,7 @@ impl Interpreter<'_, '_> {
 
     /// G8nn: runs a cycle.
     pub(super) fn call_cycle(&mut self, number: u32) -> Flow<()> {
-        let file = self.session.library.iter().position(|file| cycle_number(file.name) == Some(number));
+        let file = self.session.files.iter().position(|file| cycle_number(file.name) == Some(number));
         let Some(file) = file else {
             return Err(Halt::Error(format!(
                 "cycle {number} is not in the library, in a file named cycle{number:02}"
@@ -70,7 +70,7 @@ impl Interpreter<'_, '_> {
     /// True while the blocks of a cycle run.
     pub(super) fn in_cycle(&self) -> bool {
         let file = self.session.sections.all().get(self.at.section).map(|section| section.file);
-        let file = file.and_then(|file| self.session.library.get(file));
+        let file = file.and_then(|file| self.session.files.get(file));
         file.is_some_and(|file| cycle_number(file.name).is_some())
     }
 

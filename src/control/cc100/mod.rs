@@ -10,7 +10,7 @@ mod store;
 mod tests;
 mod values;
 
-use super::library::{LoadedFile, ProgramRef};
+use super::library::{Library, ProgramRef};
 use super::outcome::Run;
 use super::scenario::Scenario;
 use super::session::{Flow, Halt, Session};
@@ -26,7 +26,7 @@ use store::Store;
 ///
 /// The files of the library named `cycle20...` and so on are the cycles: G820 runs the first
 /// program of `cycle20...`.
-pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
     let mut interpreter = Interpreter {
         session: Session::new(library, control, scenario),
         store: Store::new(scenario),

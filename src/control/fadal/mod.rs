@@ -14,7 +14,7 @@ mod system;
 mod tests;
 mod values;
 
-use super::library::{LoadedFile, ProgramRef};
+use super::library::{Library, ProgramRef};
 use super::outcome::Run;
 use super::scenario::Scenario;
 use super::session::{Flow, Halt, Session};
@@ -28,7 +28,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// Runs a program on the emulated control; [`super::Execute`].
-pub fn execute(library: &[LoadedFile<'_>], main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
     let session = Session::new(library, control, scenario);
     let mut interpreter = Interpreter {
         session,

@@ -8,7 +8,7 @@ use super::numeric::Numeric;
 use super::rules::Rules;
 use super::{Style, meaning};
 use crate::canon::{Op, Role};
-use crate::control::library::{LoadedFile, ProgramRef};
+use crate::control::library::{Library, ProgramRef};
 use crate::control::machine::Command;
 use crate::control::outcome::{Run, Stop};
 use crate::control::scenario::Scenario;
@@ -61,7 +61,7 @@ pub struct Runner<'c> {
 /// Runs a program of a library.
 pub fn execute(
     style: &'static Style,
-    library: &[LoadedFile<'_>],
+    library: &Library<'_>,
     main: ProgramRef,
     control: &Control,
     scenario: &Scenario,
@@ -77,7 +77,7 @@ pub fn execute(
 impl<'c> Runner<'c> {
     fn new(
         style: &'static Style,
-        library: &'c [LoadedFile<'c>],
+        library: &'c Library<'c>,
         control: &'c Control,
         scenario: &'c Scenario,
     ) -> Self {
@@ -120,7 +120,7 @@ impl<'c> Runner<'c> {
         }
         let number = self.session.program_number(section);
         let found = self.session.sections.all().get(section);
-        let file = found.and_then(|found| self.session.library.get(found.file));
+        let file = found.and_then(|found| self.session.files.get(found.file));
         let code = match (found, file) {
             (Some(found), Some(file)) => {
                 let (control, branches) = (self.session.control, &mut self.branches);

@@ -5,7 +5,7 @@ mod programs;
 mod values;
 
 use crate::control::trace::Happening;
-use crate::control::{End, LoadedFile, ProgramRef, Run, Scenario};
+use crate::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::dialect::Control;
 use crate::syntax::parse_file;
 
@@ -16,7 +16,7 @@ fn run_on(control: &Control, texts: &[&str], scenario: &Scenario) -> Run {
     let files: Vec<LoadedFile<'_>> =
         parsed.iter().map(|parsed| LoadedFile { name: "test.nc", parsed }).collect();
     let execute = entry.execute.expect("the control is emulated");
-    execute(&files, ProgramRef::FIRST, control, scenario)
+    execute(&Library::new(&files), ProgramRef::FIRST, control, scenario)
 }
 
 fn fanuc(text: &str) -> Run {

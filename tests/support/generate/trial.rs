@@ -1,7 +1,7 @@
 //! One program through the whole line: read, converted, verified on the emulated controls.
 
 use macroglot::control::trace::Happening;
-use macroglot::control::{End, LoadedFile, ProgramRef, Run, Scenario};
+use macroglot::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use macroglot::diag::Code;
 use macroglot::dialect::{Control, Profile, registry};
 use macroglot::library::{self, Input, Lock, Options, convert, judge};
@@ -68,7 +68,7 @@ pub fn run(dialect: &str, text: &str) -> Trial {
     let loaded = [LoadedFile { name: "random.nc", parsed: &parsed }];
     let execute = control.entry().execute.expect("an emulated control");
     let scenario = Scenario { steps: EFFORT.steps, events: 5000, ..Scenario::default() };
-    let alive = does_something(&execute(&loaded, ProgramRef::FIRST, control, &scenario));
+    let alive = does_something(&execute(&Library::new(&loaded), ProgramRef::FIRST, control, &scenario));
     let mut judged = Vec::new();
     for target in CONTROLS.iter().filter(|target| target.name() != dialect && target.entry().emit.is_some()) {
         judged.push((target.entry().name, judgement(text, control, target, &mut faults, &mut reasons)));
