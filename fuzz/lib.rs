@@ -1,6 +1,6 @@
 //! What the fuzz targets share.
 
-use macroglot::control::{LoadedFile, ProgramRef, Scenario};
+use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::Control;
 use macroglot::library::{Input, Lock, Options, convert, detect};
 use macroglot::syntax::{for_each_expr, for_each_item, parse_file, parse_totals};
@@ -40,7 +40,7 @@ pub fn no_panic(dialect: &str, program: &[u8]) {
     if let Some(execute) = source.entry().execute {
         let files = [LoadedFile { name: "fuzz.nc", parsed: &parsed }];
         let scenario = Scenario { steps: 500, events: 2000, ..Scenario::default() };
-        execute(&files, ProgramRef::FIRST, &source, &scenario);
+        execute(&Library::new(&files), ProgramRef::FIRST, &source, &scenario);
     }
     let inputs = [Input { path: PathBuf::from("fuzz.nc"), name: "fuzz.nc".into(), bytes: program.to_vec() }];
     detect(&inputs);
