@@ -42,6 +42,7 @@ mod operator;
 mod outline;
 mod oversize;
 mod polar;
+mod probe_points;
 mod programmed;
 mod reference;
 mod registers;
@@ -153,6 +154,11 @@ pub const PASSES: &[Pass] = &[
         name: "vacant-writes",
         concerns: |c, _| c.op(Op::WriteRadius) && c.has(Thing::Variable),
         run: Rewrites(vacant_writes::run),
+    },
+    Pass {
+        name: "probe-points",
+        concerns: |c, _| c.role(Role::ProbePoint),
+        run: Rewrites(probe_points::run),
     },
     Pass {
         name: "state",

@@ -156,6 +156,9 @@ fn probe(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     };
     machine.position = to;
     machine.probed = to;
+    if let Some(point) = command.word(Role::ProbePoint) {
+        machine.keep_touch_point(point.round().max(0.0) as u32);
+    }
     trace.push(Happening::Probe {
         from: Position(from),
         aim: Position(aim),

@@ -110,6 +110,14 @@ impl Machine {
         })
     }
 
+    /// Keeps the place where the probe touched under a number, in the coordinates and the unit of the program.
+    pub fn keep_touch_point(&mut self, point: u32) {
+        for axis in 1..=AXES as u32 {
+            let place = self.peek(Sys::SkipPosition, &[axis]).unwrap_or(0.0);
+            self.cells.insert(cell(Sys::ProbePoint, &[axis, point]), place);
+        }
+    }
+
     /// Writes state, lengths in the units of the program. Alarms and stops are the interpreter's.
     pub fn write(
         &mut self,

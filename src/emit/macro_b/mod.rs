@@ -55,6 +55,7 @@ pub fn emit<'a>(names: &'a Naming, control: &'a Control, style: &'static Style) 
             span: Span::default(),
             line: Line::default(),
             depth: 0,
+            holds_back: false,
             nested: 0,
             place: expressions::Place::Statement,
         };
@@ -78,6 +79,8 @@ struct Emitter<'p> {
     line: Line<'p>,
     /// Brackets that are open.
     depth: u32,
+    /// True behind a limit on reading ahead: empty blocks there have their use.
+    holds_back: bool,
     /// Expressions that are being written inside one another.
     nested: u32,
     place: expressions::Place,

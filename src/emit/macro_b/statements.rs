@@ -10,8 +10,12 @@ use crate::ir::{Block, Expr, Nc, NcItem, OutputPart, Place, Site, Stmt, StmtKind
 impl<'p> Emitter<'p> {
     /// Writes a statement on a line of its own.
     pub(super) fn statement(&mut self, stmt: &'p Stmt) {
+        let held = std::mem::replace(&mut self.holds_back, false);
         match &stmt.kind {
-            StmtKind::Remark => self.remark(&stmt.site),
+            StmtKind::Remark => {
+                self.remark(&stmt.site, held);
+                self.holds_back = held;
+            }
             StmtKind::Nc(_) => {
                 self.begin(&stmt.site, Kind::Words, None);
                 self.words_of(stmt);
@@ -31,6 +35,7 @@ impl<'p> Emitter<'p> {
                 self.begin(&stmt.site, if alone { Kind::Alone } else { Kind::Words }, None);
                 self.special(kind);
                 self.finish();
+                self.holds_back = matches!(kind, StmtKind::LimitLookahead(_));
             }
         }
     }
@@ -54,14 +59,15 @@ impl<'p> Emitter<'p> {
         }
     }
 
-    /// Writes a comment, or an empty block.
-    fn remark(&mut self, site: &'p Site) {
+    /// Writes a comment, or an empty block: one for a block of the source, and all that hold back a control that
+    /// reads ahead.
+    fn remark(&mut self, site: &'p Site, held: bool) {
         let repeated = self.is_last_span(site.span);
         self.carry(site);
         if self.is_waiting() {
             self.begin(site, Kind::Words, None);
             self.finish();
-        } else if !repeated && !site.span.is_empty() {
+        } else if (held || !repeated) && !site.span.is_empty() {
             self.begin(site, Kind::Words, None);
             self.word(";");
             self.finish();
