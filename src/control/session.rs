@@ -116,7 +116,7 @@ impl<'r, 'f> Session<'r, 'f> {
         };
         let file = found.map_or(0, |section| section.file);
         let number = self.programs.len() as u32;
-        self.programs.push(Program { file, name });
+        self.programs.push(Program { file, name, inch: self.machine.is_inch() });
         self.numbers.insert(section, number);
         number
     }

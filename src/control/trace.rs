@@ -54,6 +54,9 @@ pub struct Program {
     pub file: usize,
     /// Its name: `O1234`; empty where it has none.
     pub name: String,
+    /// True where lengths were in inches when it was come to first.
+    #[serde(skip)]
+    pub inch: bool,
 }
 
 /// The events of a run in the making.

@@ -10,10 +10,10 @@ use super::inputs::{calls, inputs};
 use super::program::{Job, stops_by_itself};
 use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Outcome, ProgramCertificate};
-use crate::control::{ProgramRef, Run, Scenario};
+use crate::control::{ProgramRef, Run, Scenario, trace};
 use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A block of a library: its file and place.
 pub type Spot = (usize, Span);
@@ -192,12 +192,36 @@ fn scenarios<'j>(
 
 /// True where a run came through a program.
 fn enters(job: &Job<'_>, run: &Run, program: ProgramRef) -> bool {
-    let name = match job.source.name(program) {
-        Some(ProgramName::Number(number)) => format!("O{number}"),
-        Some(ProgramName::Name(name)) => name.clone(),
-        None => return false,
+    entry(job, run, program).is_some()
+}
+
+/// A program as a run came to it first.
+fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r trace::Program> {
+    let name = match job.source.name(program)? {
+        ProgramName::Number(number) => format!("O{number}"),
+        ProgramName::Name(name) => name.clone(),
     };
-    run.programs.iter().any(|other| other.file == program.file && other.name == name)
+    run.programs.iter().find(|other| other.file == program.file && other.name == name)
+}
+
+/// By program, the unit in which its callers' runs come to it first, true for inch; none where they come in both.
+pub fn units_given(job: &Job<'_>) -> BTreeMap<ProgramRef, Option<bool>> {
+    let all = job.source.programs();
+    let mut came: Vec<(ProgramRef, ProgramRef, bool)> = Vec::new();
+    for caller in &all {
+        for (_, run) in scenarios(job, *caller, LOOKS) {
+            let entered = all.iter().filter(|program| *program != caller);
+            came.extend(entered.filter_map(|to| Some((*caller, *to, entry(job, &run, *to)?.inch))));
+        }
+    }
+    let entered: BTreeSet<ProgramRef> = came.iter().map(|(_, to, _)| *to).collect();
+    let mut units = BTreeMap::new();
+    // Programs that others enter start in a unit of their own where they are run by themselves.
+    for (_, to, inch) in came.iter().filter(|(caller, ..)| !entered.contains(caller)) {
+        let unit = units.entry(*to).or_insert(Some(*inch));
+        *unit = unit.filter(|unit| unit == inch);
+    }
+    units
 }
 
 /// True where something happened in a block, or none is asked for.

@@ -1,8 +1,10 @@
 //! The certificate: what was run, and what came of it. `docs/certificate.md` explains its keys.
 
-use super::{Effort, NotReached, Outcome};
-use crate::control::Scenario;
+use super::{Effort, NotReached, Outcome, Side};
+use crate::control::trace::Event;
+use crate::control::{Run, Scenario};
 use crate::dialect::Control;
+use crate::text::LineIndex;
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -186,4 +188,27 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
 
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+impl Moment {
+    /// Where an event happened.
+    pub(super) fn of(side: &Side<'_>, run: &Run, event: &Event) -> Self {
+        let ran = run.programs.get(event.at.program as usize);
+        let program = ran.map_or_else(String::new, |program| program.name.clone());
+        let Some(file) = ran.and_then(|program| side.files.get(program.file)) else {
+            let event = serde_json::to_value(&event.what).unwrap_or_default();
+            return Self { file: String::new(), program, line: 0, block: String::new(), event };
+        };
+        let source = file.parsed.source;
+        let (line, _) = LineIndex::new(source).place(event.at.span.start);
+        let block =
+            source.split(|byte| *byte == b'\n').nth(line.saturating_sub(1) as usize).unwrap_or_default();
+        Self {
+            file: file.name.to_owned(),
+            program,
+            line,
+            block: String::from_utf8_lossy(block).trim_end().to_owned(),
+            event: serde_json::to_value(&event.what).unwrap_or_default(),
+        }
+    }
 }

@@ -4,6 +4,7 @@ use crate::control::{Execute, Library, LoadedFile, ProgramRef};
 use crate::dialect::{Control, VariableClass};
 use crate::syntax::{Block, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
 /// One side of a comparison: a library and the control that runs it.
 pub struct Side<'a> {
@@ -15,12 +16,14 @@ pub struct Side<'a> {
     pub files: &'a [LoadedFile<'a>],
     /// Their programs.
     pub library: Library<'a>,
+    /// The units that callers run its programs in, where anybody asked.
+    pub(super) given: OnceLock<BTreeMap<ProgramRef, Option<bool>>>,
 }
 
 impl<'a> Side<'a> {
     /// A library on a control.
     pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
-        Self { control, execute, files, library: Library::new(files) }
+        Self { control, execute, files, library: Library::new(files), given: OnceLock::new() }
     }
 
     /// Its programs, in the order of files and places.

@@ -1,7 +1,7 @@
 //! The verification of one program.
 
 use super::branches::Coverage;
-use super::callers::{Shown, implicate, through, ways};
+use super::callers::{Shown, implicate, through, units_given, ways};
 use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::inputs::{inputs, is_called};
@@ -11,7 +11,6 @@ use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Effort, Outcome};
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, ProgramRef, Run, Scenario};
-use crate::text::LineIndex;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is to be compared.
@@ -64,6 +63,8 @@ struct Verifier<'v, 'j> {
     program: ProgramRef,
     /// True where other programs of the library call it.
     called: bool,
+    /// The unit that all its callers run it in: true for inch.
+    given: Option<bool>,
     coverage: Coverage,
     reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; true for those that nobody reported.
@@ -84,10 +85,13 @@ struct Verifier<'v, 'j> {
 
 impl<'v, 'j> Verifier<'v, 'j> {
     fn new(job: &'v Job<'j>, program: ProgramRef) -> Self {
+        let called = is_called(job.source, program);
+        let given = || job.source.given.get_or_init(|| units_given(job)).get(&program).copied().flatten();
         Self {
             job,
             program,
-            called: is_called(job.source, program),
+            called,
+            given: if called { given() } else { None },
             coverage: Coverage::new(job.source, program),
             reasons: BTreeMap::new(),
             unconfirmed: BTreeMap::new(),
@@ -108,10 +112,29 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let Job { source, target, names, .. } = self.job;
         let there = names.program(source, self.program, target);
         match there {
-            Some(there) => self.search(there),
+            Some(there) => {
+                self.search(there);
+                self.alone(there);
+            }
             None => self.because(Why::NoTarget, "the target has no such program"),
         }
         self.certificate(there)
+    }
+
+    /// Looks at what the program does in the machine's own unit, where its callers run it in the other one.
+    fn alone(&mut self, there: ProgramRef) {
+        let own = unit(self.job.source, self.job.target).unwrap_or(false);
+        let Some(inch) = self.given.filter(|given| *given != own && self.witness.is_none()) else { return };
+        let mut alone = Self { given: None, ..Self::new(self.job, self.program) };
+        alone.search(there);
+        if let Some(witness) = alone.witness {
+            let unit = if inch { "inches" } else { "millimetres" };
+            let text = format!(
+                "in {unit}, as its callers run it, it does the same; in the other unit not: {}",
+                witness.what
+            );
+            self.because(Why::NotByItself, &text);
+        }
     }
 
     /// Tries the source in scenario after scenario, and compares in those that reach anything new.
@@ -122,7 +145,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..self.job.effort });
         let mut endless = 0;
         while let Some(mut scenario) = proposals.next() {
-            scenario.inch = unit(self.job.source, self.job.target).or(found.inch);
+            scenario.inch = self.given.or(unit(self.job.source, self.job.target)).or(found.inch);
             let mut run = self.run_source(&scenario);
             // A long way to its end is tried once.
             if is_cut(&run) && self.tried == 0 {
@@ -166,6 +189,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
     fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
         let Job { source, target, names, .. } = self.job;
         let mut circumstances = on_target(scenario, names, (source, target), self.called);
+        circumstances.inch = self.given.or(circumstances.inch);
         if is_cut(run) {
             // Only what both did so far is compared.
             circumstances.steps = scenario.steps.saturating_mul(3);
@@ -247,8 +271,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 self.witness = Some(Witness {
                     what: difference.what.clone(),
                     scenario: scenario.clone(),
-                    source: difference.source.map(|event| moment(source, run, event)),
-                    target: difference.target.map(|event| moment(target, &other, event)),
+                    source: difference.source.map(|event| Moment::of(source, run, event)),
+                    target: difference.target.map(|event| Moment::of(target, &other, event)),
                 });
             }
             None if self.sensitive != Some(true) && !is_cut(&other) => {
@@ -367,24 +391,5 @@ fn at_the_end(run: &Run, difference: &Difference<'_>) -> bool {
         (Some(event), Some(last)) => std::ptr::eq(event, last),
         (None, _) => true,
         _ => false,
-    }
-}
-
-fn moment(side: &Side<'_>, run: &Run, event: &Event) -> Moment {
-    let ran = run.programs.get(event.at.program as usize);
-    let program = ran.map_or_else(String::new, |program| program.name.clone());
-    let Some(file) = ran.and_then(|program| side.files.get(program.file)) else {
-        let event = serde_json::to_value(&event.what).unwrap_or_default();
-        return Moment { file: String::new(), program, line: 0, block: String::new(), event };
-    };
-    let source = file.parsed.source;
-    let (line, _) = LineIndex::new(source).place(event.at.span.start);
-    let block = source.split(|byte| *byte == b'\n').nth(line.saturating_sub(1) as usize).unwrap_or_default();
-    Moment {
-        file: file.name.to_owned(),
-        program,
-        line,
-        block: String::from_utf8_lossy(block).trim_end().to_owned(),
-        event: serde_json::to_value(&event.what).unwrap_or_default(),
     }
 }

@@ -75,3 +75,16 @@ fn registers_for_values_in_between_are_not_compared() {
     let found = named(("fanuc", source), ("haas", target), Names { scratch, ..Names::default() });
     assert_eq!(found[0].witness, None);
 }
+
+/// O1 calls O2 in inches, where a count is 0.0001: 13 of them are 0.0013. Started in millimetres O2 does something
+/// else by itself, and its caller never gives it the argument that it would take for that.
+#[test]
+fn a_called_program_is_run_in_the_unit_of_its_callers() {
+    let library =
+        |way: &str| format!("O1\nG20 G90 G0 X1.\nG65 P2\nM30\nO2\nIF [#1 EQ #0] GOTO 9\nG0 Y{way}\nN9 M99\n");
+    let across = |way: &str| programs(("haas", &library("13")), ("haas", &library(way)), &[]);
+    let found = across("0.0013");
+    assert_eq!((found[0].outcome, found[1].outcome), (Outcome::Same, Outcome::Undecided), "{found:#?}");
+    assert!(found[1].reasons.iter().any(|reason| reason.text.contains("in inches")), "{found:#?}");
+    assert_eq!(across("0.013")[1].outcome, Outcome::Different);
+}
