@@ -28,6 +28,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     };
     let stored = runs(context.source).as_deref() == Some("false");
     let summaries = Summaries::of(module);
+    let other_planes = module
+        .programs
+        .iter()
+        .flat_map(|p| &p.blocks)
+        .flat_map(|b| &b.stmts)
+        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::PlaneZx) || nc.has(Op::PlaneYz)));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let named = Programmed::of(program, &summaries, &|id| facts.at(index, id));
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -42,6 +48,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let across = across(state.op(Group::Plane));
                 let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
                 let span = stmt.site.span;
+                let asked = here || defines && stored && nc.word(Role::Repeat).is_none();
+                if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
+                    let what =
+                        "along which axis a cycle drills is not known here: write G17, G18 or G19 before it";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                    continue;
+                }
                 let what = if defines && !here && !placed && stored && nc.word(Role::Repeat).is_none() {
                     nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
                     Some(

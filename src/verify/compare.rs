@@ -169,8 +169,10 @@ impl<'r> Pairs<'_, 'r> {
     /// no axis moves for.
     fn passes(&mut self, side: usize, act: &Act<'r>) -> bool {
         let what: &Happening = &act.what;
-        if let Some((_, to)) = ends(what) {
-            let near = self.at[1 - side].is_some_and(|(other, rounded)| {
+        if let Some((from, to)) = ends(what) {
+            // Before its first move a side stands where the other began.
+            let began = self.at[side].is_none().then_some((from, 0.0));
+            let near = self.at[1 - side].or(began).is_some_and(|(other, rounded)| {
                 let allowed = self.tolerance.between(act.event.rounded, rounded);
                 apart(&to, &other) <= allowed.min(self.tolerance.rounded)
             });

@@ -124,6 +124,11 @@ impl<'b> Lowering<'b> {
         if self.state.resumed {
             let _ = self.rely("motion.after.cycle", span);
         }
+        if self.state.motion_called {
+            let message = "moves in the motion mode from before the cycle, or in one that a program called since has set";
+            self.once(Code::ModalAssumed, "called", span, message.into());
+            return Spelling::default();
+        }
         match modes {
             [row] if !self.state.motion_entry => Spelling { op: Some(row.op), drop: None },
             _ => Spelling::default(),

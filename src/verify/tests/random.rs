@@ -88,3 +88,15 @@ fn a_called_program_is_run_in_the_unit_of_its_callers() {
     assert!(found[1].reasons.iter().any(|reason| reason.text.contains("in inches")), "{found:#?}");
     assert_eq!(across("0.013")[1].outcome, Outcome::Different);
 }
+
+/// The place where the tool stands before its first move is no whole number of increments: the word rounds it.
+#[test]
+fn a_first_move_that_goes_nowhere_is_none() {
+    let source = "O1\nG90 G81 G99 Z-1. R0+.1 F5.\nM45\nG80\nM2\n";
+    let across = |y: &str| {
+        let target = format!("O1\nG90G81G99Z-1.R.1F5.L0\nX#5041Y{y}\nG80\nM2\n");
+        run("fadal", source, "fanuc", &target, &[])
+    };
+    assert_eq!(across("#5042").witness, None);
+    assert_eq!(across("[#5042+0.01]").outcome, Outcome::Different);
+}
