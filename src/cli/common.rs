@@ -8,8 +8,13 @@ use std::path::{Path, PathBuf};
 
 /// Prints data. A reader that has gone away (`| head`) is not a fault.
 pub fn print(text: &str) {
-    let mut out = io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    print_by(|out| out.write_all(text.as_bytes()));
+}
+
+/// Prints what `write` writes, piece by piece; else as [`print`].
+pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) {
+    let mut out = io::BufWriter::with_capacity(64 * 1024, io::stdout().lock());
+    let _ = write(&mut out).and_then(|()| out.flush());
 }
 
 /// Says what is wrong with the usage or the input, and yields the exit code for it.

@@ -96,7 +96,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     outputs.extend(outcome::certificates(&targets, &certificates));
     write_all(&outputs).map_err(common::complain)?;
     match arguments.format {
-        Format::Json => common::print(&report::json(&parts)),
+        Format::Json => common::print_by(|out| report::write_json(&parts, out)),
         Format::Sarif => common::print(&report::sarif(&parts)),
         Format::Text => {
             if !arguments.quiet {

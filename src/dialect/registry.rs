@@ -6,7 +6,7 @@ use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
 use crate::lower::{self, Lower};
-use crate::syntax::{self, Parser};
+use crate::syntax::{self, IsPlain, Parser};
 use std::sync::OnceLock;
 
 /// A dialect: its table, and the modules that know it by name.
@@ -19,6 +19,8 @@ pub struct Entry {
     pub table: &'static str,
     /// Reads its blocks.
     pub parse: Parser,
+    /// Knows lines that need not be read to see that they have no fault.
+    pub is_plain: IsPlain,
     /// Lowers its programs.
     pub lower: Lower,
     /// Writes programs for it; absent while it is a source only.
@@ -29,12 +31,13 @@ pub struct Entry {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $lower:expr, $emit:expr, $execute:expr) => {
+    ($name:literal, $parse:expr, $plain:expr, $lower:expr, $emit:expr, $execute:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
             table: include_str!(concat!("../../dialects/", $name, ".toml")),
             parse: $parse,
+            is_plain: $plain,
             lower: $lower,
             emit: $emit,
             execute: $execute,
@@ -44,10 +47,18 @@ macro_rules! entry {
 }
 
 static ENTRIES: [Entry; 4] = [
-    entry!("fadal", syntax::fadal::parse_line, lower::fadal::lower, None, Some(control::fadal::execute)),
+    entry!(
+        "fadal",
+        syntax::fadal::parse_line,
+        |_, _| false,
+        lower::fadal::lower,
+        None,
+        Some(control::fadal::execute)
+    ),
     entry!(
         "fanuc",
         syntax::fanuc::parse_line,
+        syntax::fanuc::is_plain,
         lower::fanuc::lower,
         Some(emit::fanuc::emit),
         Some(control::fanuc::execute)
@@ -55,11 +66,19 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "haas",
         syntax::haas::parse_line,
+        syntax::haas::is_plain,
         lower::haas::lower,
         Some(emit::haas::emit),
         Some(control::haas::execute)
     ),
-    entry!("cc100", syntax::cc100::parse_line, lower::cc100::lower, None, Some(control::cc100::execute)),
+    entry!(
+        "cc100",
+        syntax::cc100::parse_line,
+        |_, _| false,
+        lower::cc100::lower,
+        None,
+        Some(control::cc100::execute)
+    ),
 ];
 
 /// Every dialect.

@@ -1,7 +1,7 @@
 //! What stands in a library, whatever the place: by it a pass sees whether anything concerns it.
 
 use crate::canon::{Op, Role};
-use crate::ir::{Callee, Class, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var};
+use crate::ir::{BinOp, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var};
 
 /// Kinds of things, besides operations and words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +20,6 @@ pub enum Thing {
     Chain,
     /// A return to a sequence number.
     ReturnTo,
-    /// A branch.
-    Branch,
     /// A wait for the moves before it, or a limit on reading ahead.
     Wait,
     /// A print, or formatted output.
@@ -46,6 +44,12 @@ pub enum Thing {
     Indirect,
     /// Any value but a constant.
     Computed,
+    /// A function, or an operator that controls have as one or lack.
+    Function,
+    /// A comparison as a value.
+    Truth,
+    /// A branch on more than one comparison, or on none of one.
+    Compound,
 }
 
 /// A census of programs.
@@ -139,7 +143,9 @@ impl Census {
             TermKind::Call { call, .. } => self.callee(&call.callee),
             TermKind::Chain(_) => self.add(Thing::Chain),
             TermKind::Return { to: Some(_) } => self.add(Thing::ReturnTo),
-            TermKind::Branch { .. } => self.add(Thing::Branch),
+            TermKind::Branch { cond: Cond::And(_) | Cond::Or(_) | Cond::Not(_), .. } => {
+                self.add(Thing::Compound);
+            }
             TermKind::Jump(_) => return,
             _ => {}
         }
@@ -167,12 +173,32 @@ impl Census {
             Expr::Increments(_) => return self.add(Thing::Increments),
             Expr::Negate(inner) => return self.value(inner),
             Expr::Var(var) => self.variable(*var),
-            Expr::System(..) => self.add(Thing::System),
-            Expr::Indirect(..) => self.add(Thing::Indirect),
-            Expr::Vacant | Expr::Binary(..) | Expr::Call(..) | Expr::Truth(_) => {}
+            Expr::System(_, subscripts) => {
+                self.add(Thing::System);
+                subscripts.iter().for_each(|subscript| self.value(subscript));
+            }
+            Expr::Indirect(_, index) => {
+                self.add(Thing::Indirect);
+                self.value(index);
+            }
+            Expr::Binary(op, a, b) => {
+                if matches!(op, BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor) {
+                    self.add(Thing::Function);
+                }
+                self.value(a);
+                self.value(b);
+            }
+            Expr::Call(_, arguments) => {
+                self.add(Thing::Function);
+                arguments.iter().for_each(|argument| self.value(argument));
+            }
+            Expr::Truth(cond) => {
+                self.add(Thing::Truth);
+                cond.exprs(&mut |operand| self.value(operand));
+            }
+            Expr::Vacant => {}
         }
         self.add(Thing::Computed);
-        e.exprs(&mut |operand| self.value(operand));
     }
 }
 

@@ -61,6 +61,12 @@ impl Exposed {
         Self { universe, live_in }
     }
 
+    /// True where a variable is exposed at the entry of a program.
+    pub fn is_at_entry(&self, program: usize, var: Var) -> bool {
+        let row = self.live_in.get(program).and_then(|p| p.first());
+        row.is_some_and(|row| self.universe.place(var).is_some_and(|at| row.has(at)))
+    }
+
     /// What is exposed at the entry of a program.
     pub fn at_entry(&self, program: usize) -> BTreeSet<Var> {
         let row = self.live_in.get(program).and_then(|p| p.first());

@@ -184,9 +184,9 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Rewrites(substitutes::run) },
     Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Rewrites(machine_codes::run) },
     Pass { name: "missing", concerns: missing::concerns, run: Reports(missing::run) },
-    Pass { name: "functions", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(functions::run) },
-    Pass { name: "truth", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(truth::run) },
-    Pass { name: "conditions", concerns: |c, _| c.has(Thing::Branch), run: Rewrites(conditions::run) },
+    Pass { name: "functions", concerns: |c, _| c.has(Thing::Function), run: Rewrites(functions::run) },
+    Pass { name: "truth", concerns: truth::concerns, run: Rewrites(truth::run) },
+    Pass { name: "conditions", concerns: |c, _| c.has(Thing::Compound), run: Rewrites(conditions::run) },
     Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Rewrites(constants::run) },
     Pass {
         name: "printed-values",
@@ -194,16 +194,18 @@ pub const PASSES: &[Pass] = &[
         run: Rewrites(operator::hold_values),
     },
     Pass { name: "oversize", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(oversize::run) },
-    Pass { name: "vacancy", concerns: |c, _| c.has(Thing::Variable), run: Rewrites(vacancy::run) },
+    Pass { name: "vacancy", concerns: vacancy::concerns, run: Rewrites(vacancy::run) },
 ];
 
 /// Runs every pass.
 pub fn legalize(module: &mut Module, context: &mut Context<'_>) {
-    let mut census = Census::of(&module.programs);
+    let (mut census, mut fresh) = (Census::of(&module.programs), true);
     for pass in PASSES {
-        if pass.apply_to(&census, module, context) {
-            census = Census::of(&module.programs);
+        // What stood there before may be gone: then the pass finds nothing to do.
+        if !fresh && !(pass.concerns)(&census, context) {
+            (census, fresh) = (Census::of(&module.programs), true);
         }
+        fresh &= !pass.apply_to(&census, module, context);
     }
 }
 

@@ -22,31 +22,27 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
         };
         (here.is_some() && here != there).then_some(here == Some(true))
     };
-    let lives: Vec<(Var, String, bool)> = registers
-        .of
-        .iter()
-        .filter_map(|(var, r)| Some((*var, format!("{}{}", r.name, r.number), differing(var, r)?)))
-        .collect();
+    let told = |var: &Var, register: &Register| {
+        let name = format!("{}{}", register.name, register.number);
+        Some(match differing(var, register)? {
+            true => format!(
+                "{name} keeps its value over power-off on the source, not on the target, and the program reads what an earlier run left in it"
+            ),
+            false => format!(
+                "{name} is vacant after power-on on the source and keeps its value on the target, and the program reads what an earlier run left in it"
+            ),
+        })
+    };
+    let lives: Vec<(Var, String)> =
+        registers.of.iter().filter_map(|(var, register)| Some((*var, told(var, register)?))).collect();
     if lives.is_empty() {
         return;
     }
     let exposed = Exposed::of(module);
     for index in roots(module) {
-        let read = exposed.at_entry(index);
-        for (var, name, kept) in &lives {
-            if read.contains(var) {
-                let what = if *kept {
-                    format!(
-                        "{name} keeps its value over power-off on the source, not on the target, and the program reads what an earlier run left in it"
-                    )
-                } else {
-                    format!(
-                        "{name} is vacant after power-on on the source and keeps its value on the target, and the program reads what an earlier run left in it"
-                    )
-                };
-                let span = module.programs[index].site.span;
-                context.add(index, Diagnostic::new(Code::OtherRetention, span, what));
-            }
+        let span = module.programs[index].site.span;
+        for (_, what) in lives.iter().filter(|(var, _)| exposed.is_at_entry(index, *var)) {
+            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.as_str()));
         }
     }
 }

@@ -4,14 +4,17 @@
 //! Nothing is assumed of the operands; they are evaluated once, before the
 //! statement, as they would have been in it.
 
+use super::census::{Census, Thing};
 use super::{Context, Position, Prelude, Rewriter, rewrite_program};
 use crate::ir::{Expr, Module};
 
+/// True where a comparison is a value, and the target takes none.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    census.has(Thing::Truth) && !context.target.is("comparison.is.value")
+}
+
 /// Replaces truth values by temporaries that an IF sets.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if context.target.is("comparison.is.value") {
-        return;
-    }
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
     for program in &mut module.programs {
         rewrite_program(program, &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
             Expr::Truth(cond) => {

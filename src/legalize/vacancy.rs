@@ -7,17 +7,20 @@
 //! is no X word at all on the target.
 
 use super::Context;
+use super::census::{Census, Thing};
 use super::exposed::{Exposed, roots};
 use crate::ir::{
     Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, Site, Stmt, StmtKind, TermKind,
     Terminator, Var,
 };
 
+/// True where there are variables, and only the target's may be vacant.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    census.has(Thing::Variable) && !context.source.is("vacancy") && context.target.is("vacancy")
+}
+
 /// Puts guards at the head of every program where a run may begin.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if context.source.is("vacancy") || !context.target.is("vacancy") {
-        return;
-    }
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
     let exposed = Exposed::of(module);
     for index in roots(module) {
         let vars: Vec<Var> = exposed

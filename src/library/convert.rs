@@ -9,7 +9,7 @@ use crate::ir::{Module, Program, validate};
 use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
 use crate::lower::Lowered;
 use crate::opt;
-use crate::syntax::{ProgramName, parse_faults, parse_file};
+use crate::syntax::{ProgramName, parse_faults, parse_items};
 use crate::text::Span;
 use crate::verify;
 use rayon::prelude::*;
@@ -247,7 +247,7 @@ pub(super) fn make(
 /// Lowers one file; errors of reading are findings of the program they stand in.
 fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
     let entry = source.entry();
-    let parsed = parse_file(&input.bytes, entry.parse);
+    let parsed = parse_items(&input.bytes, entry.parse);
     (entry.lower)(&parsed, at, &input.name, source)
 }
 
@@ -258,18 +258,20 @@ fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Resu
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
     };
     let emitted = write(program)?;
-    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), target.entry().parse)
-        .into_iter()
-        .filter(|fault| fault.code.severity() == Severity::Error)
-        .map(|fault| {
-            let at = fault.span.start as usize;
-            let source = emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
-            let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
-            let line = emitted.text[line..].lines().next().unwrap_or_default();
-            let what = format!("the target would not read '{line}': {}", fault.message);
-            Diagnostic::new(Code::Internal, source.unwrap_or(program.site.span), what)
-        })
-        .collect();
+    let faults: Vec<Diagnostic> =
+        parse_faults(emitted.text.as_bytes(), target.entry().parse, target.entry().is_plain)
+            .into_iter()
+            .filter(|fault| fault.code.severity() == Severity::Error)
+            .map(|fault| {
+                let at = fault.span.start as usize;
+                let source =
+                    emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
+                let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
+                let line = emitted.text[line..].lines().next().unwrap_or_default();
+                let what = format!("the target would not read '{line}': {}", fault.message);
+                Diagnostic::new(Code::Internal, source.unwrap_or(program.site.span), what)
+            })
+            .collect();
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
 }
 

@@ -1,35 +1,41 @@
 //! A conversion as JSON. Its keys are a contract: `programs` with `source`, `target`, `program`,
 //! `outcome`, `diagnostics`; `totals`.
+//!
+//! It is written piece by piece: a library of many findings makes more of it than of itself.
 
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
-use crate::library::Outcome;
+use crate::library::{Outcome, ProgramReport};
+use crate::text::LineIndex;
 use crate::verify;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use std::io::{self, Write};
 
 #[derive(Serialize)]
 struct Report<'a> {
-    programs: Vec<Program<'a>>,
+    #[serde(serialize_with = "programs")]
+    programs: &'a [Part<'a>],
     totals: Totals,
 }
 
 #[derive(Serialize)]
 struct Program<'a> {
-    source: String,
+    source: &'a str,
     target: Option<String>,
     program: Option<&'a str>,
     from: &'a str,
     to: &'a str,
     outcome: Outcome,
     verdict: Option<verify::Outcome>,
-    diagnostics: Vec<Finding<'a>>,
+    #[serde(serialize_with = "findings")]
+    diagnostics: (&'a ProgramReport, &'a str, &'a LineIndex),
 }
 
 #[derive(Serialize)]
 struct Finding<'a> {
     code: Code,
     severity: Severity,
-    file: String,
+    file: &'a str,
     line: u32,
     column: u32,
     message: &'a str,
@@ -39,40 +45,56 @@ struct Finding<'a> {
 
 /// The conversions as JSON text.
 pub fn conversion(parts: &[Part<'_>]) -> String {
-    let programs = parts.iter().flat_map(programs).collect();
-    let report = Report { programs, totals: Totals::of(parts) };
-    serde_json::to_string_pretty(&report).unwrap_or_default() + "\n"
+    let mut text = Vec::new();
+    // Writing to memory cannot fail.
+    let _ = write_conversion(parts, &mut text);
+    String::from_utf8(text).unwrap_or_default()
 }
 
-fn programs<'a>(part: &Part<'a>) -> Vec<Program<'a>> {
-    let indexes = part.indexes();
-    let programs = part.conversion.programs.iter().map(|program| {
-        let file = part.inputs[program.file].path.display().to_string();
-        let diagnostics = program.diagnostics.iter().map(|d| {
-            let (line, column) = indexes[program.file].place(d.span.start);
-            Finding {
-                code: d.code,
-                severity: d.severity(),
-                file: file.clone(),
-                line,
-                column,
-                message: &d.message,
-                help: d.help.as_deref(),
+/// Writes the conversions as JSON.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_conversion(parts: &[Part<'_>], mut out: impl Write) -> io::Result<()> {
+    let report = Report { programs: parts, totals: Totals::of(parts) };
+    serde_json::to_writer_pretty(&mut out, &report)?;
+    out.write_all(b"\n")
+}
+
+fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S::Error> {
+    let files: Vec<Vec<(String, LineIndex)>> = parts.iter().map(files).collect();
+    let programs = parts.iter().zip(&files).flat_map(|(part, files)| {
+        part.conversion.programs.iter().map(move |program| {
+            let (file, index) = &files[program.file];
+            let target = part.targets.get(program.file).and_then(Option::as_ref);
+            // Another program of the same file may have been written when this one was not.
+            let target = target.filter(|_| !program.map.is_empty() || program.outcome != Outcome::Refused);
+            Program {
+                source: file,
+                target: target.map(|path| path.display().to_string()),
+                program: program.name.as_deref(),
+                from: part.from,
+                to: part.to,
+                outcome: program.outcome,
+                verdict: program.verdict,
+                diagnostics: (program, file, index),
             }
-        });
-        let target = part.targets.get(program.file).and_then(Option::as_ref);
-        // Another program of the same file may have been written when this one was not.
-        let target = target.filter(|_| !program.map.is_empty() || program.outcome != Outcome::Refused);
-        Program {
-            source: file.clone(),
-            target: target.map(|path| path.display().to_string()),
-            program: program.name.as_deref(),
-            from: part.from,
-            to: part.to,
-            outcome: program.outcome,
-            verdict: program.verdict,
-            diagnostics: diagnostics.collect(),
-        }
+        })
     });
-    programs.collect()
+    serializer.collect_seq(programs)
+}
+
+fn files(part: &Part<'_>) -> Vec<(String, LineIndex)> {
+    part.inputs.iter().map(|input| input.path.display().to_string()).zip(part.indexes()).collect()
+}
+
+fn findings<S: Serializer>(
+    (program, file, index): &(&ProgramReport, &str, &LineIndex),
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(program.diagnostics.iter().map(|d| {
+        let (line, column) = index.place(d.span.start);
+        let (message, help) = (d.message.as_str(), d.help.as_deref());
+        Finding { code: d.code, severity: d.severity(), file, line, column, message, help }
+    }))
 }

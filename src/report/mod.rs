@@ -11,7 +11,7 @@ mod totals;
 mod trace;
 
 pub use html::conversion as html;
-pub use json::conversion as json;
+pub use json::{conversion as json, write_conversion as write_json};
 pub use markdown::conversion as markdown;
 pub use part::{Part, Place};
 pub use plot::backplot;

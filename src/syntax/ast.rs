@@ -28,14 +28,12 @@ pub struct Block {
 }
 
 /// A lexeme of a block.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
     /// What kind of lexeme.
     pub kind: TokenKind,
     /// Where it was read.
     pub span: Span,
-    /// A new text for it, where it was rewritten.
-    pub edit: Option<Box<str>>,
 }
 
 /// Kinds of lexemes, as an editor would colour them.

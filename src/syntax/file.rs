@@ -11,6 +11,9 @@ use rayon::prelude::*;
 /// tile the line.
 pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
 
+/// True for a line that a dialect's parser surely reads without a fault; false where only reading tells.
+pub type IsPlain = fn(source: &[u8], line: Span) -> bool;
+
 /// A file with its blocks.
 #[derive(Clone, Debug)]
 pub struct ParsedFile<'s> {
@@ -23,7 +26,7 @@ pub struct ParsedFile<'s> {
 }
 
 impl ParsedFile<'_> {
-    /// The file's bytes, with rewritten tokens in their places.
+    /// The file's bytes.
     pub fn print(&self) -> Vec<u8> {
         let mut out = Vec::with_capacity(self.source.len());
         let mut blocks = self.blocks.iter().peekable();
@@ -56,16 +59,32 @@ const CHUNK: usize = 256 * 1024;
 
 /// Reads all blocks of `source`.
 pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
+    read(source, parser, &|_| {})
+}
+
+/// As [`parse_file`], without the tokens: a third of it, which only printing needs.
+pub fn parse_items(source: &[u8], parser: Parser) -> ParsedFile<'_> {
+    read(source, parser, &|blocks| blocks.iter_mut().for_each(|block| block.tokens = Vec::new()))
+}
+
+fn read<'s>(source: &'s [u8], parser: Parser, trim: &(dyn Fn(&mut [Block]) + Sync)) -> ParsedFile<'s> {
     let parts: Vec<(Vec<Line>, Vec<Block>)> = chunks(source)
         .into_par_iter()
         .map(|chunk| {
             let lines: Vec<Line> = chunk_lines(source, chunk).collect();
-            let mut blocks = Vec::new();
-            lines.iter().for_each(|line| parser(source, line.text, &mut blocks));
+            let mut blocks = Vec::with_capacity(lines.len());
+            for line in &lines {
+                let first = blocks.len();
+                parser(source, line.text, &mut blocks);
+                trim(&mut blocks[first..]);
+            }
             (lines, blocks)
         })
         .collect();
-    let mut file = ParsedFile { source, lines: Vec::new(), blocks: Vec::new() };
+    let (lines, blocks) =
+        (parts.iter().map(|(l, _)| l.len()).sum(), parts.iter().map(|(_, b)| b.len()).sum());
+    let mut file =
+        ParsedFile { source, lines: Vec::with_capacity(lines), blocks: Vec::with_capacity(blocks) };
     for (lines, blocks) in parts {
         file.lines.extend(lines);
         file.blocks.extend(blocks);
@@ -75,11 +94,11 @@ pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
 
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
-    fold_lines(source, parser, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
+    fold_lines(source, parser, |_, _| false, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
 }
 
 /// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat.
-pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
+pub fn parse_faults(source: &[u8], parser: Parser, is_plain: IsPlain) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
     };
@@ -87,20 +106,21 @@ pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
         a.append(&mut b);
         a
     };
-    fold_lines(source, parser, Vec::new, add, join)
+    fold_lines(source, parser, is_plain, Vec::new, add, join)
 }
 
-/// Folds the blocks of all lines in parallel; `join` is given neighbours in their order.
+/// Folds the blocks of all lines but the plain ones in parallel; `join` is given neighbours in their order.
 fn fold_lines<T: Send>(
     source: &[u8],
     parser: Parser,
+    is_plain: IsPlain,
     none: impl Fn() -> T + Sync + Send,
     add: impl Fn(&mut T, Line, &mut [Block]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let fold = |chunk| {
         let (mut out, mut blocks) = (none(), Vec::new());
-        for line in chunk_lines(source, chunk) {
+        for line in chunk_lines(source, chunk).filter(|line| !is_plain(source, line.text)) {
             blocks.clear();
             parser(source, line.text, &mut blocks);
             add(&mut out, line, &mut blocks);

@@ -33,6 +33,11 @@ pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
     macro_b::parse_line(&RULES, source, line, out);
 }
 
+/// See [`super::IsPlain`].
+pub fn is_plain(source: &[u8], line: Span) -> bool {
+    macro_b::is_plain(source, line)
+}
+
 fn read(text: &str, start: u32, row: &mut Row) -> Result<(), Reading> {
     macro_b::read::<Grammar, Rule>(Rule::block, text, start, row)
 }

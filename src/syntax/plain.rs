@@ -54,7 +54,7 @@ impl<'s> Scan<'s> {
 
     fn token(&mut self, kind: TokenKind, from: usize) -> Span {
         let span = self.span(from);
-        self.tokens.push(Token { kind, span, edit: None });
+        self.tokens.push(Token { kind, span });
         span
     }
 

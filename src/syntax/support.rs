@@ -42,7 +42,7 @@ pub(super) fn tile(
             let span = Span::new(from, to);
             let blank = span.of(source).iter().all(|byte| matches!(byte, b' ' | b'\t' | 0x00 | 0x7f));
             let kind = if blank { TokenKind::Space } else { TokenKind::Other };
-            tokens.push(Token { kind, span, edit: None });
+            tokens.push(Token { kind, span });
         }
     };
     for (kind, span) in lexemes {
@@ -50,7 +50,7 @@ pub(super) fn tile(
             continue;
         }
         gap(&mut tokens, at, span.start);
-        tokens.push(Token { kind, span, edit: None });
+        tokens.push(Token { kind, span });
         at = span.end;
     }
     gap(&mut tokens, at, line.end);
@@ -61,7 +61,7 @@ pub(super) fn tile(
 pub(super) fn unparsed(line: Span, error: SyntaxError) -> Block {
     Block {
         span: line,
-        tokens: vec![Token { kind: TokenKind::Other, span: line, edit: None }],
+        tokens: vec![Token { kind: TokenKind::Other, span: line }],
         items: vec![Item { kind: ItemKind::Unparsed, span: line }],
         errors: vec![error],
     }

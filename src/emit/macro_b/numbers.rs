@@ -50,39 +50,41 @@ impl Emitter<'_> {
 
 /// Writes a number that is not negative.
 fn write_digits(out: &mut String, value: f64) {
-    if value.fract() == 0.0 && value < EXACT {
+    if value < EXACT && value as u64 as f64 == value {
         return write_integer(out, value as u64);
     }
     // A decimal of at most 15 digits is the value's own where dividing gives the value back,
     // because that division rounds as reading the decimal does.
-    let mut scale = 1.0;
-    for places in 1..=6 {
-        scale *= 10.0;
-        let scaled = (value * scale).round();
-        if scaled < 1e15 && scaled / scale == value {
-            let (scaled, scale) = (scaled as u64, scale as u64);
-            write_integer(out, scaled / scale);
-            out.push('.');
-            return write_padded(out, scaled % scale, places);
+    let mut scaled = (value * 1e6 + 0.5) as u64;
+    if value < 1e9 && scaled as f64 / 1e6 == value {
+        let mut places = 6;
+        while scaled.is_multiple_of(10) {
+            (scaled, places) = (scaled / 10, places - 1);
         }
+        return write_decimal(out, scaled, places);
     }
     // Writing to a string cannot fail.
     let _ = write!(out, "{value}");
 }
 
 fn write_integer(out: &mut String, value: u64) {
-    let mut digits = [0u8; 20];
-    let mut at = digits.len();
-    let mut rest = value;
-    while at > 0 {
-        at -= 1;
-        digits[at] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-        if rest == 0 {
-            break;
+    write_decimal(out, value, 0);
+}
+
+/// Writes a whole number with a point before its last `places` digits, and one digit at least before the point.
+fn write_decimal(out: &mut String, value: u64, places: usize) {
+    let mut text = [b'0'; 32];
+    let (mut at, mut rest, mut written) = (text.len(), value, 0);
+    while rest > 0 || written <= places {
+        if written == places && places > 0 {
+            at -= 1;
+            text[at] = b'.';
         }
+        at -= 1;
+        text[at] = b'0' + (rest % 10) as u8;
+        (rest, written) = (rest / 10, written + 1);
     }
-    out.extend(digits[at..].iter().map(|&digit| char::from(digit)));
+    out.push_str(std::str::from_utf8(&text[at..]).unwrap_or_default());
 }
 
 /// Writes a whole number with leading zeros.
@@ -116,6 +118,11 @@ mod tests {
             (1e21, "1000000000000000000000"),
             (1.0 / 3.0, "0.3333333333333333"),
             (123456.000001, "123456.000001"),
+            (999999999.5, "999999999.5"),
+            (12345678901.5, "12345678901.5"),
+            (0.000001, "0.000001"),
+            (0.0000005, "0.0000005"),
+            (0.1 + 0.2, "0.30000000000000004"),
         ] {
             assert_eq!(digits(value), text);
         }

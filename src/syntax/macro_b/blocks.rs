@@ -43,6 +43,12 @@ pub fn parse_line(rules: &Rules, source: &[u8], line: Span, out: &mut Vec<Block>
     }
 }
 
+/// True for a line that is one block of plain words in which nothing can be wrong.
+pub fn is_plain(source: &[u8], line: Span) -> bool {
+    let mut row = Row::new();
+    scanner::scan(source, line, &mut row) == Some(line.end) && !plain::needs_check(source, &row)
+}
+
 /// A block read by the scanner.
 fn plain_block(rules: &Rules, source: &[u8], span: Span, row: &Row) -> Block {
     let plain = plain::build(source, row);
@@ -95,14 +101,14 @@ fn finish(rules: &Rules, source: &[u8], span: Span, row: &[Lexeme], tree: Tree) 
 /// A block whose text is kept and not understood.
 fn unread(span: Span, end: Option<Span>, fault: SyntaxError) -> Block {
     let text = Span::new(span.start, end.map_or(span.end, |end| end.start));
-    let mut tokens = vec![Token { kind: TokenKind::Other, span: text, edit: None }];
+    let mut tokens = vec![Token { kind: TokenKind::Other, span: text }];
     let mut items = vec![Item { kind: ItemKind::Unparsed, span: text }];
     if let Some(end) = end {
         let sign = Span::new(end.start, end.start + 1);
         items.push(Item { kind: ItemKind::EndOfBlock, span: sign });
-        tokens.push(Token { kind: TokenKind::EndOfBlock, span: sign, edit: None });
+        tokens.push(Token { kind: TokenKind::EndOfBlock, span: sign });
         if sign.end < end.end {
-            tokens.push(Token { kind: TokenKind::Space, span: Span::new(sign.end, end.end), edit: None });
+            tokens.push(Token { kind: TokenKind::Space, span: Span::new(sign.end, end.end) });
         }
     }
     Block { span, tokens, items, errors: vec![fault] }
@@ -137,7 +143,7 @@ fn is_dump_header(line: &[u8]) -> bool {
 fn outside_block(line: Span) -> Block {
     Block {
         span: line,
-        tokens: vec![Token { kind: TokenKind::Comment, span: line, edit: None }],
+        tokens: vec![Token { kind: TokenKind::Comment, span: line }],
         items: vec![Item {
             kind: ItemKind::Comment(Comment { text: line, fence: Fence::Outside }),
             span: line,

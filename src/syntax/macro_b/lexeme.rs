@@ -142,7 +142,7 @@ pub fn push(row: &mut Row, kind: Lex, span: Span, text: &[u8]) {
 
 /// Leaves as the tokens of a block.
 pub fn tokens(row: &[Lexeme]) -> Vec<Token> {
-    row.iter().map(|leaf| Token { kind: leaf.kind.token(), span: leaf.span, edit: None }).collect()
+    row.iter().map(|leaf| Token { kind: leaf.kind.token(), span: leaf.span }).collect()
 }
 
 /// Maps the `Rule` type of a dialect's grammar to [`Lex`]: the leaves have the same

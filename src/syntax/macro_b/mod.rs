@@ -22,7 +22,7 @@ mod tree;
 #[cfg(test)]
 mod tests;
 
-pub(super) use blocks::parse_line;
+pub(super) use blocks::{is_plain, parse_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
 pub(super) use rules::{Reading, Rules, read};

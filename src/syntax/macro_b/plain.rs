@@ -6,7 +6,7 @@
 
 use super::lexeme::{Lex, Lexeme};
 use super::tree::read_number;
-use crate::syntax::{Comment, Expr, ExprKind, Fence, Item, ItemKind, Word};
+use crate::syntax::{Comment, Expr, ExprKind, Fence, Item, ItemKind, Number, Word};
 use crate::text::Span;
 
 /// What a block of plain words says.
@@ -52,10 +52,7 @@ impl Plain {
     fn word(&mut self, source: &[u8], letter: Span, sign: Option<Span>, digits: Span) -> (ItemKind, u32) {
         let letter = letter.of(source).first().map_or(' ', |byte| char::from(byte.to_ascii_uppercase()));
         let number = read_number(digits.of(source));
-        self.needs_check |= match letter {
-            'G' => (65.0..67.0).contains(&number.value),
-            _ => number.point && matches!(letter, 'M' | 'S' | 'T'),
-        };
+        self.needs_check |= can_be_wrong(letter, &number);
         let constant = Expr { kind: ExprKind::Number(number), span: digits };
         let value = match sign {
             None => constant,
@@ -67,6 +64,24 @@ impl Plain {
             }
         };
         (ItemKind::Word(Word { letter, comma: false, value: Some(value), equals: false }), digits.end)
+    }
+}
+
+/// True where a word of a scanned row can be wrong.
+pub fn needs_check(source: &[u8], row: &[Lexeme]) -> bool {
+    row.iter().enumerate().filter(|(_, leaf)| leaf.kind == Lex::Letter).any(|(at, leaf)| {
+        let letter = leaf.span.of(source).first().map_or(' ', |byte| char::from(byte.to_ascii_uppercase()));
+        let number = || row.iter().skip(at).find(|leaf| leaf.kind == Lex::Number);
+        matches!(letter, 'G' | 'M' | 'S' | 'T')
+            && number().is_some_and(|leaf| can_be_wrong(letter, &read_number(leaf.span.of(source))))
+    })
+}
+
+/// A code that calls a macro, or a code, speed or tool with a point.
+fn can_be_wrong(letter: char, number: &Number) -> bool {
+    match letter {
+        'G' => (65.0..67.0).contains(&number.value),
+        _ => number.point && matches!(letter, 'M' | 'S' | 'T'),
     }
 }
 

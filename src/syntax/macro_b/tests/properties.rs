@@ -78,6 +78,9 @@ fn scanner_agrees(dialect: &Dialect, source: &[u8]) -> usize {
     for line in Lines::new(source) {
         let mut blocks = Vec::new();
         (dialect.parse_line)(source, line.text, &mut blocks);
+        if blocks::is_plain(source, line.text) {
+            assert!(blocks.len() <= 1 && blocks.iter().all(|block| block.errors.is_empty()), "{blocks:?}");
+        }
         for block in blocks {
             let mut row = Row::new();
             let Some(end) = scanner::scan(source, Span::new(block.span.start, line.text.end), &mut row)
