@@ -26,7 +26,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let runs = |control: &crate::dialect::Control| {
         control.behaviour("cycle.runs.without.axes").map(|b| b.value.clone())
     };
-    let stored = runs(context.source).as_deref() == Some("false");
+    let stored =
+        runs(context.source).as_deref() == Some("false") && runs(context.target) != runs(context.source);
     let summaries = Summaries::of(module);
     let other_planes = module
         .programs

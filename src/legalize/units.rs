@@ -87,8 +87,10 @@ fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
             let Some(block) = program.block(id) else { continue };
             let mut state = facts.at(index, id);
             for stmt in &block.stmts {
+                // A modal call that the block sets off comes behind it.
+                let before = state.op(Group::Units);
                 state.step(stmt);
-                if state.op(Group::Units).is_none() {
+                if before.or(state.op(Group::Units)).is_none() {
                     open[index] |= has_length(&stmt.kind);
                     if let StmtKind::ModalCall(call) = &stmt.kind {
                         calls[index].extend(callee(call));

@@ -53,6 +53,25 @@ fn filetests() {
     assert!(failed.is_empty(), "{} of {} failed\n{}", failed.len(), files.len(), failed.join("\n"));
 }
 
+#[test]
+fn every_pass_has_a_file_that_it_acts_on_and_one_that_it_leaves() {
+    let mut files = Vec::new();
+    gather(&Path::new(env!("CARGO_MANIFEST_DIR")).join("filetests/legalize"), &mut files);
+    let mut seen = std::collections::BTreeSet::new();
+    for file in &files {
+        let (_, case) = read(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+        seen.extend(legalize::acts(&case).unwrap_or_else(|error| panic!("{}: {error}", file.display())));
+    }
+    for pass in macroglot::legalize::PASSES {
+        assert!(
+            seen.contains(&(pass.name, true)),
+            "no filetest gives the pass '{}' anything to do",
+            pass.name
+        );
+        assert!(seen.contains(&(pass.name, false)), "no filetest shows what the pass '{}' leaves", pass.name);
+    }
+}
+
 fn gather(folder: &Path, files: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -66,15 +85,20 @@ fn gather(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-fn check(file: &Path) -> Result<(), String> {
+/// The command of a file, and the file taken apart.
+fn read(file: &Path) -> Result<(String, Case), String> {
     let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
     let head = text.lines().next().and_then(|line| line.strip_prefix("; test ")).unwrap_or_default();
     let mut words = head.split_whitespace().map(str::to_owned);
     let command = words.next().ok_or("the first line is not '; test <command>'")?;
+    Ok((command, Case { options: words.collect(), expect: expectation(&text), text }))
+}
+
+fn check(file: &Path) -> Result<(), String> {
+    let (command, case) = read(file)?;
     let known = || DRIVERS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let driver = DRIVERS.iter().find(|(name, _)| *name == command);
     let (_, driver) = driver.ok_or_else(|| format!("no command '{command}'; there are {}", known()))?;
-    let case = Case { options: words.collect(), expect: expectation(&text), text };
     match (driver(&case)?, &case.expect) {
         (None, None) => Ok(()),
         (Some(_), None) => Err("lacks '; expect:'".into()),
