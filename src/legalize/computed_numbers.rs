@@ -1,7 +1,8 @@
 //! Variables whose number is computed, where numbers mean other things on the target.
 //!
 //! Law: such a variable stays as it is where both controls mean the same by every number that it may have; in a
-//! run of system variables that the target keeps elsewhere in the same order, the distance is added. Side
+//! run of system variables that the target keeps elsewhere in the same order, the distance is added; in a run of
+//! one state that it keeps otherwise, the variable becomes that state, counted as its numbers are. Side
 //! condition, for a reviewer: the number stays in the run in which its constant part lies.
 //! Counter-example: `#[2000+#1]` with `#1` = 3 is a length offset on one control and a wear on another.
 
@@ -64,6 +65,8 @@ enum Finding {
     Alike(u32, u32),
     /// It starts in this run of a state, to whose numbers this is added.
     Shifted(Sys, u32, u32, i64),
+    /// It starts in this run of a state, whose first number has this count.
+    Counted(Sys, u32, u32, u32),
     /// It may be this number, which the target uses for something else, or not at all.
     Other(u32),
     /// Nothing.
@@ -91,6 +94,12 @@ impl Finding {
                     ),
                 )
             }
+            Finding::Counted(state, first, last, _) => (
+                Code::Conditional,
+                format!(
+                    "the number of a variable is computed: it must stay in #{first} to #{last} ('{state}')"
+                ),
+            ),
             Finding::Other(number) => (
                 Code::NoEquivalent,
                 format!(
@@ -187,7 +196,18 @@ impl<'c> Numbers<'c> {
             let around = self.runs().into_iter().find(|(from, to)| (*from..=*to).contains(&first));
             return around.map_or(Finding::Any, |(from, to)| Finding::Alike(from, to));
         }
-        self.distance(first).unwrap_or(Finding::Other(first))
+        self.distance(first).or_else(|| self.counted(first)).unwrap_or(Finding::Other(first))
+    }
+
+    /// The run of a state that is counted by one number.
+    fn counted(&self, number: u32) -> Option<Finding> {
+        let (state, _, row) =
+            self.source.read_system("#", Some(number)).filter(|(state, ..)| *state != Sys::Other)?;
+        let (first, last) = span_of(row)?;
+        match row.subscripts.as_slice() {
+            [one] if one.step == 1 && !one.axis => Some(Finding::Counted(state, first, last, one.from)),
+            _ => None,
+        }
     }
 
     /// True for the first number of a run, false for another one in it; none outside of all.
@@ -301,21 +321,29 @@ fn each_index(program: &Program, f: &mut dyn FnMut(&Expr, Span, BlockId, usize))
     }
 }
 
-/// Adds the distance to computed numbers that the target has elsewhere.
+/// Adds the distance to computed numbers that the target has elsewhere, and names what it counts otherwise.
 fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
-    let mut moved = |number: Expr| match numbers.of(&number) {
-        Finding::Shifted(.., by) => add(number, *by as f64),
-        _ => number,
+    let mut moved = |number: Expr| match *numbers.of(&number) {
+        Finding::Shifted(.., by) => Place::Indirect(Bank::Numbered, Box::new(add(number, by as f64))),
+        Finding::Counted(state, first, _, from) => {
+            let count = match add(number, f64::from(from) - f64::from(first)) {
+                // What is left of the number is the count itself.
+                Expr::Binary(BinOp::Add, zero, count) if *zero == Expr::Number(0.0) => *count,
+                count => count,
+            };
+            Place::System(state, vec![count])
+        }
+        _ => Place::Indirect(Bank::Numbered, Box::new(number)),
     };
     for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
-        if let StmtKind::Assign { target: Place::Indirect(Bank::Numbered, number), .. }
-        | StmtKind::Input { target: Place::Indirect(Bank::Numbered, number), .. } = &mut stmt.kind
+        if let StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } = &mut stmt.kind
+            && let Place::Indirect(Bank::Numbered, number) = target
         {
-            **number = moved(std::mem::replace(number.as_mut(), Expr::Vacant));
+            *target = moved(std::mem::replace(number.as_mut(), Expr::Vacant));
         }
     }
     rewrite_program(program, &mut |e, _, _| match e {
-        Expr::Indirect(Bank::Numbered, number) => Expr::Indirect(Bank::Numbered, Box::new(moved(*number))),
+        Expr::Indirect(Bank::Numbered, number) => moved(*number).read(),
         other => other,
     });
 }
