@@ -38,12 +38,14 @@ mod missing;
 mod modal;
 mod modal_calls;
 mod nesting;
+mod offset_rows;
 mod operator;
 mod outline;
 mod oversize;
 mod polar;
 mod probe_points;
 mod programmed;
+mod rapid_once;
 mod reference;
 mod registers;
 mod repeats;
@@ -142,6 +144,7 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "active-offsets", concerns: |c, _| c.has(Thing::System), run: Reports(active_offsets::run) },
     Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Rewrites(increments::run) },
     Pass { name: "units", concerns: |_, _| true, run: Rewrites(units::run) },
+    Pass { name: "rapid-once", concerns: |c, _| c.op(Op::RapidOnce), run: Rewrites(rapid_once::run) },
     Pass { name: "tapping", concerns: |c, _| c.role(Role::Lead), run: Rewrites(tapping::run) },
     Pass { name: "reference", concerns: |c, _| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
     Pass { name: "shift", concerns: |c, _| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },
@@ -152,7 +155,7 @@ pub const PASSES: &[Pass] = &[
     },
     Pass {
         name: "vacant-writes",
-        concerns: |c, _| c.op(Op::WriteRadius) && c.has(Thing::Variable),
+        concerns: |c, _| (c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear)) && c.has(Thing::Variable),
         run: Rewrites(vacant_writes::run),
     },
     Pass {
@@ -160,9 +163,10 @@ pub const PASSES: &[Pass] = &[
         concerns: |c, _| c.role(Role::ProbePoint),
         run: Rewrites(probe_points::run),
     },
+    Pass { name: "offset-rows", concerns: |c, _| c.has(Thing::System), run: Rewrites(offset_rows::run) },
     Pass {
         name: "state",
-        concerns: |c, _| c.has(Thing::System) || c.op(Op::WriteRadius),
+        concerns: |c, _| c.has(Thing::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear),
         run: Rewrites(state::run),
     },
     Pass { name: "alarms", concerns: |c, _| c.has(Thing::Message), run: Reports(alarms::run) },

@@ -24,6 +24,10 @@ const SCALED: &[(Sys, Sys, f64)] = &[
     (Sys::DiameterOrRadius, Sys::RadiusGeometry, 0.5),
     (Sys::RadiusGeometry, Sys::DiameterOrRadius, 2.0),
     (Sys::DiameterGeometry, Sys::DiameterOrRadius, 1.0),
+    (Sys::DiameterOrRadiusWear, Sys::DiameterWear, 1.0),
+    (Sys::DiameterOrRadiusWear, Sys::RadiusWear, 0.5),
+    (Sys::RadiusWear, Sys::DiameterOrRadiusWear, 2.0),
+    (Sys::DiameterWear, Sys::DiameterOrRadiusWear, 1.0),
 ];
 
 /// The letter number of T in [`Sys::Address`].
@@ -85,7 +89,7 @@ impl Finding {
             }
             Finding::Table(state) => {
                 let what = match state {
-                    Sys::DiameterOrRadius => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
+                    Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
                     state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
                 };
                 context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
@@ -201,15 +205,15 @@ fn settled(
         "diameter" => Some(false),
         _ => None,
     };
-    let either = Sys::DiameterOrRadius;
-    let ours = if state == either { radii(source) } else { Some(false) };
-    let theirs = if other == either { radii(target) } else { Some(false) };
+    let either = |state| matches!(state, Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear);
+    let ours = if either(state) { radii(source) } else { Some(false) };
+    let theirs = if either(other) { radii(target) } else { Some(false) };
     match (ours, theirs) {
         (Some(true), Some(false)) => 2.0 * factor,
         (Some(false), Some(true)) => 0.5 * factor,
         (Some(_), Some(_)) => factor,
         _ => {
-            found.push((span, if state == either { Finding::Table(other) } else { Finding::TargetTable }));
+            found.push((span, if either(state) { Finding::Table(other) } else { Finding::TargetTable }));
             factor
         }
     }
@@ -234,7 +238,7 @@ fn binary(op: BinOp, a: Expr, b: f64) -> Expr {
 fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Vec<(Span, Finding)>) {
     let span = stmt.site.span;
     if let StmtKind::Nc(nc) = &mut stmt.kind
-        && nc.has(Op::WriteRadius)
+        && writes_radius(nc)
     {
         return write_radius(nc, (source, target), span, found);
     }
@@ -270,6 +274,11 @@ pub(super) fn table_factor(source: &Control, target: &Control) -> Option<f64> {
         (_, Some("radius")) => 0.5,
         _ => return None,
     })
+}
+
+/// True for a block that writes into the cutter table: the size or its wear, both as the table has them.
+pub(super) fn writes_radius(nc: &Nc) -> bool {
+    nc.has(Op::WriteRadius) || nc.has(Op::WriteRadiusWear)
 }
 
 /// What a block writes into the cutter table, as the target's table holds it.

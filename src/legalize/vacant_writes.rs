@@ -8,7 +8,7 @@
 use super::Context;
 use super::rewrite::{Part, rebuild};
 use super::state::table_factor;
-use crate::canon::{Op, Role};
+use crate::canon::Role;
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind};
 use std::collections::BTreeSet;
@@ -44,7 +44,7 @@ fn places(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize)
 }
 
 fn written(nc: &Nc) -> Option<&Expr> {
-    nc.word(Role::OffsetValue).filter(|_| nc.has(Op::WriteRadius))
+    nc.word(Role::OffsetValue).filter(|_| super::state::writes_radius(nc))
 }
 
 fn split(program: &mut Program, places: &BTreeSet<(BlockId, usize)>) {

@@ -1,0 +1,114 @@
+//! Work offsets by a computed number, where the target keeps them in runs of variables that are apart.
+//!
+//! Law: the variable of row n is `first + (n - from) * step` of the run that holds n, so a branch on where the next run
+//! begins picks it. Side condition: the number is one of a row; another one names no offset on the source.
+
+use super::rewrite::{Part, Prelude, highest_temp, rebuild, rewrite_program};
+use super::{Context, Rewriter};
+use crate::canon::Sys;
+use crate::dialect::Control;
+use crate::ir::{
+    Bank, BinOp, Class, Cond, Expr, Module, Place, Program, Relation, Site, StmtKind, TermKind, Var,
+};
+
+/// Where a run begins, the number of its first variable, and the distance of two rows.
+type Run = (u32, u32, u32);
+
+/// Picks the run that a computed number is in.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let several = |control: &Control| control.system_runs(Sys::WorkOffset).count() > 1;
+    if !several(context.source) || !several(context.target) {
+        return;
+    }
+    let target = context.target;
+    for program in &mut module.programs {
+        write(program, target);
+        rewrite_program(program, &mut |e, _, rewriter| match &e {
+            Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, target) {
+                Some((row, runs)) => read(row.clone(), &runs, rewriter),
+                None => e,
+            },
+            _ => e,
+        });
+    }
+}
+
+/// The computed number of a row, and the runs of its axis in the order of numbers.
+fn computed<'e>(subscripts: &'e [Expr], target: &Control) -> Option<(&'e Expr, Vec<Run>)> {
+    let [row, axis] = subscripts else { return None };
+    let axis = axis.constant().filter(|axis| row.constant().is_none() && axis.fract() == 0.0)? as u32;
+    let mut runs: Vec<Run> = Vec::new();
+    for run in target.system_runs(Sys::WorkOffset) {
+        let rows = run.subscripts.first()?;
+        if let Some(first) = run.number_of(&[rows.from, axis]).flatten()
+            && runs.iter().all(|(from, ..)| *from != rows.from)
+        {
+            runs.push((rows.from, first, rows.step));
+        }
+    }
+    runs.sort_unstable();
+    (runs.len() > 1).then_some((row, runs))
+}
+
+fn read(row: Expr, runs: &[Run], rewriter: &mut Rewriter<'_>) -> Expr {
+    let row = rewriter.held(row);
+    let value = rewriter.hold(Expr::Number(0.0));
+    for (at, run) in runs.iter().enumerate() {
+        rewriter.first(Prelude::When(inside(&row, runs, at), value, place(&row, *run)));
+    }
+    Expr::Var(value)
+}
+
+/// That a row is in one of the runs: not before its beginning, and before the next one's.
+fn inside(row: &Expr, runs: &[Run], at: usize) -> Cond {
+    let side = |relation, run: Option<&Run>| {
+        run.map(|(from, ..)| Cond::Compare(relation, row.clone(), Expr::Number(f64::from(*from))))
+    };
+    let begun = side(Relation::GreaterEqual, runs.get(at).filter(|_| at > 0));
+    let next = side(Relation::Less, runs.get(at + 1));
+    match (begun, next) {
+        (Some(begun), Some(next)) => Cond::And(vec![begun, next]),
+        (begun, next) => begun.or(next).unwrap_or(Cond::And(Vec::new())),
+    }
+}
+
+fn place(row: &Expr, run: Run) -> Expr {
+    Expr::Indirect(Bank::Numbered, Box::new(number(row, run)))
+}
+
+fn number(row: &Expr, (from, first, step): Run) -> Expr {
+    let binary = |op, a, b| Expr::Binary(op, Box::new(a), Box::new(b));
+    let rows = binary(BinOp::Mul, row.clone(), Expr::Number(f64::from(step)));
+    let base = f64::from(first) - f64::from(from) * f64::from(step);
+    binary(BinOp::Add, rows, Expr::Number(base))
+}
+
+fn write(program: &mut Program, target: &Control) {
+    let mut highest = highest_temp(program);
+    rebuild(program, &mut |builder, part| {
+        let Part::Stmt(stmt) = &part else { return part.keep(builder) };
+        let StmtKind::Assign { target: Place::System(Sys::WorkOffset, subscripts), value } = &stmt.kind
+        else {
+            return part.keep(builder);
+        };
+        let Some((row, runs)) = computed(subscripts, target) else { return part.keep(builder) };
+        let skip = Site { skip: stmt.site.skip, ..Site::default() };
+        let mut hold = |builder: &mut crate::ir::Builder, value: Expr, site: Site| {
+            highest += 1;
+            let temp = Var { class: Class::Temp, number: highest };
+            builder.push(StmtKind::Assign { target: Place::Var(temp), value }, site);
+            Expr::Var(temp)
+        };
+        let value = hold(builder, value.clone(), stmt.site.clone());
+        let row = hold(builder, row.clone(), skip.clone());
+        for (at, run) in runs.iter().enumerate() {
+            let (yes, no) = (builder.fresh(), builder.fresh());
+            let cond = inside(&row, &runs, at);
+            builder.end(TermKind::Branch { cond, yes, no }, Site::default());
+            builder.start(yes);
+            let there = Place::Indirect(Bank::Numbered, Box::new(number(&row, *run)));
+            builder.push(StmtKind::Assign { target: there, value: value.clone() }, skip.clone());
+            builder.start(no);
+        }
+    });
+}
