@@ -75,7 +75,7 @@ impl<'r, 'f> Session<'r, 'f> {
             files: library.files,
             sections: &library.sections,
             machine: Machine::new(control, scenario),
-            trace: Trace::new(scenario.events),
+            trace: Trace::new(scenario.events, &control.profile().confirm),
             branches: Branches::default(),
             programs: Vec::new(),
             numbers: HashMap::new(),

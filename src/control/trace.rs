@@ -71,11 +71,13 @@ pub struct Trace {
     limit: usize,
     full: bool,
     doubted: HashSet<(String, Place)>,
+    /// Matters that the machine's profile confirms.
+    confirmed: Vec<String>,
 }
 
 impl Trace {
     /// An empty trace that keeps at most so many events.
-    pub fn new(limit: usize) -> Self {
+    pub fn new(limit: usize, confirmed: &[String]) -> Self {
         Self {
             events: Vec::new(),
             at: Place::default(),
@@ -83,6 +85,7 @@ impl Trace {
             limit,
             full: false,
             doubted: HashSet::new(),
+            confirmed: confirmed.to_vec(),
         }
     }
 
@@ -102,7 +105,10 @@ impl Trace {
 
     /// Records that a fact mattered that nobody confirmed; once for each block.
     pub fn doubt(&mut self, fact: &str) {
-        if !self.full && self.doubted.insert((fact.into(), self.at)) {
+        if !self.full
+            && !self.confirmed.iter().any(|name| name == fact)
+            && self.doubted.insert((fact.into(), self.at))
+        {
             self.push(Happening::Unsure { fact: fact.into() });
         }
     }

@@ -16,6 +16,7 @@ mod control_system;
 mod extents;
 mod load;
 mod matrix;
+pub mod matters;
 mod model;
 mod overlay;
 mod overlay_settings;

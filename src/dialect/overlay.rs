@@ -3,7 +3,7 @@
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::{Reader, closest};
-use super::{Control, Dialect, Entry, Row, SystemVariable, VariableClass, registry};
+use super::{Control, Dialect, Entry, Row, SystemVariable, VariableClass, matters, registry};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
@@ -230,9 +230,10 @@ impl Overlay {
                     found += 1;
                 }
             });
-            if found == 0 {
+            if found == 0 && matters::meaning(&fact).is_none() {
                 let mut names = Vec::new();
                 each_row(dialect, &mut |name, _| names.push(name.to_string()));
+                names.extend(matters::ALL.iter().map(|(name, _)| (*name).to_owned()));
                 let help = match closest(&fact, names.iter().map(String::as_str)) {
                     Some(near) => format!("did you mean '{near}'?"),
                     None => "diagnostics name the fact: 'behaviour:NAME', 'code:G50', 'system:#5041'".into(),

@@ -84,7 +84,8 @@ impl<'a> Context<'a> {
         let help = format!(
             "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}"
         );
-        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(help);
+        let finding =
+            Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(help).with_fact(fact.clone());
         self.add_once(program, &format!("{side} {fact}"), finding);
     }
 

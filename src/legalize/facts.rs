@@ -220,6 +220,7 @@ impl Found<'_> {
                         self.behaviour("arc.radius.negative", span);
                     }
                 }
+                (Role::DwellMs | Role::CycleDwell, Some(_)) => self.behaviour("dwell.bare", span),
                 (Role::Repeat, count) if count.is_none_or(|count| count < 1.0) => {
                     self.behaviour("cycle.l0.stores", span);
                 }

@@ -32,6 +32,7 @@ mod link;
 mod locked;
 mod lookahead;
 mod machine_codes;
+mod matters;
 mod measure;
 mod messages;
 mod missing;
@@ -113,6 +114,7 @@ impl Pass {
 /// The passes, in the order they run in.
 pub const PASSES: &[Pass] = &[
     Pass { name: "source-facts", concerns: |c, _| c.has(Thing::Computed), run: Reports(facts::of_source) },
+    Pass { name: "matters", concerns: |_, _| true, run: Reports(matters::run) },
     Pass { name: "blanks", concerns: |_, context| !context.same_family(), run: Rewrites(blanks::run) },
     Pass {
         name: "link",

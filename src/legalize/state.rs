@@ -7,7 +7,7 @@
 use super::{Context, Position, Rewriter, rewrite_program};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Row};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -62,7 +62,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 enum Finding {
     Missing(Sys),
-    Unconfirmed(Sys, String),
+    /// A variable of the target, by the name of its fact.
+    Unconfirmed(Sys, String, String),
     Renumbered(String),
     Wiring,
     LastTool,
@@ -83,9 +84,9 @@ impl Finding {
                 let what = format!("{title} cannot write '{state}'");
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
             }
-            Finding::Unconfirmed(state, note) => {
+            Finding::Unconfirmed(state, fact, note) => {
                 let what = format!("where {title} keeps '{state}' is not confirmed{note}");
-                context.unconfirmed(index, span, &format!("system:{state}"), what);
+                context.unconfirmed(index, span, &fact, what);
             }
             Finding::Table(state) => {
                 let what = match state {
@@ -143,7 +144,7 @@ fn shared(state: Sys, source: &Control, target: &Control) -> bool {
 fn note(state: Sys, row: &crate::dialect::SystemVariable, span: Span, found: &mut Vec<(Span, Finding)>) {
     if !row.origin.confirmed {
         let note = row.origin.note.as_deref().map(|note| format!(": {note}")).unwrap_or_default();
-        found.push((span, Finding::Unconfirmed(state, note)));
+        found.push((span, Finding::Unconfirmed(state, row.fact(), note)));
     }
     if wired(state) {
         found.push((span, Finding::Wiring));

@@ -47,7 +47,7 @@ impl Machine {
             Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
                 self.rules.radius_table.ask(trace);
             }
-            Sys::AxisPosition => trace.doubt("system:position.frame"),
+            Sys::AxisPosition => trace.doubt("behaviour:position.frame"),
             Sys::ActiveTool => self.active_tool_asked(trace),
             _ => {}
         }

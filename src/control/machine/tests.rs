@@ -10,7 +10,7 @@ fn machine(scenario: &Scenario) -> Machine {
 
 fn run(machine: &mut Machine, ops: &[Op], words: &[(Role, f64)]) -> Vec<Happening> {
     let command = Command { ops: ops.into(), words: words.iter().copied().collect(), ..Command::default() };
-    let mut trace = Trace::new(1000);
+    let mut trace = Trace::new(1000, &[]);
     machine.run(&command, &mut trace).expect("no alarm");
     trace.events.into_iter().map(|event| event.what).collect()
 }
@@ -101,7 +101,7 @@ fn a_peck_cycle_under_incremental_words_keeps_its_planes() {
 #[test]
 fn a_peck_of_nothing_and_endless_repeats_end() {
     let mut machine = machine(&Scenario::default());
-    let mut trace = Trace::new(500);
+    let mut trace = Trace::new(500, &[]);
     let words =
         [(Role::X, 1.0), (Role::Z, -1e9), (Role::CycleR, 0.0), (Role::CycleQ, 1e-300), (Role::Repeat, 4e9)];
     let command = Command {

@@ -30,6 +30,7 @@ impl Lowering<'_> {
             words.clear();
         }
         self.check_mixture(block, &words);
+        self.findings.distance_order(&block.items);
         let mut planned = (!words.is_empty()).then(|| self.words(&words, &block.items));
         let mut said = planned.is_some();
         let mut jumped = false;

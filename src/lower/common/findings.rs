@@ -1,7 +1,9 @@
 //! What is found while one program is lowered.
 
+use crate::canon::Group;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row};
+use crate::dialect::{Control, Row, matters};
+use crate::syntax::{ExprKind, Item, ItemKind};
 use crate::text::Span;
 use std::collections::HashSet;
 
@@ -68,6 +70,24 @@ impl<'c> Findings<'c> {
         let help =
             format!("check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile");
         self.add(Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help).with_fact(fact));
+    }
+
+    /// Reports a code for absolute or incremental words that stands behind words of its block.
+    pub fn distance_order(&mut self, items: &[Item]) {
+        let mut axes = false;
+        for item in items {
+            let ItemKind::Word(word) = &item.kind else { continue };
+            let number = word.value.as_ref().and_then(|value| match &value.kind {
+                ExprKind::Number(number) => Some(number.value),
+                _ => None,
+            });
+            let code = number.and_then(|number| self.control.code(word.letter, number, &[]));
+            if word.letter == 'G' && axes && code.is_some_and(|row| row.op.group() == Group::Distance) {
+                let name = "machine:distance.code.behind.words";
+                self.unconfirmed(name.into(), matters::meaning(name), item.span);
+            }
+            axes |= matches!(word.letter, 'X' | 'Y' | 'Z');
+        }
     }
 
     /// The findings, in the order of their places.

@@ -64,6 +64,7 @@ impl<'b> Lowering<'b> {
         }
         self.motion_words(&mut reading, axes)?;
         self.block_facts(&mut reading, axes);
+        self.findings.distance_order(items);
         let Reading { items: mut words, .. } = reading;
         self.doubled(&mut words, span)?;
         for op in self.grouped(&mut words, span)? {

@@ -44,9 +44,9 @@ impl<'b> Lowering<'b> {
             || (!codes.has(Op::Absolute) && self.state.incremental.list().contains(&true));
         match codes.motion() {
             Some(row) if row.op.is_cycle() => {
-                if plane {
+                if plane || codes.has(Op::CycleHere) {
                     let _ = self.rely("cycle.block.runs", span);
-                } else if !codes.has(Op::CycleHere) {
+                } else {
                     let _ = self.rely("cycle.runs.without.axes", span);
                 }
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());

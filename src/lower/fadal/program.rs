@@ -266,6 +266,14 @@ impl<'b> Lowering<'b> {
         }
     }
 
+    /// Reports, once for each variable, that it is read while moves may be to come.
+    pub fn early(&mut self, name: &str, span: Span, message: String) {
+        if self.told.insert(format!("early {name}")) {
+            let finding = Diagnostic::new(Code::EarlyRead, span, message);
+            self.findings.add(finding.with_fact("behaviour:lookahead.runs.early"));
+        }
+    }
+
     /// The answer to a question of behaviour on which the construct at `span` rests;
     /// an unknown answer is none and is reported as an unconfirmed fact.
     pub fn rely(&mut self, name: &str, span: Span) -> Option<&'b str> {

@@ -2,7 +2,6 @@
 
 use super::program::Lowering;
 use crate::canon::Sys;
-use crate::diag::Code;
 use crate::dialect::SystemVariable;
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
 use crate::syntax::{Index, VarRef};
@@ -53,7 +52,7 @@ impl<'b> Lowering<'b> {
             }
             if early(*state) && self.state.moved {
                 let message = format!("{} is read while moves may still be to come", var.name);
-                self.once(Code::EarlyRead, &var.name, var.span, message);
+                self.early(&var.name, var.span, message);
             }
             if *state == Sys::AxisPosition {
                 match self.rely("position.frame", var.span) {

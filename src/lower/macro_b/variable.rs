@@ -214,7 +214,8 @@ impl<'a> Lowering<'a> {
         }
         if self.findings.behaviour("system.read.waits", span) != Some("true") {
             let message = format!("'{state}' may be reached before the moves ahead of this block are done");
-            self.findings.add(Diagnostic::new(Code::EarlyRead, span, message));
+            let finding = Diagnostic::new(Code::EarlyRead, span, message);
+            self.findings.add(finding.with_fact("behaviour:lookahead.runs.early"));
         }
     }
 }
