@@ -121,6 +121,12 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
                             &what,
                             Diagnostic::new(Code::Conditional, site.span, what.clone()),
                         );
+                        for text in altered(&parts) {
+                            let what =
+                                format!("the text '{}' is printed as '{}'", text.trim(), plain(text).trim());
+                            let finding = Diagnostic::new(Code::MessageAltered, site.span, what.clone());
+                            context.add_once(index, &what, finding);
+                        }
                         if opens && !open {
                             out.push(Stmt { kind: StmtKind::OpenPort, site: site.clone() });
                             open = true;
@@ -191,6 +197,15 @@ fn output(part: PrintPart) -> OutputPart {
         PrintPart::Text(text) => OutputPart::Text(plain(&text)),
         PrintPart::Value(value) => OutputPart::Value { value, whole: DIGITS.0, fraction: DIGITS.1 },
     }
+}
+
+/// Texts that formatted output cannot show as they are, but for their case.
+fn altered(parts: &[PrintPart]) -> impl Iterator<Item = &str> {
+    let texts = parts.iter().filter_map(|part| match part {
+        PrintPart::Text(text) => Some(text.as_str()),
+        PrintPart::Value(_) => None,
+    });
+    texts.filter(|text| !plain(text).trim().eq_ignore_ascii_case(text.trim()))
 }
 
 /// The text in characters that formatted output takes: brackets and signs that begin a value or

@@ -214,7 +214,8 @@ impl<'c> Runner<'c> {
     pub fn give_back(&mut self, to: Option<f64>) -> Result<(), Halt> {
         let whole = to.map(|to| to.max(0.0).round() as u32);
         let main = self.frames.len() <= 1;
-        if main && self.session.scenario.called {
+        let jumps = whole.is_some() && self.rules.return_jumps_here.peek();
+        if main && self.session.scenario.called && !jumps {
             // Where the caller goes on is seen, though no caller is there.
             if let Some(number) = whole {
                 let code = Some(format!("P{number}"));
@@ -223,7 +224,7 @@ impl<'c> Runner<'c> {
             return Err(Halt::Ended(Op::Return));
         }
         let at = self.frames.last().map_or(0, |frame| frame.at);
-        if let Some(number) = whole.filter(|_| main || self.rules.return_jumps_here.peek()) {
+        if let Some(number) = whole.filter(|_| main || jumps) {
             self.rules.return_jumps_here.ask(&mut self.session.trace);
             let place = self.jump(number, at)?;
             self.go(place);

@@ -45,6 +45,19 @@ fn returns_to_a_number_go_to_the_caller_or_stay() {
     assert_eq!(found(&run), [true, true, true]);
 }
 
+/// A program that is run as if something called it.
+#[test]
+fn a_called_program_returns_by_m99_and_jumps_by_m99_p_where_the_control_does() {
+    let text = b"O2\n#101=1\nM99P20\n#102=1\nN20#103=1\nM99\n";
+    let called = Scenario { called: true, ..Scenario::default() };
+    let found = |dialect: &str| {
+        let run = crate::control::testing::run(dialect, &[("a.nc", text.as_slice())], &called);
+        ["#101", "#102", "#103"].map(|name| value(&run, name).is_some())
+    };
+    assert_eq!(found("haas"), [true, false, true]);
+    assert_eq!(found("fanuc"), [true, false, false]);
+}
+
 #[test]
 fn local_calls_of_haas_return() {
     let run = haas("O1\nM97 P100 L2\n#102=1\nM30\nN100 #101=#101+1\nM99\n");
