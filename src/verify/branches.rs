@@ -1,5 +1,6 @@
 //! The branches of a source program, and which ways they went.
 
+use super::constants::impossible;
 use super::names::Side;
 use crate::control::{ProgramRef, Run};
 use crate::syntax::{ItemKind, Target, for_each_item};
@@ -26,6 +27,8 @@ pub struct Coverage {
     /// All ways that were seen anywhere, those of called programs too.
     seen: BTreeSet<(usize, Span, i64)>,
     file: usize,
+    /// Ways that constants make impossible.
+    impossible: BTreeSet<(Span, i64)>,
 }
 
 impl Coverage {
@@ -46,7 +49,7 @@ impl Coverage {
                 branches.insert(span, (computed, BTreeSet::new()));
             });
         }
-        Self { branches, seen: BTreeSet::new(), file: program.file }
+        Self { branches, seen: BTreeSet::new(), file: program.file, impossible: impossible(side, program) }
     }
 
     /// Notes where a run went. True where that was new.
@@ -72,7 +75,8 @@ impl Coverage {
     /// How many ways there are, and how many of them were gone.
     pub fn totals(&self) -> (usize, usize) {
         let ways = |computed: bool| if computed { 1 } else { 2 };
-        let total = self.branches.values().map(|(computed, _)| ways(*computed)).sum();
+        let all: usize = self.branches.values().map(|(computed, _)| ways(*computed)).sum();
+        let total = all - self.impossible.len();
         (total, total - self.missing().count())
     }
 
@@ -84,8 +88,10 @@ impl Coverage {
     fn missing(&self) -> impl Iterator<Item = (Span, &'static str)> + '_ {
         self.branches.iter().flat_map(|(span, (computed, seen))| {
             let none = (*computed && seen.is_empty()).then_some((*span, "taken"));
-            let no = (!computed && !seen.contains(&0)).then_some((*span, "false"));
-            let yes = (!computed && !seen.contains(&1)).then_some((*span, "true"));
+            let lacks =
+                |way: i64| !computed && !seen.contains(&way) && !self.impossible.contains(&(*span, way));
+            let no = lacks(0).then_some((*span, "false"));
+            let yes = lacks(1).then_some((*span, "true"));
             none.into_iter().chain(no).chain(yes)
         })
     }

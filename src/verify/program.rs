@@ -6,6 +6,7 @@ use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha25
 use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::inputs::{inputs, is_called};
 use super::names::{Names, Side};
+use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
 use super::scenarios::{Proposals, on_target, unit};
 use super::{Certificate, Effort, Outcome};
@@ -67,8 +68,8 @@ struct Verifier<'v, 'j> {
     given: Option<bool>,
     coverage: Coverage,
     reasons: BTreeMap<Why, BTreeSet<String>>,
-    /// Unconfirmed facts that mattered; true for those that nobody reported.
-    unconfirmed: BTreeMap<String, bool>,
+    /// Unconfirmed facts that mattered; with where they did, those that nobody reported.
+    unconfirmed: BTreeMap<String, Option<String>>,
     texts: BTreeSet<(String, String)>,
     tolerance: Tolerance,
     largest: f64,
@@ -210,7 +211,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
             for event in &library_run.events {
                 if let Happening::Unsure { fact } = &event.what {
                     let is_new = !reported.iter().any(|facts| facts.contains(fact));
-                    *self.unconfirmed.entry(fact.clone()).or_default() |= is_new;
+                    let kept = self.unconfirmed.entry(fact.clone()).or_default();
+                    if is_new && kept.is_none() {
+                        *kept = Some(unconfirmed(fact, side, &Moment::of(library, library_run, event)));
+                    }
                 }
             }
         }
@@ -255,7 +259,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             {
                 let text =
                     "behaviour:word.rounds.to.increment is not confirmed, and decides what is read back";
-                self.unconfirmed.insert("behaviour:word.rounds.to.increment".into(), false);
+                self.unconfirmed.insert("behaviour:word.rounds.to.increment".into(), None);
                 self.because(Why::Unconfirmed, text);
             }
             Some(difference) => {
@@ -301,7 +305,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
 
     fn because(&mut self, why: Why, text: &str) {
         let texts = self.reasons.entry(why).or_default();
-        if texts.len() < 4 {
+        if texts.len() < 4 || why == Why::Unconfirmed {
             texts.insert(text.to_owned());
         }
     }
@@ -323,8 +327,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
             let text = named.chain(rest).collect::<Vec<_>>().join("; ");
             self.because(Why::NotReached, &text);
         }
-        for (fact, _) in self.unconfirmed.clone().iter().filter(|(_, is_new)| **is_new) {
-            self.because(Why::Unconfirmed, &format!("{fact} is not confirmed"));
+        for text in self.unconfirmed.clone().into_values().flatten() {
+            self.because(Why::Unconfirmed, &text);
         }
         let mut outcome = match (&self.witness, self.reasons.is_empty()) {
             (Some(_), _) => Outcome::Different,

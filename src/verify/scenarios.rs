@@ -167,7 +167,9 @@ impl<'i> Proposals<'i> {
         if count % 5 == 3 {
             let near = self.random.pick(&self.inputs.numbers).copied().unwrap_or(0.0).abs();
             for (number, tool) in &mut scenario.tools {
-                let size = near * f64::from(*number) / 50.0;
+                // Smaller than the number that a condition names, or larger, in millimetres or inches.
+                let share = if count % 10 == 8 { 25.4 / 4.0 } else { 1.0 / 50.0 };
+                let size = near * f64::from(*number) * share;
                 *tool = Tool { length: size, radius: size / 2.0, ..Tool::default() };
             }
         }

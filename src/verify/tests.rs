@@ -311,3 +311,38 @@ fn a_machine_is_set_to_the_unit_that_a_program_checks() {
         assert!(same.reasons.iter().all(|reason| !reason.text.contains("set to")), "{same:#?}");
     }
 }
+
+#[test]
+fn ways_that_constants_exclude_are_not_missed() {
+    let ways = |program: &str| {
+        let found = within("fanuc", program, program);
+        (found.branches_covered, found.branches_total, found.not_reached.len())
+    };
+    assert_eq!(ways("O1\n#100=6000\nIF[#100GT2500]GOTO5\nG0X1.\nN5M30\n"), (1, 1, 0));
+    assert_eq!(ways("O1\n#100=#0\nIF[#100EQ#0]GOTO5\nG0X1.\nN5M30\n"), (1, 1, 0));
+    assert_eq!(ways("O1\n#100=#0\nIF[#100GT1]GOTO5\nG0X1.\nN5M30\n"), (1, 1, 0));
+    assert_eq!(ways("O1\n#100=FIX[#101]\nIF[#100EQ#0]GOTO5\nG0X1.\nN5M30\n"), (1, 1, 0));
+    // What is not shown: a jump comes in between, a call, a subscript that is computed, a condition before it.
+    for between in ["N3", "G65P2", "#[#101]=1", "IF[#101GT5]THEN#100=1", "WHILE[#101GT5]DO1\nEND1", "G0X1."] {
+        let program = format!("O1\n#100=6000\n{between}\nIF[#100GE0]GOTO5\nG0X2.\nN5M30\nO2\nM99\n");
+        let parsed = programs(("fanuc", &program), ("fanuc", &program), &[]);
+        let missed = parsed[0].not_reached.iter().filter(|way| way.text.contains("GE0")).count();
+        assert!(missed > 0 || between.contains("#101]=1"), "{between}: {:#?}", parsed[0].not_reached);
+    }
+}
+
+/// Without a conversion's report every fact that mattered is a reason, with what it asks and where.
+#[test]
+fn facts_are_reasons_that_say_where() {
+    let program = "O1\nG0X1.\nG4P500\nM30\n";
+    let found = within("fanuc", program, program);
+    let texts: Vec<&str> = found.reasons.iter().map(|reason| reason.text.as_str()).collect();
+    assert!(
+        texts.iter().any(|text| {
+            text.starts_with("behaviour:dwell.bare is not confirmed (what P of a dwell counts")
+                && text.ends_with("the source rests on it in line 3 of cycle1.nc, 'G4P500'")
+        }),
+        "{texts:#?}"
+    );
+    assert_eq!(texts.len(), found.unconfirmed.len());
+}
