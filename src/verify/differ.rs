@@ -101,6 +101,8 @@ pub fn differ(
         (End { .. }, End { .. }) => {
             (returns(source) != returns(target)).then_some("one ends, the other returns to its caller")
         }
+        (Alarm(_), _) => Some("the source stops with an alarm, the target goes on"),
+        (_, Alarm(_)) => Some("the target stops with an alarm, the source goes on"),
         _ => (source != target).then_some("they do different things"),
     }
 }
