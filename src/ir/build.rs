@@ -80,7 +80,11 @@ impl Builder {
     /// Ends the present block.
     pub fn end(&mut self, kind: TermKind, site: Site) {
         self.reopen();
-        self.with_current(|block| block.term = Terminator { kind, site });
+        self.with_current(|block| {
+            block.term = Terminator { kind, site };
+            // Most blocks are short: room to spare would be most of a library.
+            block.stmts.shrink_to_fit();
+        });
         self.open = false;
     }
 

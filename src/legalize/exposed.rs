@@ -219,29 +219,29 @@ fn runs(call: &Call) -> bool {
 
 /// What a block makes of what is live behind it: of nothing, and of everything.
 fn transfer(block: &Block, universe: &Universe) -> (Row, Row) {
-    let through = |mut live: Row| {
-        backward(block, &mut live, universe);
-        live
+    let mut rows = [universe.none(), universe.all()];
+    let note = |e: &Expr, rows: &mut [Row]| {
+        read(e, &mut |var| {
+            if let Some(at) = universe.place(var) {
+                rows.iter_mut().for_each(|row| row.insert(at));
+            }
+        });
     };
-    (through(universe.none()), through(universe.all()))
-}
-
-fn backward(block: &Block, live: &mut Row, universe: &Universe) {
-    let note = |e: &Expr, live: &mut Row| {
-        read(e, &mut |var| universe.place(var).iter().for_each(|at| live.insert(*at)));
-    };
-    block.term.kind.exprs(&mut |e| note(e, live));
+    block.term.kind.exprs(&mut |e| note(e, &mut rows));
     for stmt in block.stmts.iter().rev() {
         if let Some(Place::Var(var)) = stmt.kind.target()
             && stmt.site.skip.is_none()
+            && let Some(at) = universe.place(*var)
         {
-            universe.place(*var).iter().for_each(|at| live.remove(*at));
+            rows.iter_mut().for_each(|row| row.remove(at));
         }
         if let StmtKind::ClearAll(class) = &stmt.kind {
-            live.subtract(&universe.classes(|c| c == *class));
+            let cleared = universe.classes(|c| c == *class);
+            rows.iter_mut().for_each(|row| row.subtract(&cleared));
         }
-        stmt.kind.exprs(&mut |e| note(e, live));
+        stmt.kind.exprs(&mut |e| note(e, &mut rows));
     }
+    rows.into()
 }
 
 fn read(e: &Expr, f: &mut dyn FnMut(Var)) {

@@ -16,7 +16,7 @@ use crate::ir::{
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use smallvec::SmallVec;
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports the unconfirmed facts of the target that programs rest on.
 pub fn of_target(module: &Module, context: &mut Context<'_>) {
@@ -48,7 +48,7 @@ fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &st
             said: BTreeSet::new(),
             all: Vec::new(),
             home: program.site.span,
-            seen: HashSet::new(),
+            seen: BTreeSet::new(),
         };
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
@@ -92,7 +92,7 @@ struct Found<'c> {
     /// Where a finding goes whose statement has no place of its own.
     home: Span,
     /// Operations and words of blocks that were looked at.
-    seen: HashSet<Shape>,
+    seen: BTreeSet<Shape>,
 }
 
 /// The operations and words of a block of constants, each word by its role and the sign of its value.

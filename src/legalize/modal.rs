@@ -101,7 +101,7 @@ impl Modal {
                 if let Some(feed) = nc.word(Role::Feed) {
                     self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
                 }
-                if nc.moves() && self.calls.as_ref().is_none_or(|calls| !calls.is_empty()) {
+                if self.calls.as_ref().is_none_or(|calls| !calls.is_empty()) && nc.moves() {
                     // The modal call runs now, and may leave anything in force.
                     self.forget();
                 }

@@ -8,9 +8,10 @@ use super::{Context, Position, Rewriter, rewrite_program};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row};
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
+use crate::ir::{BinOp, Callee, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
+use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// States that the target may hold in each other's stead, and by what the first is multiplied to give the second.
 const SCALED: &[(Sys, Sys, f64)] = &[
@@ -306,22 +307,21 @@ fn write_radius(
 
 /// The programs, and all that call them, directly or not.
 fn callers_of(module: &Module, mut programs: BTreeSet<usize>) -> BTreeSet<usize> {
-    loop {
-        let names: BTreeSet<_> = programs.iter().filter_map(|i| module.programs[*i].name.clone()).collect();
-        let calls =
-            |program: &crate::ir::Program| {
-                program.blocks.iter().flat_map(super::calls_of).any(
-                    |call| matches!(&call.callee, crate::ir::Callee::Program(name) if names.contains(name)),
-                )
-            };
-        let all: BTreeSet<usize> = (0..module.programs.len())
-            .filter(|i| programs.contains(i) || calls(&module.programs[*i]))
-            .collect();
-        if all == programs {
-            return all;
+    let mut callers: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for call in program.blocks.iter().flat_map(super::calls_of) {
+            if let Callee::Program(name) = &call.callee {
+                callers.entry(name).or_default().push(index);
+            }
         }
-        programs = all;
     }
+    let mut work: Vec<usize> = programs.iter().copied().collect();
+    while let Some(index) = work.pop() {
+        let name = module.programs[index].name.as_ref();
+        let all = name.and_then(|name| callers.get(name)).into_iter().flatten();
+        work.extend(all.copied().filter(|caller| programs.insert(*caller)));
+    }
+    programs
 }
 
 /// Sets the timer to 0 where each main program that reads it starts.

@@ -86,19 +86,23 @@ pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnost
         }
     }
     twins.retain(|_, indexes| indexes.len() > 1);
-    let place = |index: usize| {
-        let file = module.programs[index].file;
-        inputs.get(file).map_or_else(String::new, |input| input.name.clone())
+    let place = |index: &usize| {
+        let file = module.programs[*index].file;
+        inputs.get(file).map_or("", |input| input.name.as_str())
     };
     for (name, indexes) in &twins {
-        for &index in indexes {
-            let others: BTreeSet<String> =
-                indexes.iter().filter(|i| **i != index).map(|i| place(*i)).collect();
-            let others = others.into_iter().collect::<Vec<_>>().join(", ");
+        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+        indexes.iter().for_each(|index| *places.entry(place(index)).or_default() += 1);
+        for index in indexes {
+            let others = places.iter().filter(|(other, count)| **other != place(index) || **count > 1);
+            let others = others.map(|(other, _)| *other).collect::<Vec<_>>().join(", ");
             let what = format!("{name} stands in {others} as well: a control can hold one of them");
-            found[index].push(Diagnostic::new(Code::TwinProgram, module.programs[index].site.span, what));
+            found[*index].push(Diagnostic::new(Code::TwinProgram, module.programs[*index].site.span, what));
         }
     }
+    let all = |indexes: &Vec<usize>| indexes.iter().map(place).collect::<Vec<_>>().join(", ");
+    let places: BTreeMap<&ProgramName, String> =
+        twins.iter().map(|(name, indexes)| (*name, all(indexes))).collect();
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
             let modal = calls_of(block).map(|call| &call.callee);
@@ -108,9 +112,8 @@ pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnost
             };
             for callee in modal.chain(chained.as_ref()) {
                 if let Callee::Program(name) = callee
-                    && let Some(indexes) = twins.get(name)
+                    && let Some(places) = places.get(name)
                 {
-                    let places = indexes.iter().map(|i| place(*i)).collect::<Vec<_>>().join(", ");
                     let what =
                         format!("calls {name}, which stands in {places}: which one is meant is not known");
                     found[index].push(Diagnostic::new(Code::AmbiguousCall, block.term.site.span, what));

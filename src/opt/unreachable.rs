@@ -51,8 +51,8 @@ fn kept(program: &Program, level: Level, come_back: bool) -> Vec<bool> {
         if std::mem::replace(&mut keep[id.index()], true) {
             continue;
         }
-        block.term.kind.clone().for_each_target(&mut |to| work.push(*to));
-        work.extend(modal_entries(block));
+        work.extend(block.term.kind.successors());
+        work.extend(entries(block));
     }
     keep
 }
@@ -67,12 +67,18 @@ fn is_introduced(block: &Block) -> bool {
     block.labels.is_empty() && sites.into_iter().all(|site| *site == Site::default())
 }
 
-fn modal_entries(block: &Block) -> impl Iterator<Item = BlockId> + '_ {
-    block.stmts.iter().filter_map(|stmt| match &stmt.kind {
-        StmtKind::ModalCall(call) => match call.callee {
-            Callee::Block(entry) => Some(entry),
-            _ => None,
-        },
+/// The blocks that calls of a block enter.
+fn entries(block: &Block) -> impl Iterator<Item = BlockId> + '_ {
+    let modal = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
+        StmtKind::ModalCall(call) => Some(&call.callee),
+        _ => None,
+    });
+    let called = match &block.term.kind {
+        TermKind::Call { call, .. } => Some(&call.callee),
+        _ => None,
+    };
+    modal.chain(called).filter_map(|callee| match callee {
+        Callee::Block(entry) => Some(*entry),
         _ => None,
     })
 }

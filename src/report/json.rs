@@ -5,7 +5,7 @@
 
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
-use crate::library::{Outcome, ProgramReport};
+use crate::library::{Input, Outcome, ProgramReport};
 use crate::text::LineIndex;
 use crate::verify;
 use serde::{Serialize, Serializer};
@@ -85,7 +85,17 @@ fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S
 }
 
 fn files(part: &Part<'_>) -> Vec<(String, LineIndex)> {
-    part.inputs.iter().map(|input| input.path.display().to_string()).zip(part.indexes()).collect()
+    // Lines are counted as far as findings lie.
+    let mut ends = vec![0; part.inputs.len()];
+    for program in &part.conversion.programs {
+        let last = program.diagnostics.iter().map(|d| d.span.start as usize + 1).max();
+        ends[program.file] = last.unwrap_or(0).max(ends[program.file]);
+    }
+    let index = |(input, end): (&Input, usize)| {
+        let bytes = &input.bytes[..end.min(input.bytes.len())];
+        (input.path.display().to_string(), LineIndex::new(bytes))
+    };
+    part.inputs.iter().zip(ends).map(index).collect()
 }
 
 fn findings<S: Serializer>(

@@ -78,12 +78,10 @@ impl<'p> Liveness<'p> {
 
     /// What a block makes of what is live behind it: of nothing, and of everything.
     fn transfer(&self, block: &Block) -> (Row, Row) {
-        let through = |mut row: Row| {
-            self.term(&block.term.kind, &mut row);
-            block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut row));
-            row
-        };
-        (through(self.universe.none()), through(self.universe.all()))
+        let mut rows = [self.universe.none(), self.universe.all()];
+        self.term(&block.term.kind, &mut rows);
+        block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut rows));
+        rows.into()
     }
 
     /// Live behind a block's terminator.
@@ -99,30 +97,30 @@ impl<'p> Liveness<'p> {
         row
     }
 
-    fn term(&self, kind: &TermKind, row: &mut Row) {
-        kind.exprs(&mut |e| self.read(e, row));
+    fn term(&self, kind: &TermKind, rows: &mut [Row]) {
+        kind.exprs(&mut |e| self.read(e, rows));
     }
 
-    fn stmt(&self, kind: &StmtKind, site: &Site, row: &mut Row) {
+    fn stmt(&self, kind: &StmtKind, site: &Site, rows: &mut [Row]) {
         // What the operator may switch off writes nothing for sure.
         if let Some(Place::Var(var)) = kind.target()
             && site.skip.is_none()
             && let Some(at) = self.universe.place(*var)
         {
-            row.remove(at);
+            rows.iter_mut().for_each(|row| row.remove(at));
         }
         if let StmtKind::Nc(nc) = kind
             && (self.ways.modal_body || moves_values(nc))
         {
-            row.join(&self.universe.all());
+            rows.fill(self.universe.all());
         }
-        kind.exprs(&mut |e| self.read(e, row));
+        kind.exprs(&mut |e| self.read(e, rows));
     }
 
-    fn read(&self, e: &Expr, row: &mut Row) {
+    fn read(&self, e: &Expr, rows: &mut [Row]) {
         e.variables(&mut |var| {
             if let Some(at) = self.universe.place(var) {
-                row.insert(at);
+                rows.iter_mut().for_each(|row| row.insert(at));
             }
         });
     }
@@ -135,11 +133,11 @@ impl<'p> Liveness<'p> {
     /// Calls `f` on each statement of a block, last first, with what is live behind it.
     pub fn backward(&self, id: BlockId, f: &mut dyn FnMut(usize, super::Holds<'_, Var>)) {
         let Some(Block { stmts, term, .. }) = self.program.block(id) else { return };
-        let mut row = self.after(id);
-        self.term(&term.kind, &mut row);
+        let mut rows = [self.after(id)];
+        self.term(&term.kind, &mut rows);
         for (at, stmt) in stmts.iter().enumerate().rev() {
-            f(at, &|var: &Var| self.universe.place(*var).is_some_and(|place| row.has(place)));
-            self.stmt(&stmt.kind, &stmt.site, &mut row);
+            f(at, &|var: &Var| self.universe.place(*var).is_some_and(|place| rows[0].has(place)));
+            self.stmt(&stmt.kind, &stmt.site, &mut rows);
         }
     }
 }

@@ -108,6 +108,7 @@ impl Builder<'_> {
         }
         let then = self.take_if(Lex::Then).is_some();
         self.items(&mut body, depth + 1)?;
+        body.shrink_to_fit();
         Ok(ItemKind::If { condition, then, bare, body })
     }
 
