@@ -2,7 +2,9 @@
 
 mod support;
 
+use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario, trace::Happening};
 use macroglot::dialect::{Control, Profile, matters, registry};
+use macroglot::syntax::parse_file;
 use std::collections::BTreeSet;
 use support::{rust_files, text};
 
@@ -57,27 +59,38 @@ fn matters_are_listed_and_each_may_come() {
     assert!(matters::ALL.is_sorted());
 }
 
+/// What a run on a machine of this profile is unsure of.
+fn unsure(profile: &str, program: &str) -> BTreeSet<String> {
+    let profile = Profile::read(&format!("dialect = \"fanuc\"\n{profile}")).unwrap();
+    let entry = registry::find("fanuc").unwrap();
+    let control = Control::new(entry, profile).unwrap();
+    let parsed = parse_file(program.as_bytes(), entry.parse);
+    let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
+    let (library, main) = (Library::new(&files), ProgramRef { file: 0, program: 0 });
+    let run = (entry.execute.unwrap())(&library, main, &control, &Scenario::default());
+    let facts = run.events.into_iter().filter_map(|event| match event.what {
+        Happening::Unsure { fact } => Some(fact),
+        _ => None,
+    });
+    facts.collect()
+}
+
 #[test]
 fn a_confirmed_matter_is_not_doubted() {
-    use macroglot::control::{LoadedFile, ProgramRef, Scenario, trace::Happening};
-    let unsure = |confirm: &str| {
-        let profile = Profile::read(&format!("dialect = \"fanuc\"\nconfirm = [{confirm}]\n")).unwrap();
-        let entry = registry::find("fanuc").unwrap();
-        let control = Control::new(entry, profile).unwrap();
-        let parsed = macroglot::syntax::parse_file(b"O1\nG90G0X1.Y1.\nG2X1.Y1.R2.F100.\nM30\n", entry.parse);
-        let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
-        let main = ProgramRef { file: 0, program: 0 };
-        let run = (entry.execute.unwrap())(
-            &macroglot::control::Library::new(&files),
-            main,
-            &control,
-            &Scenario::default(),
-        );
-        let fact = "machine:arc.radius.full.circle";
-        run.events
-            .iter()
-            .any(|event| matches!(&event.what, Happening::Unsure { fact: named } if named == fact))
-    };
-    assert!(unsure(""));
-    assert!(!unsure("\"machine:arc.radius.full.circle\""));
+    let (program, fact) = ("O1\nG90G0X1.Y1.\nG2X1.Y1.R2.F100.\nM30\n", "machine:arc.radius.full.circle");
+    assert!(unsure("", program).contains(fact));
+    assert!(!unsure(&format!("confirm = [\"{fact}\"]\n"), program).contains(fact));
+}
+
+/// Neither is stated: in which feed mode a lathe starts, and what the digits of its tool word are.
+#[test]
+fn a_lathe_is_doubted_where_it_is_no_mill() {
+    let lathe = "machine = \"lathe\"\naxes = [\"X\", \"Z\", \"C\", \"Y\"]\n";
+    let (feed, tool) = ("machine:feed.mode.at.start", "machine:lathe.tool.word");
+    let silent = unsure(lathe, "O1\nT0101\nG0X10.\nG1X5.F.2\nM30\n");
+    assert!(silent.contains(feed) && silent.contains(tool), "{silent:?}");
+    let told = unsure(lathe, "O1\nG99G0X10.\nG1X5.F.2\nM30\n");
+    assert!(!told.contains(feed) && !told.contains(tool), "{told:?}");
+    let mill = unsure("", "O1\nT1M6\nG0X10.\nG1X5.F100.\nM30\n");
+    assert!(!mill.contains(feed) && !mill.contains(tool), "{mill:?}");
 }

@@ -63,6 +63,7 @@ fn record(machine: &mut Machine, flat: &Flat, centre: (f64, f64), ends: (Axes, A
     let middle = machine.frame.machine(&middle);
     let reach = |at: &Axes| (at[first] - middle[first]).hypot(at[second] - middle[second]);
     let (radius, end_radius) = (reach(&start), reach(&end));
+    machine.doubt_feed_mode(trace);
     let flips = machine.frame.flips((first, second));
     let sweep = flat.sweep(centre) * if flips { -1.0 } else { 1.0 };
     machine.pass(radius * sweep.abs().to_radians());

@@ -63,6 +63,8 @@ pub struct Machine {
     plane: Plane,
     feed: f64,
     feed_mode: FeedMode,
+    /// True once a program said what the feed counts.
+    feed_mode_told: bool,
     speed: f64,
     surface_speed: bool,
     spindle: Spindle,
@@ -110,6 +112,7 @@ impl Machine {
             plane: Plane::Xy,
             feed: 0.0,
             feed_mode: FeedMode::PerMinute,
+            feed_mode_told: false,
             speed: 0.0,
             surface_speed: false,
             spindle: Spindle::Stopped,

@@ -181,6 +181,7 @@ impl Machine {
     pub(super) fn feed_to(&mut self, to: Axes, trace: &mut Trace) {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {
+            self.doubt_feed_mode(trace);
             self.pass(distance(&from, &to));
             trace.push(Happening::Feed {
                 from: Position(from),
@@ -188,6 +189,13 @@ impl Machine {
                 feed: self.feed,
                 mode: self.feed_mode,
             });
+        }
+    }
+
+    /// In which feed mode a lathe starts no source says, where the program does not say it first.
+    pub(super) fn doubt_feed_mode(&self, trace: &mut Trace) {
+        if self.rules.lathe && !self.feed_mode_told {
+            trace.doubt("machine:feed.mode.at.start");
         }
     }
 

@@ -9,6 +9,7 @@ use crate::control::trace::{FeedMode, Happening, Plane, Trace};
 /// Modes that the rest of the block is read by.
 pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     for &op in &command.ops {
+        machine.feed_mode_told |= op.group() == Group::FeedMode;
         match op {
             Op::Inch | Op::Metric => machine.name_unit(op),
             Op::PlaneXy => machine.plane = Plane::Xy,

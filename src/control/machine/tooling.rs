@@ -39,6 +39,9 @@ fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let word = command.word(Role::Tool);
     let changes = word.is_some() && machine.rules.tool_word_changes.peek();
     if let Some(tool) = word {
+        if machine.rules.lathe {
+            trace.doubt("machine:lathe.tool.word");
+        }
         machine.tool_ready = tool;
         if !command.has(Op::ToolChange) && !changes {
             trace.push(Happening::ToolReady { tool });
