@@ -2,6 +2,7 @@
 //!
 //! `MACROGLOT_PROGRAMS=1000 MACROGLOT_SEED=7 cargo test --test random -- --nocapture` tries so many programs
 //! of each dialect and policy. A program that shows a fault is made smaller, then printed with its seed.
+//! `MACROGLOT_KINDS="fadal DeepDo"` tries that kind alone, `MACROGLOT_KINDS=fadal` those of one dialect.
 
 #[path = "support/generate/mod.rs"]
 mod generate;
@@ -64,6 +65,9 @@ impl Running {
         self.since.lock().expect("nobody panics with it").remove(&seed);
         if trial.took > BUDGET {
             trial.faults.push(format!("takes too long: {:?}", trial.took));
+        }
+        for fault in &trial.faults {
+            eprintln!("seed {seed}: {}", fault.lines().next().unwrap_or_default());
         }
         trial
     }
@@ -139,7 +143,12 @@ fn search(running: &Running, programs: u64, seed: u64) {
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
     let mut longest = (Duration::ZERO, 0);
     let mut faulty: Vec<(&str, Policy, u64, String)> = Vec::new();
+    let wanted = std::env::var("MACROGLOT_KINDS").unwrap_or_default();
     for (at, (dialect, policy)) in kinds.into_iter().enumerate() {
+        // Left out, a kind keeps its place: the seeds of the others stay what they are.
+        if !format!("{dialect} {policy:?}").contains(&wanted) {
+            continue;
+        }
         let trials: Vec<(u64, Trial)> = (0..programs)
             .into_par_iter()
             .map(|number| {

@@ -2,7 +2,7 @@
 
 use super::calls_of;
 use crate::ir::analysis::{CallGraph, Row, Universe};
-use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, StmtKind, TermKind, Var};
+use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,14 +25,15 @@ impl Exposed {
         let universe = universe(module);
         let callees = Callees::of(module);
         let written = Written::of(module, &callees, &universe);
-        let transfers: Vec<Vec<(Row, Row)>> = module
-            .programs
-            .iter()
-            .map(|program| program.blocks.iter().map(|block| transfer(block, &universe)).collect())
+        let transfers: Vec<Vec<Transfer>> = (module.programs.iter().enumerate())
+            .map(|(index, program)| {
+                let transfer = |block| Transfer::of(block, &universe, |call| callees.routine(index, call));
+                program.blocks.iter().map(transfer).collect()
+            })
             .collect();
         let mut live_in: Vec<Vec<Row>> =
             module.programs.iter().map(|p| vec![universe.none(); p.blocks.len()]).collect();
-        let none = universe.none();
+        let (none, everything) = (universe.none(), universe.all());
         callees.graph(module).settle(|index| {
             let program = &module.programs[index];
             let mut any = false;
@@ -46,12 +47,21 @@ impl Exposed {
                     if let Some(sure) = written.by_end(index, block, &callees) {
                         live.subtract(sure);
                     }
-                    for (i, entry) in calls_of(block).filter_map(|call| callees.routine(index, call)) {
-                        live.join(live_in[i].get(entry.index()).unwrap_or(&none));
+                    let called = |live: &mut Row, (i, entry): Routine, passes: &Row| {
+                        let mut there = live_in[i].get(entry.index()).unwrap_or(&none).clone();
+                        there.intersect(passes);
+                        live.join(&there);
+                    };
+                    let Transfer { reads, passes, modal } = &transfers[index][at];
+                    if let TermKind::Call { call, .. } = &block.term.kind
+                        && let Some(routine) = callees.routine(index, call)
+                    {
+                        called(&mut live, routine, &everything);
                     }
-                    let (reads, passes) = &transfers[index][at];
                     live.intersect(passes);
                     live.join(reads);
+                    // It runs at moves behind it, before what is written later.
+                    modal.iter().for_each(|(routine, passes)| called(&mut live, *routine, passes));
                     changed |= live_in[index][at].join(&live);
                 }
                 any |= changed;
@@ -217,18 +227,44 @@ fn runs(call: &Call) -> bool {
     call.count.as_ref().is_none_or(|count| count.constant().is_some_and(|n| n >= 1.0))
 }
 
-/// What a block makes of what is live behind it: of nothing, and of everything.
-fn transfer(block: &Block, universe: &Universe) -> (Row, Row) {
-    let mut rows = [universe.none(), universe.all()];
-    let note = |e: &Expr, rows: &mut [Row]| {
-        read(e, &mut |var| {
-            if let Some(at) = universe.place(var) {
-                rows.iter_mut().for_each(|row| row.insert(at));
-            }
+/// What a block makes of what is live behind it.
+struct Transfer {
+    /// What it makes of nothing.
+    reads: Row,
+    /// What it makes of everything.
+    passes: Row,
+    /// The modal calls that it starts, and what the statements before each make of everything.
+    modal: Vec<(Routine, Row)>,
+}
+
+impl Transfer {
+    fn of(block: &Block, universe: &Universe, routine: impl Fn(&Call) -> Option<Routine>) -> Self {
+        let mut rows = [universe.none(), universe.all()];
+        block.term.kind.exprs(&mut |e| note(e, &mut rows, universe));
+        backward(&block.stmts, &mut rows, universe);
+        let modal = block.stmts.iter().enumerate().filter_map(|(at, stmt)| {
+            let StmtKind::ModalCall(call) = &stmt.kind else { return None };
+            let mut before = [universe.all()];
+            backward(&block.stmts[..at], &mut before, universe);
+            let [before] = before;
+            Some((routine(call)?, before))
         });
-    };
-    block.term.kind.exprs(&mut |e| note(e, &mut rows));
-    for stmt in block.stmts.iter().rev() {
+        let modal = modal.collect();
+        let [reads, passes] = rows;
+        Self { reads, passes, modal }
+    }
+}
+
+fn note(e: &Expr, rows: &mut [Row], universe: &Universe) {
+    read(e, &mut |var| {
+        if let Some(at) = universe.place(var) {
+            rows.iter_mut().for_each(|row| row.insert(at));
+        }
+    });
+}
+
+fn backward(stmts: &[Stmt], rows: &mut [Row], universe: &Universe) {
+    for stmt in stmts.iter().rev() {
         if let Some(Place::Var(var)) = stmt.kind.target()
             && stmt.site.skip.is_none()
             && let Some(at) = universe.place(*var)
@@ -239,9 +275,8 @@ fn transfer(block: &Block, universe: &Universe) -> (Row, Row) {
             let cleared = universe.classes(|c| c == *class);
             rows.iter_mut().for_each(|row| row.subtract(&cleared));
         }
-        stmt.kind.exprs(&mut |e| note(e, &mut rows));
+        stmt.kind.exprs(&mut |e| note(e, rows, universe));
     }
-    rows.into()
 }
 
 fn read(e: &Expr, f: &mut dyn FnMut(Var)) {

@@ -8,7 +8,7 @@ use super::inputs::{inputs, is_called};
 use super::names::{Names, Side};
 use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
-use super::scenarios::{Proposals, on_target, unit};
+use super::scenarios::{Proposals, asked, on_target, unit};
 use super::{Certificate, Effort, Outcome};
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, ProgramRef, Run, Scenario};
@@ -191,6 +191,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let Job { source, target, names, .. } = self.job;
         let mut circumstances = on_target(scenario, names, (source, target), self.called);
         circumstances.inch = self.given.or(circumstances.inch);
+        circumstances.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
         if is_cut(run) {
             // Only what both did so far is compared.
             circumstances.steps = scenario.steps.saturating_mul(3);

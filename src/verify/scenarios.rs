@@ -5,8 +5,9 @@ use super::names::class_of;
 use super::random::Random;
 use super::{Effort, Names, Side};
 use crate::canon::Sys;
-use crate::control::Scenario;
 use crate::control::scenario::{AXES, Axes, Probe, StateValue, Tool};
+use crate::control::trace::Happening;
+use crate::control::{Run, Scenario};
 use crate::dialect::Units;
 use std::collections::BTreeMap;
 
@@ -263,4 +264,9 @@ pub fn on_target(
     // Emulations take more blocks than what they stand for.
     out.steps = scenario.steps.saturating_mul(20);
     out
+}
+
+/// How many answers a run took: behind the last one of the scenario they were 0.
+pub fn asked(run: &Run) -> usize {
+    run.events.iter().filter(|event| matches!(event.what, Happening::Asked { .. })).count()
 }

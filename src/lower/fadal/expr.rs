@@ -122,6 +122,10 @@ impl<'b> Lowering<'b> {
                 return None;
             }
         };
+        if self.state.places_called {
+            let message = "takes it that the programs called since SET RND leave the places as they were";
+            self.once(Code::ModalAssumed, "places", span, message.into());
+        }
         if places != DEFAULT_PLACES {
             return Some(f64::from(places));
         }

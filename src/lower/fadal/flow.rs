@@ -1,7 +1,7 @@
 //! Which modal state holds where: forward over the ways that control can take.
 
 use super::shape::{Goal, Shape, goal};
-use super::state::{DEFAULT_PLACES, MOST_MODAL, State, Values};
+use super::state::{DEFAULT_PLACES, MOST_MODAL, Sets, State, Values};
 use super::steps::{Step, parametric, steps};
 use super::words::{Codes, word};
 use crate::canon::Op;
@@ -16,6 +16,7 @@ pub struct Flow<'b> {
     blocks: &'b [Block],
     control: &'b Control,
     shape: &'b Shape,
+    others: Sets,
     at: Vec<Option<State>>,
     returned: Vec<Option<State>>,
     modal_subs: Vec<usize>,
@@ -25,11 +26,12 @@ pub struct Flow<'b> {
 
 impl<'b> Flow<'b> {
     /// Follows all ways through a program.
-    pub fn new(blocks: &'b [Block], control: &'b Control, shape: &'b Shape) -> Self {
+    pub fn new(blocks: &'b [Block], control: &'b Control, shape: &'b Shape, others: Sets) -> Self {
         let mut flow = Self {
             blocks,
             control,
             shape,
+            others,
             at: vec![None; shape.leaders.len()],
             returned: vec![None; shape.subs.len()],
             modal_subs: Vec::new(),
@@ -218,7 +220,7 @@ impl<'b> Flow<'b> {
                     let again = constant(value).is_none_or(|value| value % 100.0 != 1.0);
                     state = self.call_any(&subs, again, run, state)?;
                 }
-                Step::Program => state.called(),
+                Step::Program => state.called(&self.others),
                 Step::SubEnd => {
                     if let Some((sub, _)) = run.and_then(|(_, at)| Some((self.shape.region(at)?, ()))) {
                         self.give_back(sub, &state);
@@ -260,7 +262,7 @@ impl<'b> Flow<'b> {
         if subs.is_empty() {
             // A subroutine that the control keeps, or none: refused or reviewed where it is lowered.
             let mut state = state;
-            state.called();
+            state.called(&self.others);
             return Some(state);
         }
         let mut behind: Option<State> = None;
@@ -322,6 +324,7 @@ fn statement(kind: &ItemKind, state: &mut State) {
                 state.radians = Values::one(false);
                 state.radians_outside = false;
                 state.places = Values::one(DEFAULT_PLACES);
+                state.places_called = false;
             }
             for option in options {
                 match option {
@@ -329,7 +332,10 @@ fn statement(kind: &ItemKind, state: &mut State) {
                         state.radians = Values::one(*option == SetOption::Radians);
                         state.radians_outside = false;
                     }
-                    SetOption::Round(places) => state.places = Values::one(*places),
+                    SetOption::Round(places) => {
+                        state.places = Values::one(*places);
+                        state.places_called = false;
+                    }
                     SetOption::Debug | SetOption::Run => {}
                 }
             }

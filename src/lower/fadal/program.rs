@@ -2,7 +2,7 @@
 
 use super::flow::Flow;
 use super::shape::Shape;
-use super::state::State;
+use super::state::{Sets, State};
 use super::steps::steps;
 use super::words::Codes;
 use crate::diag::{Code, Diagnostic};
@@ -43,15 +43,16 @@ pub struct Lowering<'b> {
     pub reads_motion: Option<Span>,
 }
 
-/// Lowers a program's text.
+/// Lowers a program's text; `others` is what the other programs of its file set.
 pub fn lower(
     text: &ProgramText<'_>,
+    others: Sets,
     source: &[u8],
     file: usize,
     control: &Control,
 ) -> (Program, Vec<Diagnostic>) {
     let shape = Shape::new(text.blocks, control);
-    let mut flow = Flow::new(text.blocks, control, &shape);
+    let mut flow = Flow::new(text.blocks, control, &shape, others);
     let mut lowering = Lowering {
         source,
         control,

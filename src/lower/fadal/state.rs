@@ -1,5 +1,7 @@
 //! The modal state that the meaning of later blocks depends on.
 
+use crate::syntax::{Block, ItemKind, SetOption, for_each_item};
+
 /// How many values are told apart before the set counts as any.
 const MOST: usize = 8;
 
@@ -57,6 +59,39 @@ pub const DEFAULT_PLACES: u8 = u8::MAX;
 /// Modal calls in force that are counted.
 pub const MOST_MODAL: u8 = 4;
 
+/// What the other programs of a file set.
+#[derive(Clone, Debug, Default)]
+pub struct Sets {
+    /// Places of rounding.
+    pub places: Values<u8>,
+    /// Whether angles are radians.
+    pub radians: Values<bool>,
+}
+
+impl Sets {
+    /// Adds what a program sets.
+    pub fn add(&mut self, blocks: &[Block]) {
+        for block in blocks {
+            for_each_item(&block.items, &mut |item| {
+                let ItemKind::Set(options) = &item.kind else { return };
+                if options.is_empty() {
+                    self.places.join(&Values::one(DEFAULT_PLACES));
+                    self.radians.join(&Values::one(false));
+                }
+                for option in options {
+                    match option {
+                        SetOption::Degrees | SetOption::Radians => {
+                            self.radians.join(&Values::one(*option == SetOption::Radians));
+                        }
+                        SetOption::Round(places) => self.places.join(&Values::one(*places)),
+                        SetOption::Debug | SetOption::Run => {}
+                    }
+                }
+            });
+        }
+    }
+}
+
 /// What the program has set, on the ways that lead to a place of it.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct State {
@@ -81,6 +116,8 @@ pub struct State {
     pub radians_outside: bool,
     /// Places of rounding.
     pub places: Values<u8>,
+    /// True where a program was called since they were set.
+    pub places_called: bool,
     /// True where moves may still be to come when a statement runs.
     pub moved: bool,
     /// How many modal calls may be in force, up to [`MOST_MODAL`]; so many may be any number.
@@ -119,6 +156,7 @@ impl State {
         self.radians.join(&other.radians);
         self.radians_outside |= other.radians_outside;
         self.places.join(&other.places);
+        self.places_called |= other.places_called;
         self.moved |= other.moved;
         self.modal = self.modal.max(other.modal);
         self.in_modal |= other.in_modal;
@@ -126,10 +164,13 @@ impl State {
         *self != before
     }
 
-    /// Another program ran: it may have set any variable, and is taken to leave
-    /// the modes as they were.
-    pub fn called(&mut self) {
+    /// Another program ran: it may have set any variable, or what `others` do, and is taken to leave
+    /// the other modes as they were.
+    pub fn called(&mut self, others: &Sets) {
         self.motion_called = true;
+        self.places_called = true;
+        self.places.join(&others.places);
+        self.radians.join(&others.radians);
         self.radians_outside = true;
         self.moved = true;
         self.r = std::array::from_fn(|_| Values::any());

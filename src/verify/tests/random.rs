@@ -100,3 +100,13 @@ fn a_first_move_that_goes_nowhere_is_none() {
     assert_eq!(across("#5042").witness, None);
     assert_eq!(across("[#5042+0.01]").outcome, Outcome::Different);
 }
+
+/// Fifty questions, two more than the operator has answers for: the rest are 0 on both sides.
+#[test]
+fn questions_beyond_the_answers_are_answered_on_both_sides() {
+    let source = "O1\n#V2=50\n#:A\n#INPUT V1\n#V3=V3+V1\n#V2=V2-1\n#IF V2>0 THEN GOTO :A\nM2\n";
+    let target = "O1\n#502=50\nN1 #501=0\n#3006=1(SET #501)\n#503=#503+#501\n#502=#502-1\n\
+                  IF[#502GT0]GOTO1\nM2\n";
+    let names = [("V1", 501), ("V2", 502), ("V3", 503)];
+    assert_eq!(run("fadal", source, "fanuc", target, &names).witness, None);
+}

@@ -102,6 +102,10 @@ fn motion_modes_are_followed_over_ways_and_calls() {
     assert!(program(&cycled("")).contains("nc motion.rapid axis.x=5"));
     assert!(program(&cycled("M98 P7\n")).contains("nc axis.x=5"));
     assert!(found(&cycled("M98 P7\n"), "").contains(&"ModalAssumed".to_owned()));
+    // So are the places of rounding: another program of the file sets them otherwise, or not.
+    let rounds = |set: &str| format!("O1\n#SET RND3\nM98 P2\n#V1=RND(V2)\nM2\nO2\n{set}\nM99\n");
+    assert!(found(&rounds("#SET RND2"), "").contains(&"ModalConflict".to_owned()));
+    assert_eq!(found(&rounds("#SET RND3"), ""), ["ModalAssumed", "behaviour:round.half.away"]);
     // A called program is taken to leave it alone, and that is said.
     let found2 = found("O1\nG3 X1. I1.\nM98 P5\nX2. I1.\nM2\n", "");
     assert!(found2.contains(&"ModalAssumed".to_owned()), "{found2:?}");
