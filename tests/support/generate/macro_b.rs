@@ -516,6 +516,8 @@ impl Writer<'_> {
                     // Behind it a slash would begin the divisor of the form with two arguments.
                     Unary::ArcTangent if rank > 0 => return format!("[ATAN[{}]]", self.value(a, 0)),
                     Unary::ArcTangent => "ATAN",
+                    // Two brackets each: some controls take five.
+                    Unary::Root if holds_root(a) => "ABS",
                     Unary::Root => return format!("SQRT[ABS[{}]]", self.value(a, 0)),
                     Unary::Fix => "FIX",
                     Unary::Up if self.haas => "FIX",
@@ -557,5 +559,13 @@ impl Writer<'_> {
             Test::Both(a, b) => format!("[{} AND {}]", self.test(a), self.test(b)),
             Test::Either(a, b) => format!("[{} OR {}]", self.test(a), self.test(b)),
         }
+    }
+}
+
+fn holds_root(value: &Value) -> bool {
+    match value {
+        Value::Unary(function, a) => *function == Unary::Root || holds_root(a),
+        Value::Binary(_, a, b) => holds_root(a) || holds_root(b),
+        _ => false,
     }
 }
