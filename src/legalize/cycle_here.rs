@@ -3,7 +3,8 @@
 //! Law: on the target a cycle runs in each block that has a position; giving it the place where the tool
 //! stands (`X#5041 Y#5042` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. In the block that defines the
 //! cycle nothing need be added where that block runs the cycle anyway. A block that defines a cycle without a position
-//! and without running it is stored by a repeat of none.
+//! runs it where the tool stands or only stores it: the target is told by a place, or by a repeat of none, where the two
+//! controls do not agree.
 //! Under a rotation the present place would be turned once more; there the block gets the words that
 //! last named the place, where they still have their values.
 //! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
@@ -26,8 +27,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let runs = |control: &crate::dialect::Control| {
         control.behaviour("cycle.runs.without.axes").map(|b| b.value.clone())
     };
-    let stored =
-        runs(context.source).as_deref() == Some("false") && runs(context.target) != runs(context.source);
+    let agree = runs(context.target) == runs(context.source);
+    let drills = runs(context.source).as_deref() == Some("true");
     let summaries = Summaries::of(module);
     let other_planes = module
         .programs
@@ -49,17 +50,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let across = across(state.op(Group::Plane));
                 let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
                 let span = stmt.site.span;
-                let asked = here || defines && stored && nc.word(Role::Repeat).is_none();
+                let bare = defines && !here && !placed && nc.word(Role::Repeat).is_none();
+                let asked = here || bare && !agree;
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
                     let what =
                         "along which axis a cycle drills is not known here: write G17, G18 or G19 before it";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                     continue;
                 }
-                let what = if defines && !here && !placed && stored && nc.word(Role::Repeat).is_none() {
+                if bare && !context.source.is_same_machine(context.target) {
+                    context.rests_on_source(index, span, "cycle.runs.without.axes");
+                    if agree {
+                        context.rests_on_target(index, span, "cycle.runs.without.axes");
+                    }
+                }
+                let here = here || bare && drills && !agree;
+                let what = if bare && !drills && !agree {
                     nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
                     Some(
-                        "the source only stores a cycle that is defined without a position; a repeat of none does that on the target where it is so taken",
+                        "a cycle that is defined without a position is taken to be stored only; a repeat of none does that on the target, where it is so taken",
                     )
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
                     match named.words().filter(|_| across[0].0 == Role::X) {

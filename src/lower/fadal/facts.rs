@@ -46,8 +46,6 @@ impl<'b> Lowering<'b> {
             Some(row) if row.op.is_cycle() => {
                 if plane || codes.has(Op::CycleHere) {
                     let _ = self.rely("cycle.block.runs", span);
-                } else {
-                    let _ = self.rely("cycle.runs.without.axes", span);
                 }
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
                 if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
