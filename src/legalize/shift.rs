@@ -22,6 +22,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let facts = ModalFacts::of(module, &context.entry);
+    let incremental = module
+        .programs
+        .iter()
+        .flat_map(|p| &p.blocks)
+        .flat_map(|b| &b.stmts)
+        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Incremental)));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let main = reachable(program, BlockId(0));
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -33,7 +39,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if reads {
                     refuse_read(index, stmt.site.span, &state, context);
                 }
-                if let Some((code, what)) = mark(stmt, &state) {
+                if let Some((code, what)) = mark(stmt, &state, incremental) {
                     context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));
                 }
             }
@@ -72,7 +78,8 @@ fn refuse_read(index: usize, span: Span, state: &Modal, context: &mut Context<'_
     }
 }
 
-fn mark(stmt: &mut Stmt, state: &Modal) -> Option<(Code, &'static str)> {
+/// `incremental` where a program of the library sets incremental coordinates.
+fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'static str)> {
     let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
     let moves = nc.moves() && !nc.has(Op::ReferenceReturn) && !nc.has(Op::MachineOnce);
     let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ShiftCancel));
@@ -101,7 +108,7 @@ fn mark(stmt: &mut Stmt, state: &Modal) -> Option<(Code, &'static str)> {
                         "the move is marked as one in machine coordinates, which on the target also leaves tool length compensation out for the block",
                     )),
                 },
-                (Some(Op::Rapid), None) => Some((
+                (Some(Op::Rapid), None) if !incremental => Some((
                     Code::Conditional,
                     "a move in machine coordinates: taken as absolute, which the text here does not say",
                 )),
