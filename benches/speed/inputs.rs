@@ -77,18 +77,19 @@ pub fn surface(size: usize) -> String {
     out + "M30\n%\n"
 }
 
+/// Statements of a macro program, each with its number.
+const STATEMENTS: u64 = 40;
+
 /// Macro statements of every kind, of about `size` bytes.
 pub fn macros(size: usize) -> String {
     let mut m = Macros(Random(SEEDS[1].1));
-    let mut out = String::from("%\nO9000 (MACRO LIBRARY)\n");
-    let (mut n, mut program) = (10, 9001);
+    let mut out = String::from("%\nO1000 (MACRO LIBRARY)\n");
+    let mut program = 1001;
     while out.len() < size {
         out += &format!("O{program}(MACRO {program})\n");
-        program = if program < 9999 { program + 1 } else { 9001 };
-        for _ in 0..40 {
-            let line = m.statement(&mut n);
-            out += &line;
-            out.push('\n');
+        program = if program < 9999 { program + 1 } else { 1001 };
+        for n in 1..=STATEMENTS {
+            out += &format!("N{}{}\n", 10 * n, m.statement());
         }
         out += "M99\n";
     }
@@ -112,18 +113,16 @@ impl Macros {
     }
 
     fn atom(&mut self, depth: u32) -> String {
-        const FUNCTIONS: [&str; 15] = [
-            "SIN", "COS", "TAN", "ATAN", "SQRT", "ABS", "ROUND", "FIX", "FUP", "ACOS", "ASIN", "LN", "EXP",
-            "BIN", "BCD",
+        const FUNCTIONS: [&str; 14] = [
+            "SIN", "COS", "TAN", "SQRT", "ABS", "ROUND", "FIX", "FUP", "ACOS", "ASIN", "LN", "EXP", "BIN",
+            "BCD",
         ];
         match self.0.below(10) {
             k if k < 4 || depth == 0 => self.var(),
             4..6 => self.num(),
-            6 => format!("#[{}]", self.expr(depth - 1)),
-            7..9 => {
-                let function = self.0.of(&FUNCTIONS);
-                format!("{function}[{}]", self.expr(depth - 1))
-            }
+            6 => format!("#[{}+500]", self.var()),
+            // A number alone may lie outside of what the function takes.
+            7..9 => format!("{}[{}+{}]", self.0.of(&FUNCTIONS), self.var(), self.expr(depth - 1)),
             _ => format!("[{}]", self.expr(depth - 1)),
         }
     }
@@ -133,8 +132,9 @@ impl Macros {
         for _ in 0..self.0.below(3) {
             let all = ["+", "-", "*", "/", "*", "+", " MOD ", " AND ", " OR ", " XOR "];
             let some = if self.0.below(4) == 0 { &all[..] } else { &all[..6] };
-            out += self.0.of(some);
-            out += &self.atom(depth);
+            let operator = self.0.of(some);
+            out += operator;
+            out += &if operator == "/" { self.var() } else { self.atom(depth) };
         }
         out
     }
@@ -143,18 +143,14 @@ impl Macros {
         self.0.of(&["EQ", "NE", "GT", "GE", "LT", "LE"])
     }
 
-    fn statement(&mut self, n: &mut u64) -> String {
+    fn statement(&mut self) -> String {
         match self.0.below(20) {
             0..5 => format!("{}={}", self.var(), self.expr(2)),
             5 => "#101=[#100+#[#2+500]]*SIN[#3] (SCALE)".into(),
-            6 => {
-                let at = *n;
-                *n = *n % 9990 + 10;
-                format!("N{at} {}={}", self.var(), self.num())
-            }
+            6 => format!("{}={}", self.var(), self.num()),
             7..9 => {
                 let (var, compare, num) = (self.var(), self.compare(), self.num());
-                format!("IF[{var} {compare} {num}]GOTO{}", 10 * (1 + self.0.below(900)))
+                format!("IF[{var} {compare} {num}]GOTO{}", 10 * (1 + self.0.below(STATEMENTS)))
             }
             9 => {
                 let (a, compare, b) = (self.expr(1), self.compare(), self.expr(1));
@@ -167,7 +163,7 @@ impl Macros {
                 format!("{head}\n{body}\nEND{depth}")
             }
             12..14 => {
-                let (program, a, b) = (9010 + self.0.below(20), self.num(), self.num());
+                let (program, a, b) = (1010 + self.0.below(20), self.num(), self.num());
                 format!("G65 P{program} A{a} B{b} C{}", self.var())
             }
             14..17 => {
@@ -177,7 +173,7 @@ impl Macros {
             17 => format!("G0 X{} Y{} Z[{}]", self.num(), self.num(), self.expr(1)),
             18 => format!("(CHECK TOOL {} AND WEAR OFFSET)", self.0.below(99)),
             _ => match self.0.below(4) {
-                0 => format!("GOTO {}", 10 * (1 + self.0.below(900))),
+                0 => format!("GOTO {}", 10 * (1 + self.0.below(STATEMENTS))),
                 1 => "/M8".into(),
                 2 => "#3000=1 (TOOL BROKEN)".into(),
                 _ => "G#4 X-#5 Y-[#6+#7]".into(),
