@@ -22,12 +22,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let facts = ModalFacts::of(module, &context.entry);
-    let incremental = module
-        .programs
-        .iter()
-        .flat_map(|p| &p.blocks)
-        .flat_map(|b| &b.stmts)
-        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Incremental)));
+    let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
+    let has = |op: Op| stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(op)));
+    let (incremental, sets_position) = (has(Op::Incremental), has(Op::SetPosition));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let main = reachable(program, BlockId(0));
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -38,6 +35,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 stmt.kind.exprs(&mut |e| reads |= reads_position(e));
                 if reads {
                     refuse_read(index, stmt.site.span, &state, context);
+                }
+                if sets_position && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::ShiftCancel)) {
+                    let what = "no source says whether cancelling all zero shifts ends the position that a program set, too; on the target that stays";
+                    context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
                 }
                 if let Some((code, what)) = mark(stmt, &state, incremental) {
                     context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));
