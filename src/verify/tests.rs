@@ -8,7 +8,6 @@ use crate::control::LoadedFile;
 use crate::dialect::{Control, registry};
 use crate::syntax::parse_file;
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
 
 /// Verifies a pair of single programs, registers by their own names or by `variables`.
 fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32)]) -> ProgramCertificate {
@@ -190,13 +189,12 @@ fn machine_functions() {
 }
 
 #[test]
-fn an_endless_loop_is_undecided_and_quickly() {
-    let start = Instant::now();
+fn an_endless_loop_is_undecided_after_few_runs() {
     let program = "O1\nN1G91G1X1.F100.\nX-1.\nGOTO1\nM30\n";
     let found = within("fanuc", program, program);
     assert_eq!(found.outcome, Outcome::Undecided);
     assert!(found.reasons.iter().any(|reason| reason.why == Why::Endless), "{found:#?}");
-    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    assert!(found.scenarios_tried <= 4, "{}", found.scenarios_tried);
     // What differs before that is a difference all the same.
     differs("fanuc", program, &program.replace("X-1.", "X-2."), "elsewhere");
 }
