@@ -161,7 +161,15 @@ impl Sys {
                 | SetPosition
                 | Pole
                 | HomeOffset
-                | LengthGeometry
+        ) || self.is_tool_offset() && !matches!(self, LatheTip)
+    }
+
+    /// True for a cell of the table of tools.
+    pub const fn is_tool_offset(self) -> bool {
+        use Sys::*;
+        matches!(
+            self,
+            LengthGeometry
                 | LengthWear
                 | RadiusGeometry
                 | RadiusWear
@@ -173,6 +181,7 @@ impl Sys {
                 | LatheX
                 | LatheZ
                 | LatheRadius
+                | LatheTip
                 | LatheY
         )
     }

@@ -9,7 +9,7 @@ const ADDITIONAL: u32 = 101;
 /// Drops the tool offsets and the additional work offsets past those of the profile.
 pub(super) fn clamp(dialect: &mut Dialect, profile: &Profile) {
     if let Some(offsets) = profile.offsets {
-        for row in dialect.system.iter_mut().filter(|row| is_tool_offset(row.state)) {
+        for row in dialect.system.iter_mut().filter(|row| row.state.is_tool_offset()) {
             if let Some(subscript) = row.subscripts.first_mut() {
                 subscript.count = subscript.count.min(offsets);
             }
@@ -48,25 +48,4 @@ fn shorten(shift: &mut Shift, count: u32) -> bool {
     }
     shift.last = shift.last.min(u32::try_from(last).unwrap_or(0));
     shift.first <= shift.last
-}
-
-fn is_tool_offset(state: Sys) -> bool {
-    use Sys::*;
-    matches!(
-        state,
-        LengthGeometry
-            | LengthWear
-            | RadiusGeometry
-            | RadiusWear
-            | DiameterGeometry
-            | DiameterWear
-            | DiameterOrRadius
-            | DiameterOrRadiusWear
-            | ToolOffset
-            | LatheX
-            | LatheZ
-            | LatheRadius
-            | LatheTip
-            | LatheY
-    )
 }

@@ -6,6 +6,7 @@
 
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Func, Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::matters;
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
@@ -26,6 +27,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             for stmt in &block.stmts {
                 let span = stmt.site.span;
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
+                if let Some(place) = stmt.kind.target() {
+                    value(&place.read(), index, span, context);
+                }
                 if let StmtKind::Nc(nc) = &stmt.kind {
                     if let Some(state) = &state
                         && mixes(nc, state)
@@ -56,6 +60,12 @@ fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
         }
         Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
             both(context, index, span, "sqrt.of.negative");
+        }
+        Expr::System(state, subscripts) if subscripts.iter().any(|e| e.constant().is_none()) => {
+            let what = format!(
+                "which '{state}' is meant is known only when the program runs: it must be one that both controls have; what another number names on either is not known"
+            );
+            context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
         }
         Expr::Indirect(_, number) if makes_fractions(number) => {
             both(context, index, span, "index.of.fraction")

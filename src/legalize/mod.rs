@@ -65,7 +65,7 @@ mod vacant_writes;
 
 use census::{Census, Thing};
 pub use context::Context;
-pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable, span_of};
+pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable, replace_statements, span_of};
 pub use oversize::shares_line;
 use registers::allocate;
 pub use registers::{Register, Registers};

@@ -332,6 +332,25 @@ impl<'m> Analysis<'m> {
     }
 }
 
+/// Puts others in the place of statements. `change` gets the program, the state before a statement, which it has to
+/// step, the statement, and where those go that stand for it.
+pub fn replace_statements(
+    module: &mut Module,
+    facts: &ModalFacts,
+    mut change: impl FnMut(usize, &mut Modal, Stmt, &mut Vec<Stmt>),
+) {
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let mut out = Vec::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                change(index, &mut state, stmt, &mut out);
+            }
+            block.stmts = out;
+        }
+    }
+}
+
 /// Every call of a block: modal ones and the terminator's.
 pub fn calls_of(block: &Block) -> impl Iterator<Item = &Call> {
     let modal = block.stmts.iter().filter_map(|stmt| match &stmt.kind {

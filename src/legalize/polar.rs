@@ -5,10 +5,10 @@
 //! pole is kept in two registers. Side conditions: absolute or incremental is known at each polar move, and both words
 //! stand in its block.
 
-use super::{Context, ModalFacts};
+use super::{Context, ModalFacts, replace_statements};
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BinOp, BlockId, Class, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind, Var};
+use crate::ir::{BinOp, Class, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind, Var};
 
 /// The registers of the pole, X and Y, by their numbers in [`Class::Register`].
 const POLE: [(Role, Var); 2] = [
@@ -23,30 +23,23 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let polar = |nc: &Nc| nc.word(Role::PolarAngle).is_some() || nc.word(Role::PolarDistance).is_some();
     let facts = ModalFacts::of(module, &context.entry);
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        for (at, block) in program.blocks.iter_mut().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for mut stmt in std::mem::take(&mut block.stmts) {
-                state.step(&stmt);
-                let span = stmt.site.span;
-                if let StmtKind::Nc(nc) = &mut stmt.kind {
-                    if nc.has(Op::Pole) {
-                        out.extend(set_pole(nc, &stmt.site));
-                        if nc.items.is_empty() {
-                            continue;
-                        }
-                    } else if polar(nc)
-                        && let Err(why) = rectangular(nc, state.op(Group::Distance))
-                    {
-                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
-                    }
+    replace_statements(module, &facts, |index, state, mut stmt, out| {
+        state.step(&stmt);
+        let span = stmt.site.span;
+        if let StmtKind::Nc(nc) = &mut stmt.kind {
+            if nc.has(Op::Pole) {
+                out.extend(set_pole(nc, &stmt.site));
+                if nc.items.is_empty() {
+                    return;
                 }
-                out.push(stmt);
+            } else if polar(nc)
+                && let Err(why) = rectangular(nc, state.op(Group::Distance))
+            {
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
             }
-            block.stmts = out;
         }
-    }
+        out.push(stmt);
+    });
 }
 
 /// Takes the pole out of a block, and yields the assignments that keep it.

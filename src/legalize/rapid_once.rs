@@ -4,10 +4,10 @@
 //! it is known, and is straight (an arc code alone means another thing on each control), and no drilling cycle is in
 //! force, which a rapid code would end.
 
-use super::{Context, ModalFacts};
+use super::{Context, ModalFacts, replace_statements};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
 
 /// Replaces rapid moves of one block.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -15,43 +15,35 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let facts = ModalFacts::of(module, &context.entry);
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        for (at, block) in program.blocks.iter_mut().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for mut stmt in std::mem::take(&mut block.stmts) {
-                let motion =
-                    state.op(Group::Motion).filter(|motion| matches!(motion, Op::Rapid | Op::Linear));
-                let drills = state.op(Group::Cycle) != Some(Op::CycleOff);
-                state.step(&stmt);
-                let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
-                let StmtKind::Nc(nc) = &mut stmt.kind else {
-                    out.push(stmt);
-                    continue;
-                };
-                let once = nc.has(Op::RapidOnce);
-                if once {
-                    for item in &mut nc.items {
-                        if *item == NcItem::Op(Op::RapidOnce) {
-                            *item = NcItem::Op(Op::Rapid);
-                        }
-                    }
-                }
-                out.push(stmt);
-                match motion.filter(|_| !drills) {
-                    _ if !once => {}
-                    Some(Op::Rapid) => {}
-                    Some(motion) => {
-                        let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(motion)] });
-                        out.push(Stmt { kind, site });
-                    }
-                    None => {
-                        let what = "a rapid move of one block, where it is not known that straight moves without a drilling cycle are in force before it";
-                        context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, what));
-                    }
+    replace_statements(module, &facts, |index, state, mut stmt, out| {
+        let motion = state.op(Group::Motion).filter(|motion| matches!(motion, Op::Rapid | Op::Linear));
+        let drills = state.op(Group::Cycle) != Some(Op::CycleOff);
+        state.step(&stmt);
+        let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+        let StmtKind::Nc(nc) = &mut stmt.kind else {
+            out.push(stmt);
+            return;
+        };
+        let once = nc.has(Op::RapidOnce);
+        if once {
+            for item in &mut nc.items {
+                if *item == NcItem::Op(Op::RapidOnce) {
+                    *item = NcItem::Op(Op::Rapid);
                 }
             }
-            block.stmts = out;
         }
-    }
+        out.push(stmt);
+        match motion.filter(|_| !drills) {
+            _ if !once => {}
+            Some(Op::Rapid) => {}
+            Some(motion) => {
+                let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(motion)] });
+                out.push(Stmt { kind, site });
+            }
+            None => {
+                let what = "a rapid move of one block, where it is not known that straight moves without a drilling cycle are in force before it";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, what));
+            }
+        }
+    });
 }

@@ -4,10 +4,10 @@
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
 //! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves.
 
-use super::{Context, ModalFacts};
+use super::{Context, ModalFacts, replace_statements};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
 
 /// Names the axes of returns that name none.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -33,43 +33,36 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
     let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
     let facts = ModalFacts::of(module, &context.entry);
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        for (at, block) in program.blocks.iter_mut().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for mut stmt in std::mem::take(&mut block.stmts) {
-                state.step(&stmt);
-                let span = stmt.site.span;
-                let mut restore = None;
-                if let StmtKind::Nc(nc) = &mut stmt.kind
-                    && bare(nc)
-                {
-                    context.rests_on_source(index, span, "reference.all.axes");
-                    let (code, what) = match state.op(Group::Distance) {
-                        Some(distance) => {
-                            restore = (distance == Op::Absolute).then_some(distance);
-                            name(nc, &axes);
-                            (
-                                Code::Conditional,
-                                "all axes return at once from where they stand; in which order the source moves them is not stated",
-                            )
-                        }
-                        None => (
-                            Code::NoEquivalent,
-                            "a return to the reference position without axes, where absolute or incremental is not known",
-                        ),
-                    };
-                    context.add(index, Diagnostic::new(code, span, what));
+    replace_statements(module, &facts, |index, state, mut stmt, out| {
+        state.step(&stmt);
+        let span = stmt.site.span;
+        let mut restore = None;
+        if let StmtKind::Nc(nc) = &mut stmt.kind
+            && bare(nc)
+        {
+            context.rests_on_source(index, span, "reference.all.axes");
+            let (code, what) = match state.op(Group::Distance) {
+                Some(distance) => {
+                    restore = (distance == Op::Absolute).then_some(distance);
+                    name(nc, &axes);
+                    (
+                        Code::Conditional,
+                        "all axes return at once from where they stand; in which order the source moves them is not stated",
+                    )
                 }
-                out.push(stmt);
-                if let Some(distance) = restore {
-                    let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(distance)] });
-                    out.push(Stmt { kind, site: Site { span, ..Site::default() } });
-                }
-            }
-            block.stmts = out;
+                None => (
+                    Code::NoEquivalent,
+                    "a return to the reference position without axes, where absolute or incremental is not known",
+                ),
+            };
+            context.add(index, Diagnostic::new(code, span, what));
         }
-    }
+        out.push(stmt);
+        if let Some(distance) = restore {
+            let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(distance)] });
+            out.push(Stmt { kind, site: Site { span, ..Site::default() } });
+        }
+    });
 }
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.

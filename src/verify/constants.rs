@@ -25,7 +25,13 @@ enum Known {
 pub fn impossible(side: &Side<'_>, program: ProgramRef) -> BTreeSet<(Span, i64)> {
     let mut reader = Reader { control: side.control, known: BTreeMap::new(), out: BTreeSet::new() };
     for block in side.text(program) {
+        // A block that can be skipped may not have run: only what it leaves alone is still known.
+        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        let before = skipped.then(|| reader.known.clone());
         block.items.iter().for_each(|item| reader.item(item));
+        if let Some(before) = before {
+            reader.known.retain(|name, value| before.get(name) == Some(value));
+        }
     }
     reader.out
 }
@@ -70,7 +76,7 @@ impl Reader<'_> {
                     }
                 }
             }
-            Comment(_) | MacroMark | EndOfBlock | Tape | Program(_) => {}
+            Comment(_) | MacroMark | EndOfBlock | Tape | Program(_) | Skip(_) => {}
             _ => self.known.clear(),
         }
     }

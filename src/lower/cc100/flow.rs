@@ -3,7 +3,8 @@
 use super::register::REGISTER;
 use super::{Lowering, cycle_name};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Call, Callee, Cond, Expr, Relation, Site, TermKind};
+use crate::ir::{BlockId, Call, Callee, Cond, Expr, Site, TermKind};
+use crate::lower::common::relation;
 use crate::syntax::{BinaryOp, Label, Target};
 use crate::text::Span;
 
@@ -59,15 +60,9 @@ impl Lowering<'_> {
     }
 
     /// Lowers a jump on the condition register.
-    pub(super) fn branch(&mut self, relation: BinaryOp, target: &Target, site: &Site, span: Span) {
-        let relation = match relation {
-            BinaryOp::Equal => Relation::Equal,
-            BinaryOp::NotEqual => Relation::NotEqual,
-            BinaryOp::Less => Relation::Less,
-            BinaryOp::LessEqual => Relation::LessEqual,
-            BinaryOp::Greater => Relation::Greater,
-            BinaryOp::GreaterEqual => Relation::GreaterEqual,
-            _ => return self.findings.not_understood(span, "this control has no such jump"),
+    pub(super) fn branch(&mut self, operator: BinaryOp, target: &Target, site: &Site, span: Span) {
+        let Some(relation) = relation(operator) else {
+            return self.findings.not_understood(span, "this control has no such jump");
         };
         let cond = Cond::Compare(relation, Expr::Var(REGISTER), Expr::Number(0.0));
         match target {
