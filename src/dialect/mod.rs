@@ -30,6 +30,7 @@ mod spelling;
 mod table;
 #[cfg(test)]
 mod tests;
+mod unconfirmed;
 
 pub use control::Control;
 pub use control_codes::Alias;
@@ -43,3 +44,4 @@ pub use registry::Entry;
 pub use row::Row;
 pub use rows::*;
 pub use spelling::{Beside, CodeHead};
+pub use unconfirmed::{Side, to_confirm};

@@ -2,7 +2,8 @@
 //!
 //! Law: a number means the same on both controls where both tables give it the same operation with the same fixed
 //! operands. Every number that the value may be is looked up; where that set is not known, the code is a
-//! condition that a reviewer must accept within a family of controls, and an error across families.
+//! condition that a reviewer must accept within a family of controls, and an error across families. A computed code
+//! is a whole number: where both controls round it, what they round it to is looked up.
 //! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
 
 use super::Context;
@@ -16,6 +17,7 @@ use crate::text::Span;
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = Summaries::of(module);
+    let rounds = [context.source, context.target].iter().all(|control| control.is("integer.word.rounds"));
     let mut found: Vec<(usize, Span, Finding)> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
@@ -23,7 +25,10 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 for item in &nc.items {
                     if let NcItem::Code(letter, value) = item {
-                        let numbers = numbers(value, program, &summaries, id, at, context.source);
+                        let mut numbers = numbers(value, program, &summaries, id, at, context.source);
+                        if rounds && value.constant().is_none() {
+                            numbers.iter_mut().flatten().for_each(|number| *number = number.round());
+                        }
                         let finding = check(*letter, numbers, context.source, context.target);
                         found.extend(finding.map(|finding| (index, stmt.site.span, finding)));
                     }

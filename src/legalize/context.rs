@@ -2,7 +2,7 @@
 
 use super::Modal;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Side};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -61,31 +61,23 @@ impl<'a> Context<'a> {
 
     /// Says, once a program, that it rests on how the source behaves, where no maker's text confirms that.
     pub fn rests_on_source(&mut self, program: usize, span: Span, name: &str) {
-        let source = self.source;
-        self.rests_on(source, "source", program, span, name);
+        self.rests_on(self.source, Side::Source, program, span, name);
     }
 
     /// As [`Context::rests_on_source`], of the target.
     pub fn rests_on_target(&mut self, program: usize, span: Span, name: &str) {
-        let target = self.target;
-        self.rests_on(target, "target", program, span, name);
+        self.rests_on(self.target, Side::Target, program, span, name);
     }
 
-    fn rests_on(&mut self, control: &Control, side: &str, program: usize, span: Span, name: &str) {
+    fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, name: &str) {
         let row = control.behaviour(name);
         if row.is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
             return;
         }
         let meaning = crate::dialect::behaviours::find(name).map_or("no source says so", |q| q.meaning);
         let note = row.and_then(|row| row.origin.note.as_deref()).unwrap_or(meaning);
-        let title = &control.dialect().title;
         let fact = format!("behaviour:{name}");
-        let what = format!("rests on the unconfirmed fact '{fact}' of the {side}, {title}: {note}");
-        let help = format!(
-            "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}"
-        );
-        let finding =
-            Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(help).with_fact(fact.clone());
+        let finding = control.unconfirmed(side, &fact, Some(note), span);
         self.add_once(program, &format!("{side} {fact}"), finding);
     }
 

@@ -7,8 +7,8 @@
 use super::Context;
 use super::census::{Census, Thing};
 use crate::canon::{Func, Op, Role};
-use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Behaviour, CodeMeaning, Control, Row};
+use crate::diag::Diagnostic;
+use crate::dialect::{Behaviour, CodeMeaning, Control, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
     BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, Nc, NcItem, Relation, StmtKind, TermKind, Var,
@@ -20,21 +20,21 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports the unconfirmed facts of the target that programs rest on.
 pub fn of_target(module: &Module, context: &mut Context<'_>) {
-    look(module, context, context.target, "target");
+    look(module, context, context.target, Side::Target);
 }
 
 /// Reports the unconfirmed facts of the source about vacant variables that programs rest on: these
 /// hang on where a variable may be vacant, which lowering does not know.
 pub fn of_source(module: &Module, context: &mut Context<'_>) {
     if context.source.is("vacancy") {
-        look(module, context, context.source, "source");
+        look(module, context, context.source, Side::Source);
     }
 }
 
 /// What matters only where a variable may be vacant.
 const VACANCY: [&str; 3] = ["vacant.eq.zero", "vacant.compares.as.zero", "vacant.arithmetic.zero"];
 
-fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &str) {
+fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: Side) {
     // Where nothing is computed, nothing vacant is.
     let asked = VACANCY.iter().any(|name| control.behaviour(name).is_some_and(|row| !row.origin.confirmed));
     let own = asked && context.source.is("vacancy") && Census::of(&module.programs).has(Thing::Computed);
@@ -54,19 +54,14 @@ fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: &st
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
         for (id, block) in program.ids().zip(&program.blocks) {
             found.home = program.site.span;
-            if side == "target" {
+            if side == Side::Target {
                 found.block(block);
             }
             if let Some(vacancy) = &vacancy {
                 found.vacant(id, block, vacancy);
             }
         }
-        for (span, fact, message) in found.all {
-            let help = format!(
-                "check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}"
-            );
-            let finding =
-                Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help).with_fact(fact.clone());
+        for (fact, finding) in found.all {
             context.add_once(index, &format!("{side} {fact}"), finding);
         }
     }
@@ -86,9 +81,9 @@ fn given(module: &Module) -> BTreeMap<&ProgramName, BTreeSet<Var>> {
 
 struct Found<'c> {
     control: &'c Control,
-    side: &'c str,
+    side: Side,
     said: BTreeSet<String>,
-    all: Vec<(Span, String, String)>,
+    all: Vec<(String, Diagnostic)>,
     /// Where a finding goes whose statement has no place of its own.
     home: Span,
     /// Operations and words of blocks that were looked at.
@@ -117,14 +112,9 @@ impl Found<'_> {
         if row.origin().confirmed || !self.said.insert(row.fact()) {
             return;
         }
-        let note = row.origin().note.as_deref().unwrap_or("no source says so");
-        let message = format!(
-            "rests on the unconfirmed fact '{}' of the {}, {}: {note}",
-            row.fact(),
-            self.side,
-            self.control.dialect().title
-        );
-        self.all.push((span, row.fact(), message));
+        let fact = row.fact();
+        let finding = self.control.unconfirmed(self.side, &fact, row.origin().note.as_deref(), span);
+        self.all.push((fact, finding));
     }
 
     /// The behaviour must be confirmed, whatever its answer.

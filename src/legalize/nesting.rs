@@ -7,7 +7,7 @@
 
 use super::{Context, calls_of, reachable, span_of};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Limit};
+use crate::dialect::{Control, Limit, Side, to_confirm};
 use crate::ir::{BlockId, Callee, Module};
 use crate::syntax::ProgramName;
 use crate::text::Span;
@@ -59,10 +59,8 @@ fn report(index: usize, span: Span, (row, most): (&Limit, u32), target: &Control
     if row.origin.confirmed {
         context.add_once(index, "nesting", Diagnostic::new(Code::Conditional, span, what));
     } else {
-        let help = format!(
-            "check the limit on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the target"
-        );
-        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(&fact).with_help(help);
+        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(&fact);
+        let finding = finding.with_help(to_confirm(&fact, Side::Target));
         context.add_once(index, "nesting", finding);
     }
 }

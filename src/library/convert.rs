@@ -212,7 +212,7 @@ pub(super) fn make(
     let origins = context.origins.clone();
     let legal = context.into_findings();
     found.resize_with(count, Vec::new);
-    found.iter_mut().zip(legal).for_each(|(all, more)| all.extend(more));
+    found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
     let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
     if let Some(fault) = fault {
         found.iter_mut().for_each(|all| {
@@ -244,6 +244,13 @@ pub(super) fn make(
     Made { found, parts, lock }
 }
 
+/// Adds findings but for facts of the source that lowering has told already.
+fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
+    let facts = all.iter().filter(|finding| finding.code == Code::UnconfirmedFact);
+    let told: BTreeSet<String> = facts.map(|finding| finding.message.clone()).collect();
+    all.extend(more.into_iter().filter(|finding| !told.contains(&finding.message)));
+}
+
 /// Lowers one file; errors of reading are findings of the program they stand in.
 fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
     let entry = source.entry();
@@ -268,8 +275,13 @@ fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Resu
                     emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
                 let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
                 let line = emitted.text[line..].lines().next().unwrap_or_default();
-                let what = format!("the target would not read '{line}': {}", fault.message);
-                Diagnostic::new(Code::Internal, source.unwrap_or(program.site.span), what)
+                let (code, what) = match fault.code {
+                    // Constants that were computed out of the domain: so would they be on the machine.
+                    Code::DivisionByZero | Code::FunctionDomain => (fault.code, "this would become"),
+                    _ => (Code::Internal, "the target would not read"),
+                };
+                let what = format!("{what} '{line}': {}", fault.message);
+                Diagnostic::new(code, source.unwrap_or(program.site.span), what)
             })
             .collect();
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
@@ -296,15 +308,23 @@ fn naming(module: &Module, registers: &Registers, names: &[(ProgramName, u32)]) 
     naming
 }
 
-/// Emission fails again where an earlier part already said why: the first word is enough.
+/// Emission fails again where an earlier part already said why, and lowering where reading did: the first word is
+/// enough.
 pub(super) fn drop_echoes(diagnostics: &mut Vec<Diagnostic>) {
-    let error = |d: &Diagnostic| d.severity() == Severity::Error;
-    let told: Vec<Span> =
-        diagnostics.iter().filter(|d| error(d) && d.code != Code::Unmapped).map(|d| d.span).collect();
-    let touches = |span: Span| {
-        told.iter().any(|t| t.start < span.end.max(span.start + 1) && span.start < t.end.max(t.start + 1))
-    };
-    diagnostics.retain(|d| d.code != Code::Unmapped || !touches(d.span));
+    let later = |code| matches!(code, Code::Unmapped | Code::NotUnderstood);
+    if !diagnostics.iter().any(|d| later(d.code)) {
+        return;
+    }
+    let told = diagnostics.iter().filter(|d| d.severity() == Severity::Error && d.code != Code::Unmapped);
+    let told: Vec<(Span, bool)> = told.map(|d| (d.span, later(d.code))).collect();
+    let touches =
+        |span: Span, t: Span| t.start < span.end.max(span.start + 1) && span.start < t.end.max(t.start + 1);
+    let holds = |t: Span, span: Span| t.start <= span.start && span.end <= t.end;
+    diagnostics.retain(|d| match d.code {
+        Code::Unmapped => !told.iter().any(|(t, _)| touches(d.span, *t)),
+        Code::NotUnderstood => !told.iter().any(|(t, later)| !later && holds(*t, d.span)),
+        _ => true,
+    });
 }
 
 pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {

@@ -2,7 +2,7 @@
 
 use crate::canon::Group;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row, matters};
+use crate::dialect::{Control, Row, Side, matters};
 use crate::syntax::{ExprKind, Item, ItemKind};
 use crate::text::Span;
 use std::collections::HashSet;
@@ -64,12 +64,7 @@ impl<'c> Findings<'c> {
         if confirmed || !self.told.insert(fact.clone()) {
             return;
         }
-        let table = self.control.entry().file;
-        let why = note.map(|note| format!(": {note}")).unwrap_or_default();
-        let message = format!("rests on the unconfirmed fact '{fact}' of {table}{why}");
-        let help =
-            format!("check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile");
-        self.add(Diagnostic::new(Code::UnconfirmedFact, span, message).with_help(help).with_fact(fact));
+        self.add(self.control.unconfirmed(Side::Source, &fact, note, span));
     }
 
     /// Reports a code for absolute or incremental words that stands behind words of its block.

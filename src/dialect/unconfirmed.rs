@@ -1,0 +1,40 @@
+//! How it is said that something rests on a fact which nothing confirms.
+
+use super::Control;
+use crate::diag::{Code, Diagnostic};
+use crate::text::Span;
+use std::fmt;
+
+/// Which control of a conversion a fact is about; a program that is only read has the source's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The control that the programs were written for.
+    Source,
+    /// The control that they are to run on.
+    Target,
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Source => "source",
+            Self::Target => "target",
+        })
+    }
+}
+
+impl Control {
+    /// The construct at `span` rests on a fact of this control, named as a machine profile confirms it:
+    /// `behaviour:load.sets.condition`.
+    pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {
+        let title = &self.dialect().title;
+        let note = note.unwrap_or("no source says so");
+        let what = format!("rests on the unconfirmed fact '{fact}' of the {side}, {title}: {note}");
+        Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(to_confirm(fact, side)).with_fact(fact)
+    }
+}
+
+/// What to do about a fact that nothing confirms.
+pub fn to_confirm(fact: &str, side: Side) -> String {
+    format!("check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}")
+}
