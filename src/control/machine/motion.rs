@@ -8,7 +8,26 @@ use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
 use crate::control::trace::{Happening, Position, Trace};
 
+/// The words for a corner, and whether they cut it off straight.
+const CORNERS: [(Role, bool); 2] = [(Role::CornerRadius, false), (Role::CornerChamfer, true)];
+
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let cuts = moves(machine, command, trace)?;
+    let mut corners = CORNERS.iter().filter_map(|(role, chamfer)| Some((command.word(*role)?, *chamfer)));
+    if let Some(corner) = corners.next() {
+        let second = corners.next();
+        if !cuts || second.is_some() {
+            trace.doubt("machine:corner.elsewhere");
+        }
+        for (size, chamfer) in [Some(corner), second].into_iter().flatten().filter(|_| cuts) {
+            trace.push(Happening::Corner { chamfer, size: size * machine.unit() });
+        }
+    }
+    Ok(())
+}
+
+/// Does what a block moves; true where it cuts along its path, so that a corner may follow.
+fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<bool, Stop> {
     if let Some(op) = command.of(Group::Motion) {
         machine.motion = op;
         if machine.cycle.is_some() && machine.rules.motion_ends_cycle.ask(trace) {
@@ -25,45 +44,45 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     }
     for &op in &command.ops {
         match op {
-            Op::ReferenceReturn => return reference(machine, command, 0, trace),
-            Op::Reference2 => return reference(machine, command, 1, trace),
+            Op::ReferenceReturn => return reference(machine, command, 0, trace).map(|()| false),
+            Op::Reference2 => return reference(machine, command, 1, trace).map(|()| false),
             Op::Home => {
                 let home = machine.references[0];
                 machine.rapid_to(home, trace);
-                return Ok(());
+                return Ok(false);
             }
             Op::ReferenceFrom => {
                 trace.doubt("machine:reference.from");
                 let to = machine.target(command);
                 machine.rapid_to(to, trace);
-                return Ok(());
+                return Ok(false);
             }
             Op::Probe | Op::ProbeOther => {
                 probe(machine, command, trace);
-                return Ok(());
+                return Ok(false);
             }
             Op::MachineOnce => {
                 in_machine_coordinates(machine, command, trace);
-                return Ok(());
+                return Ok(false);
             }
             Op::RotateOn if machine.cycle.is_some() && machine.rules.rotation_runs_cycle.ask(trace) => {
-                return cycle::at_turned_place(machine, trace);
+                return cycle::at_turned_place(machine, trace).map(|()| false);
             }
             _ => {}
         }
     }
     if takes_axes(command) {
-        return Ok(());
+        return Ok(false);
     }
     if drills {
-        return cycle::run(machine, command, trace);
+        return cycle::run(machine, command, trace).map(|()| false);
     }
     let arc_words = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| command.word(*role).is_some());
     let arcs = matches!(machine.motion, Op::ArcCw | Op::ArcCcw);
     let polar = [Role::PolarDistance, Role::PolarAngle].iter().any(|role| command.word(*role).is_some());
-    let moves = command.has_axes() || polar || (arcs && arc_words);
-    if !moves {
-        return Ok(());
+    let goes = command.has_axes() || polar || (arcs && arc_words);
+    if !goes {
+        return Ok(false);
     }
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
@@ -89,13 +108,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
             machine.feed_to(to, trace);
         }
     }
-    for (role, chamfer) in [(Role::CornerRadius, false), (Role::CornerChamfer, true)] {
-        if let Some(size) = command.word(role) {
-            let size = size * machine.unit();
-            trace.push(Happening::Corner { chamfer, size });
-        }
-    }
-    Ok(())
+    Ok(machine.motion != Op::Rapid && !command.has(Op::RapidOnce))
 }
 
 /// True where the axis words of a block are not for moving.

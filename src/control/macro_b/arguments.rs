@@ -36,7 +36,7 @@ impl Places {
 impl<'c> Runner<'c> {
     /// The arguments that stand behind the call's code, or round an alias.
     pub fn arguments(&mut self, words: &Words<'c>, call: Coded<'c>) -> Result<Arguments, Halt> {
-        let mut read = Arguments { locals: [None; 34], program: None, count: None };
+        let mut read = Arguments { locals: Locals::default(), program: None, count: None };
         let (mut places, mut others) = (Places::default(), false);
         for (at, word) in words.words.iter().enumerate() {
             let before = at < call.word && call.alias.is_none();
@@ -56,9 +56,8 @@ impl<'c> Runner<'c> {
                             self.local_of(word)?
                         }
                     };
-                    match read.locals.get_mut(local) {
-                        Some(place) => *place = value,
-                        None => return Err(self.refused(word)),
+                    if !read.locals.set(local, value, self.off) {
+                        return Err(self.refused(word));
                     }
                 }
             }

@@ -269,7 +269,7 @@ impl<'c> Runner<'c> {
     fn leave(&mut self) {
         let Some(frame) = self.frames.pop() else { return };
         if frame.level {
-            let locals = self.memory.levels.pop().unwrap_or([None; 34]);
+            let locals = self.memory.levels.pop().unwrap_or_default();
             if let Some(call) = frame.modal.and_then(|index| self.modal_calls.get_mut(index)) {
                 call.locals = locals;
             }

@@ -18,6 +18,7 @@ impl<'c> Runner<'c> {
             if is_code(word.letter, word.comma) {
                 let value = self.eval(&word.value)?;
                 there[at] = value.is_some();
+                self.rounds_to_whole(value.unwrap_or(0.0));
                 // A computed code is a whole number, the nearest one.
                 values[at] = value.map(|value| if word.form.is_literal() { value } else { value.round() });
             }

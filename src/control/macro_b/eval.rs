@@ -1,6 +1,6 @@
 //! Evaluates expressions.
 
-use super::code::{Ex, Var};
+use super::code::Ex;
 use super::numeric::Value;
 use super::run::Runner;
 use crate::canon::Func;
@@ -16,12 +16,14 @@ impl Runner<'_> {
     /// The value of an expression; in a word ROUND rounds to so many units' least increment.
     pub fn eval_in(&mut self, ex: &Ex, increment: Option<f64>) -> Result<Value, Halt> {
         Ok(match ex {
-            Ex::Number(value) => Some(*value),
-            Ex::Read(var) => match var.as_ref() {
-                Var::Local(number) => self.memory.local(*number),
-                Var::Shared(number) => self.memory.get(*number),
-                var => self.read(var)?,
-            },
+            Ex::Number(value) => {
+                self.off = 0.0;
+                Some(*value)
+            }
+            Ex::Read(var) => {
+                self.off = 0.0;
+                self.read(var)?
+            }
             Ex::Group(inner) => {
                 let value = self.eval_in(inner, increment)?;
                 if value.is_none() && !self.rules.bracket_copies_vacancy.ask(&mut self.session.trace) {
@@ -37,13 +39,23 @@ impl Runner<'_> {
             }
             Ex::Binary(op, a, b) => {
                 let a = self.eval_in(a, increment)?;
+                let off_a = self.off;
                 let b = self.eval_in(b, increment)?;
-                Some(self.numeric.binary(*op, a, b, &mut self.session.trace)?)
+                let result = self.numeric.binary(*op, a, b, &mut self.session.trace)?;
+                if let Some(short) = &self.numeric.short {
+                    let (a, b) = ((a.unwrap_or(0.0), off_a), (b.unwrap_or(0.0), self.off));
+                    self.off = short.binary(*op, a, b, result, &mut self.session.trace);
+                }
+                Some(result)
             }
             Ex::Call(Func::Round, inner) if increment.is_some() => {
                 let value = self.eval_in(inner, increment)?;
                 let value = self.numeric.number(value, &mut self.session.trace);
                 let count = increment.map_or(1.0, |increment| (1.0 / increment).round());
+                if let Some(short) = &self.numeric.short {
+                    short.place(self.off, 1.0 / count, &mut self.session.trace);
+                    self.off = 0.0;
+                }
                 Some(self.numeric.round(value * count, &mut self.session.trace) / count)
             }
             Ex::Call(Func::AddPoint, inner) => {
@@ -60,14 +72,32 @@ impl Runner<'_> {
             }
             Ex::Call(function, inner) => {
                 let value = self.eval_in(inner, increment)?;
-                Some(self.numeric.call(*function, value, &mut self.session.trace)?)
+                let result = self.numeric.call(*function, value, &mut self.session.trace)?;
+                if let Some(short) = &self.numeric.short {
+                    let value = (value.unwrap_or(0.0), self.off);
+                    self.off = short.call(*function, value, result, &mut self.session.trace);
+                }
+                Some(result)
             }
             Ex::Call2(function, a, b) => {
                 let a = self.eval_in(a, increment)?;
+                let off_a = self.off;
                 let b = self.eval_in(b, increment)?;
-                Some(self.numeric.call2(*function, a, b, &mut self.session.trace)?)
+                let result = self.numeric.call2(*function, a, b, &mut self.session.trace)?;
+                if let Some(short) = &self.numeric.short {
+                    let (a, b) = ((a.unwrap_or(0.0), off_a), (b.unwrap_or(0.0), self.off));
+                    self.off = short.call2(*function, a, b, result, &mut self.session.trace);
+                }
+                Some(result)
             }
         })
+    }
+
+    /// Notes a value that is about to be rounded to a whole number.
+    pub fn rounds_to_whole(&mut self, value: f64) {
+        if let Some(short) = &self.numeric.short {
+            short.whole(value, self.off, &mut self.session.trace);
+        }
     }
 
     fn parameter(&mut self, number: Value, bit: Value) -> f64 {
@@ -79,6 +109,11 @@ impl Runner<'_> {
     /// A subscript.
     pub fn index(&mut self, ex: &Ex) -> Result<u32, Halt> {
         let value = self.eval(ex)?.unwrap_or(0.0);
+        if let Some(short) = self.numeric.short.as_ref().filter(|_| self.off > 0.0) {
+            // Rounded or cut, either may name another variable.
+            short.call(Func::Fix, (value, self.off), value, &mut self.session.trace);
+            short.whole(value, self.off, &mut self.session.trace);
+        }
         let whole = if value.fract() == 0.0 {
             value
         } else if self.rules.index_rounds.ask(&mut self.session.trace) {

@@ -8,7 +8,9 @@ use crate::control::session::Halt;
 impl Runner<'_> {
     /// The number that a jump computes: the nearest whole one.
     pub fn jump_target(&mut self, value: &Ex, branch: usize) -> Result<u32, Halt> {
-        let value = self.eval(value)?.unwrap_or(0.0).round();
+        let value = self.eval(value)?.unwrap_or(0.0);
+        self.rounds_to_whole(value);
+        let value = value.round();
         if let Some(place) = self.branches.get(branch) {
             self.session.branches.took(*place, value as i64);
         }

@@ -8,6 +8,7 @@ mod calls;
 mod code;
 mod commands;
 mod compile;
+mod digits;
 mod eval;
 mod expressions;
 mod jumps;

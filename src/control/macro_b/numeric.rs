@@ -1,6 +1,7 @@
 //! Arithmetic of the control: vacancy, digits, domains.
 
 use super::Alarms;
+use super::digits::Digits;
 use crate::canon::Func;
 use crate::control::outcome::Stop;
 use crate::control::trace::Trace;
@@ -60,6 +61,8 @@ fn is(word: &'static str, no: &'static str) -> impl Fn(&str) -> Option<bool> {
 pub struct Numeric {
     /// Significant digits that are kept; none for all of a double's.
     digits: Option<i32>,
+    /// How far values may be off, where few digits are kept.
+    pub short: Option<Digits>,
     largest: f64,
     smallest: f64,
     alarms: &'static Alarms,
@@ -86,6 +89,7 @@ impl Numeric {
         let alarm = |value: &str| (value == "alarm").then_some(true);
         Self {
             digits,
+            short: Digits::of(&control.numbers().arithmetic),
             largest: if short { 1e47 } else { f64::MAX },
             smallest: if short { 1e-29 } else { 0.0 },
             alarms,

@@ -56,6 +56,8 @@ pub struct Runner<'c> {
     pub addresses: [f64; 27],
     /// The row of the drilling cycle in force.
     pub cycle: Option<&'c CodeMeaning>,
+    /// By how much the value of the last expression may be off.
+    pub off: f64,
 }
 
 /// Runs a program of a library.
@@ -96,6 +98,7 @@ impl<'c> Runner<'c> {
             modal: [0.0; 32],
             addresses: [0.0; 27],
             cycle: None,
+            off: 0.0,
         };
         // The program before this one called for the tool that is in the spindle.
         runner.addresses[20] = f64::from(scenario.tool);
@@ -165,7 +168,7 @@ impl<'c> Runner<'c> {
             match step {
                 Step::Assign { target, value } => {
                     let value = self.eval(value)?;
-                    self.write(target, value)?;
+                    self.write(target, value, self.off)?;
                 }
                 Step::If { condition, branch, body } => {
                     let holds = self.holds(condition, *branch)?;
@@ -221,7 +224,11 @@ impl<'c> Runner<'c> {
 
     /// A condition, and the way it went.
     fn holds(&mut self, condition: &super::code::Ex, branch: usize) -> Result<bool, Halt> {
-        let holds = self.eval(condition)?.unwrap_or(0.0) != 0.0;
+        let value = self.eval(condition)?.unwrap_or(0.0);
+        if let Some(short) = &self.numeric.short {
+            short.truth(value, self.off, &mut self.session.trace);
+        }
+        let holds = value != 0.0;
         if let Some(ways) = self.ways.get_mut(branch) {
             *ways |= if holds { 2 } else { 1 };
         }
@@ -245,7 +252,7 @@ impl<'c> Runner<'c> {
             digits.and_then(|rest| rest.split(|sign: char| !sign.is_ascii_digit()).next()?.parse().ok());
         if let Some(number) = number.filter(|_| self.session.has_answer()) {
             let answer = self.session.answer();
-            self.memory.set(number, Some(answer));
+            self.memory.set(number, Some(answer), 0.0);
         }
     }
 
@@ -271,7 +278,7 @@ impl<'c> Runner<'c> {
 
     /// Locals of the running level.
     pub fn locals(&self) -> Locals {
-        self.memory.levels.last().copied().unwrap_or([None; 34])
+        self.memory.levels.last().copied().unwrap_or_default()
     }
 
     /// The codes that are in force before a program says any.

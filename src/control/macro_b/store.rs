@@ -13,8 +13,14 @@ impl Runner<'_> {
     /// The value of a variable.
     pub fn read(&mut self, var: &Var) -> Result<Value, Halt> {
         match var {
-            Var::Local(number) => Ok(self.memory.local(*number)),
-            Var::Shared(number) => Ok(self.memory.get(*number)),
+            Var::Local(number) => {
+                self.off = self.memory.local_off(*number);
+                Ok(self.memory.local(*number))
+            }
+            Var::Shared(number) => {
+                self.off = self.memory.off(*number);
+                Ok(self.memory.get(*number))
+            }
             Var::System(system) => self.read_system(system),
             Var::Bit(system, bit) => {
                 let value = self.read_system(system)?.unwrap_or(0.0).abs() as u64;
@@ -26,12 +32,14 @@ impl Runner<'_> {
             }
             Var::Computed(index) => {
                 let number = self.index(index)?;
+                self.off = 0.0;
                 let var = self.found(number);
                 self.read(&var)
             }
             Var::Family(state, fixed, index) => {
                 let mut subscripts = fixed.clone();
                 subscripts.push(self.index(index)?);
+                self.off = 0.0;
                 let value = self.session.machine.read(*state, &subscripts, &mut self.session.trace);
                 value.map(Some).ok_or_else(|| self.no_variable(0))
             }
@@ -39,20 +47,20 @@ impl Runner<'_> {
         }
     }
 
-    /// Gives a variable a value.
-    pub fn write(&mut self, var: &Var, value: Value) -> Result<(), Halt> {
+    /// Gives a variable a value, which may be off by so much.
+    pub fn write(&mut self, var: &Var, value: Value, off: f64) -> Result<(), Halt> {
         match var {
-            Var::Local(number) => self.memory.set_local(*number, value),
-            Var::Shared(number) => self.write_shared(*number, value),
+            Var::Local(number) => self.memory.set_local(*number, value, off),
+            Var::Shared(number) => self.write_shared(*number, value, off),
             Var::System(system) => return self.write_system(system, value),
             Var::Named(name) => {
                 let var = self.named(name)?;
-                return self.write(&var, value);
+                return self.write(&var, value, off);
             }
             Var::Computed(index) => {
                 let number = self.index(index)?;
                 let var = self.found(number);
-                return self.write(&var, value);
+                return self.write(&var, value, off);
             }
             Var::Family(state, fixed, index) => {
                 let mut subscripts = fixed.clone();
@@ -70,8 +78,8 @@ impl Runner<'_> {
         Ok(())
     }
 
-    fn write_shared(&mut self, number: u32, value: Value) {
-        self.memory.set(number, value);
+    fn write_shared(&mut self, number: u32, value: Value, off: f64) {
+        self.memory.set(number, value, off);
         self.session.wrote(|| format!("#{number}"), value);
     }
 

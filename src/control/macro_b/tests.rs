@@ -1,5 +1,6 @@
 //! What the manuals say, checked by running.
 
+mod digits;
 mod flow;
 mod programs;
 mod values;

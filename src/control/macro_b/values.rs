@@ -130,6 +130,7 @@ impl<'c> Runner<'c> {
                 }
             }
             Some(role) if role.is_integer() && value.fract() != 0.0 => {
+                self.rounds_to_whole(value);
                 if self.rules.integer_word_rounds.ask(&mut self.session.trace) {
                     value.round()
                 } else {
@@ -138,6 +139,9 @@ impl<'c> Runner<'c> {
             }
             _ => match increment {
                 Some(increment) if self.rules.word_rounds => {
+                    if let Some(short) = &self.numeric.short {
+                        short.place(self.off, increment, &mut self.session.trace);
+                    }
                     let word = to_increment(value, increment);
                     if let Some(role) = role.filter(|_| word != value) {
                         self.command.rounded.push((role, (word - value).abs()));
