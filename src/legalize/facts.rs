@@ -295,8 +295,10 @@ impl Found<'_> {
         match cond {
             Cond::Compare(_, _, Expr::Vacant) | Cond::Compare(_, Expr::Vacant, _) => {}
             Cond::Compare(relation, a, b) => {
-                if may(a) || may(b) {
-                    let equality = matches!(relation, Relation::Equal | Relation::NotEqual);
+                let equality = matches!(relation, Relation::Equal | Relation::NotEqual);
+                // What is vacant does not equal 5, whether or not it equals 0.
+                let other = |e: &Expr| equality && e.constant().is_some_and(|value| value != 0.0);
+                if (may(a) && !other(b)) || (may(b) && !other(a)) {
                     self.behaviour(if equality { "vacant.eq.zero" } else { "vacant.compares.as.zero" }, span);
                 }
                 let mut arithmetic = false;

@@ -122,6 +122,11 @@ impl Reader<'_> {
             let same = match (a, b) {
                 (Known::Number(a), Known::Number(b)) => a == b,
                 (Known::Vacant, Known::Vacant) => true,
+                (Known::Vacant, Known::Number(other)) | (Known::Number(other), Known::Vacant)
+                    if other != 0.0 =>
+                {
+                    false
+                }
                 (Known::Vacant, _) | (_, Known::Vacant) => {
                     self.says("vacant.eq.zero", "false").then_some(false)?
                 }

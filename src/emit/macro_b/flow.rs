@@ -189,6 +189,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         let next = BlockId(at as u32 + 1);
         let far = |to: BlockId| (to != next).then_some(to);
         match &block.term.kind {
+            TermKind::Jump(to) if *to == next && self.is_written(at) => Form::Goto(*to),
             TermKind::Jump(to) => far(*to).map_or(Form::Fall, Form::Goto),
             TermKind::Branch { cond, yes, no } => self.branch(at, cond, *yes, *no),
             TermKind::Call { next: to, .. } => Form::Own(far(*to)),
@@ -202,6 +203,12 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         }
     }
 
+    /// True for a jump to the next block that stands in the source: it goes to a label there.
+    fn is_written(&self, at: usize) -> bool {
+        let [block, next] = self.program.blocks.get(at..at + 2).unwrap_or_default() else { return false };
+        !block.term.site.span.is_empty() && !next.labels.is_empty()
+    }
+
     fn branch(&self, at: usize, cond: &Cond, yes: BlockId, no: BlockId) -> Form {
         let next = BlockId(at as u32 + 1);
         match cond {
@@ -211,7 +218,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                 self.switch(at, level, no, yes)
             }
             _ if self.is_then(at, cond, yes, no) => Form::Then,
-            _ if yes == next => Form::If { negated: true, to: no, otherwise: None },
+            _ if yes == next && no != next => Form::If { negated: true, to: no, otherwise: None },
             _ => Form::If { negated: false, to: yes, otherwise: (no != next).then_some(no) },
         }
     }
