@@ -34,7 +34,7 @@ fn a_branch_jumps_over_what_it_leaves_out() {
     // Both ways lead to the same place; the condition is still evaluated.
     fanuc(
         &blocks([(&[], vec![], branch(gt(1, 5.0), 1, 1)), (&[], vec![], END)]),
-        &["IF [#1 LE 5] GOTO 10", "N10 M30"],
+        &["IF [#1 GT 5] GOTO 10", "N10 M30"],
     );
 }
 
