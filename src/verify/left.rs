@@ -1,7 +1,9 @@
-//! What a program leaves to whoever called it.
+//! What a program leaves to whoever goes on: the one that called it, or the next one that is started.
 //!
 //! A caller goes on in the modes, with the feed and in the frame of coordinates that a called program returns in.
-//! They are no events, so they are compared as they stand at the return.
+//! They are no events, so they are compared as they stand at the return. Behind the end of a main program a person
+//! still sees where the machine stands and what its tables hold. Which modes and shifts the next program finds is for
+//! each control to say, and no source does: where they differ, that is told and not judged.
 
 use super::compare::Tolerance;
 use super::names::Side;
@@ -10,14 +12,10 @@ use super::substitutes::lacks;
 use crate::canon::Op;
 use crate::control::Run;
 use crate::control::machine::Left;
-use crate::control::scenario::AXES;
-use std::collections::BTreeSet;
+use crate::control::scenario::{AXES, Axes, Tool};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// What two programs that return leave otherwise.
-///
-/// Where the source's control goes straight in a block of an arc that has no centre, arcs and lines leave the same.
-/// Nothing is asked of the end of a main program: what a control resets there is its own matter. A mode is none
-/// where a control has no code for what the other is in: no program of that control can rest on it.
+/// What two programs leave otherwise; what only a next program could tell goes to `substituted`.
 pub fn left_differs(
     (source, run): (&Side<'_>, &Run),
     (target, other): (&Side<'_>, &Run),
@@ -25,10 +23,61 @@ pub fn left_differs(
     substituted: &mut BTreeSet<String>,
 ) -> Option<String> {
     let (ours, theirs) = (run.left.as_ref()?, other.left.as_ref()?);
-    let returned = |run: &Run| run.events.last().is_some_and(|last| returns(&last.what));
-    if !(returned(run) && returned(other)) {
-        return None;
+    let seen = seen_differs(ours, theirs, tolerance);
+    if seen.is_some() {
+        return seen;
     }
+    let returned = |run: &Run| run.events.last().is_some_and(|last| returns(&last.what));
+    if returned(run) && returned(other) {
+        return state_differs((source, ours), (target, theirs), tolerance, substituted)
+            .map(|what| format!("it returns {what}"));
+    }
+    let mut scratch = BTreeSet::new();
+    if let Some(what) = state_differs((source, ours), (target, theirs), tolerance, &mut scratch) {
+        let text = format!("it ends {what}: what of that the next program finds no source says");
+        substituted.insert(text);
+    }
+    None
+}
+
+/// What a person could tell of the machine behind the end.
+pub(super) fn seen_differs(ours: &Left, theirs: &Left, tolerance: Tolerance) -> Option<String> {
+    let allowed = tolerance.between(ours.rounded, theirs.rounded).max(tolerance.rounded);
+    let apart = |a: f64, b: f64| (a - b).abs() > allowed;
+    let places = |a: &Axes, b: &Axes| a.iter().zip(b).any(|(a, b)| apart(*a, *b));
+    if places(&ours.position, &theirs.position) {
+        return Some("the machine stands elsewhere at the end".into());
+    }
+    let offset = first_apart(&ours.work_offsets, &theirs.work_offsets, places);
+    let sizes = |tool: &Tool| [tool.length, tool.length_wear, tool.radius, tool.radius_wear];
+    let tools = |a: &Tool, b: &Tool| sizes(a).iter().zip(sizes(b)).any(|(a, b)| apart(*a, b));
+    let offset = offset.map(|number| format!("work offset {number}"));
+    let tool =
+        || first_apart(&ours.tools, &theirs.tools, tools).map(|number| format!("tool offset {number}"));
+    offset.or_else(tool).map(|what| format!("{what} holds something else at the end"))
+}
+
+/// The first row that two tables hold otherwise; one that is not there holds zeros.
+fn first_apart<T: Default>(
+    ours: &BTreeMap<u32, T>,
+    theirs: &BTreeMap<u32, T>,
+    apart: impl Fn(&T, &T) -> bool,
+) -> Option<u32> {
+    let none = T::default();
+    let mut all = ours.keys().chain(theirs.keys()).copied();
+    all.find(|number| apart(ours.get(number).unwrap_or(&none), theirs.get(number).unwrap_or(&none)))
+}
+
+/// What two programs leave in force otherwise.
+///
+/// Where the source's control goes straight in a block of an arc that has no centre, arcs and lines leave the same.
+/// A mode is none where a control has no code for what the other is in: no program of that control can rest on it.
+fn state_differs(
+    (source, ours): (&Side<'_>, &Left),
+    (target, theirs): (&Side<'_>, &Left),
+    tolerance: Tolerance,
+    substituted: &mut BTreeSet<String>,
+) -> Option<String> {
     // A conversion says which it is at each arc that a caller makes, and refuses one where that is not known.
     let is_line = |op: Op, side: &Side<'_>| match op {
         Op::Linear => true,
@@ -41,7 +90,7 @@ pub fn left_differs(
     let same = |op: Op, there: Op| op == there || (is_line(op, source) && is_line(there, source));
     for ((_, op), (_, there)) in ours.modes.iter().zip(&theirs.modes) {
         if !same(*op, *there) && has(source, *there) && has(target, *op) {
-            return Some(format!("it returns in {op}, the target in {there}"));
+            return Some(format!("in {op}, the target in {there}"));
         }
     }
     // What a tap by its lead leaves is known only where a feed was in force before.
@@ -49,19 +98,19 @@ pub fn left_differs(
         let text = "the target returns with a feed, the source with that of its caller";
         substituted.insert(text.into());
     } else if (ours.feed - theirs.feed).abs() > 1e-4 * ours.feed.abs() {
-        return Some(format!("it returns with a feed of {}, the target of {}", ours.feed, theirs.feed));
+        return Some(format!("with a feed of {}, the target of {}", ours.feed, theirs.feed));
     }
     let allowed = tolerance.between(ours.rounded, theirs.rounded).min(tolerance.rounded);
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;
     // Where the target cannot do without a work offset, the events say so.
     let uncancelled = ours.work == 0 && lacks(target, Op::ShiftCancel);
     if !uncancelled && (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis])) {
-        return Some("it returns with another shift of coordinates".into());
+        return Some("with another shift of coordinates".into());
     }
     let turn = |left: &Left| left.rotation.map_or(0.0, |turn| turn.degrees);
     if apart(turn(ours), turn(theirs)) {
-        return Some("it returns with another rotation of coordinates".into());
+        return Some("with another rotation of coordinates".into());
     }
     let same = ours.mirror == theirs.mirror && ours.scale == theirs.scale;
-    (!same).then(|| "it returns with coordinates mirrored or scaled otherwise".into())
+    (!same).then(|| "with coordinates mirrored or scaled otherwise".into())
 }

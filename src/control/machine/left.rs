@@ -3,7 +3,8 @@
 use super::Machine;
 use super::frame::Rotation;
 use crate::canon::{Group, Op};
-use crate::control::scenario::{AXES, Axes};
+use crate::control::scenario::{AXES, Axes, Tool};
+use std::collections::BTreeMap;
 
 /// The groups whose codes a caller may rely on.
 const MODES: [Group; 8] = [
@@ -36,11 +37,19 @@ pub struct Left {
     pub scale: Option<(Axes, Axes)>,
     /// Rotation.
     pub rotation: Option<Rotation>,
+    /// Machine position, millimetres.
+    pub position: Axes,
+    /// Work offsets by common number, and the shift of all of them as number 0, millimetres.
+    pub work_offsets: BTreeMap<u32, Axes>,
+    /// The tool table.
+    pub tools: BTreeMap<u32, Tool>,
 }
 
 impl Machine {
-    /// What is in force now.
-    pub fn left(&self) -> Left {
+    /// What is in force now, at the end of a run: the machine's tables go with it.
+    pub fn left(&mut self) -> Left {
+        let mut work_offsets = std::mem::take(&mut self.work_offsets);
+        work_offsets.insert(0, self.frame.external);
         Left {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
             feed: self.feed,
@@ -50,6 +59,9 @@ impl Machine {
             mirror: self.frame.mirror,
             scale: self.frame.scale,
             rotation: self.frame.rotation,
+            position: self.position,
+            work_offsets,
+            tools: std::mem::take(&mut self.tools),
         }
     }
 }
