@@ -56,6 +56,17 @@ pub enum Bank {
     Parametric,
 }
 
+impl Bank {
+    /// The class of its variables in the tables of controls, where it has one of its own.
+    pub fn class(self) -> Option<&'static str> {
+        match self {
+            Self::Numbered => None,
+            Self::Global => Some("common"),
+            Self::Parametric => Some("parametric"),
+        }
+    }
+}
+
 /// Something that can be assigned.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {

@@ -83,6 +83,12 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 continue;
             }
             match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {
+                (Some(number), Some(_)) if main => {
+                    let why = format!(
+                        "returns to block N{number} of its caller, and nothing in the library calls it: convert it together with its callers"
+                    );
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+                }
                 (Some(number), Some(name)) => {
                     numbers.entry(name.clone()).or_default().push(number as u32);
                     let kind = StmtKind::Assign { target: Place::Var(register), value: wanted };

@@ -29,7 +29,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found: Vec<(Span, Finding)> = Vec::new();
         let mut looked_up = 0;
-        each_index(program, &mut |number, span, id, at| {
+        each_index(program, &mut |bank, number, span, id, at| {
+            if bank != Bank::Numbered {
+                return;
+            }
             looked_up += 1;
             let known = match number {
                 Expr::Var(var) if looked_up <= MOST_LOOKED_UP => {
@@ -293,7 +296,8 @@ fn constant_part(number: &Expr) -> Option<f64> {
     }
 }
 
-fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
+/// The whole numbers that constants are; none where one is something else.
+pub(super) fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
     let number = |constant| match constant {
         Constant::Number(value) if value.fract() == 0.0 => whole(value),
         _ => None,
@@ -301,13 +305,13 @@ fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
     constants.into_iter().map(number).collect()
 }
 
-/// Calls `f` on each computed number, with its place and the statement that it stands in.
-fn each_index(program: &Program, f: &mut dyn FnMut(&Expr, Span, BlockId, usize)) {
+/// Calls `f` on each computed number, with its space, its place and the statement that it stands in.
+pub(super) fn each_index(program: &Program, f: &mut dyn FnMut(Bank, &Expr, Span, BlockId, usize)) {
     for (id, block) in program.ids().zip(&program.blocks) {
         let mut look = |e: &Expr, span: Span, at: usize| {
             e.walk(&mut |e| {
-                if let Expr::Indirect(Bank::Numbered, number) = e {
-                    f(number, span, id, at);
+                if let Expr::Indirect(bank, number) = e {
+                    f(*bank, number, span, id, at);
                 }
             });
         };

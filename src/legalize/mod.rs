@@ -11,6 +11,7 @@
 
 mod active_offsets;
 mod alarms;
+mod banks;
 mod bare_arcs;
 mod blanks;
 mod census;
@@ -150,6 +151,7 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "tapping", concerns: |c, _| c.role(Role::Lead), run: Rewrites(tapping::run) },
     Pass { name: "reference", concerns: |c, _| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
     Pass { name: "shift", concerns: |c, _| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },
+    Pass { name: "banks", concerns: |c, _| c.has(Thing::Indirect), run: Reports(banks::run) },
     Pass {
         name: "computed-numbers",
         concerns: |c, _| c.has(Thing::Indirect),

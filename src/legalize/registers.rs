@@ -109,11 +109,7 @@ fn class_of(bank: Bank) -> Class {
 
 /// The numbers that a computed one can be, in a bank of its own.
 fn reached(bank: Bank, source: &Control) -> Vec<u32> {
-    let wanted = match bank {
-        Bank::Numbered => return Vec::new(),
-        Bank::Global => "common",
-        Bank::Parametric => "parametric",
-    };
+    let Some(wanted) = bank.class() else { return Vec::new() };
     source
         .classes()
         .iter()
