@@ -1,6 +1,6 @@
 //! What one machine's control has and does: the questions that everyone asks.
 
-use super::control_codes::address;
+use super::control_codes::{Alias, address, aliases};
 use super::profile::{Machine, Profile, Units, VariableRun};
 use super::{
     BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Setting,
@@ -27,6 +27,8 @@ pub struct Control {
     pub(super) words: HashMap<(char, bool), usize>,
     pub(super) system: HashMap<String, Vec<usize>>,
     pub(super) states: HashMap<Sys, Vec<usize>>,
+    /// The codes that call programs, by letter and number.
+    pub(super) aliases: Vec<(char, f64, Alias)>,
 }
 
 impl Control {
@@ -56,7 +58,8 @@ impl Control {
             system.entry(row.name.clone()).or_default().push(at);
             states.entry(row.state).or_default().push(at);
         }
-        Self { entry, dialect, profile, settings, reserved, codes, targets, words, system, states }
+        let aliases = aliases(&dialect, &settings);
+        Self { entry, dialect, profile, settings, reserved, codes, targets, words, system, states, aliases }
     }
 
     /// Short name of its dialect.

@@ -2,7 +2,7 @@
 
 use super::control::numbered;
 use super::profile::SiteCode;
-use super::{CodeHead, CodeMeaning, Control, WordMeaning};
+use super::{CodeHead, CodeMeaning, Control, Dialect, WordMeaning};
 use crate::canon::{Op, Role};
 use std::collections::BTreeMap;
 
@@ -164,15 +164,8 @@ impl Control {
 
     /// The program that the profile makes a code call.
     pub fn alias(&self, letter: char, number: f64) -> Option<Alias> {
-        self.dialect.settings.iter().find_map(|row| {
-            let rule = row.alias.filter(|rule| rule.letter == letter)?;
-            let (stem, first) = numbered(&row.name)?;
-            (first..=row.through.unwrap_or(first)).zip(rule.program..).find_map(|(setting, program)| {
-                let value: f64 = self.settings.get(&format!("{stem}{setting}"))?.parse().ok()?;
-                let called = value != 0.0 && value.abs() == number;
-                called.then_some(Alias { program, arguments: rule.arguments, modal: value < 0.0 })
-            })
-        })
+        let mut aliases = self.aliases.iter();
+        aliases.find(|(own, called, _)| *own == letter && *called == number).map(|(_, _, alias)| *alias)
     }
 
     /// What the profile says of a builder's code.
@@ -180,6 +173,21 @@ impl Control {
         let wanted = CodeHead::new(letter, number)?;
         self.profile.site.iter().find(|site| site.row().head() == Some(wanted))
     }
+}
+
+/// The codes that the settings make call programs; of two for one code the first counts.
+pub(super) fn aliases(dialect: &Dialect, settings: &BTreeMap<String, String>) -> Vec<(char, f64, Alias)> {
+    let mut aliases = Vec::new();
+    for row in &dialect.settings {
+        let (Some(rule), Some((stem, first))) = (row.alias, numbered(&row.name)) else { continue };
+        for (setting, program) in (first..=row.through.unwrap_or(first)).zip(rule.program..) {
+            let value = settings.get(&format!("{stem}{setting}")).and_then(|value| value.parse::<f64>().ok());
+            let Some(value) = value.filter(|value| *value != 0.0) else { continue };
+            let alias = Alias { program, arguments: rule.arguments, modal: value < 0.0 };
+            aliases.push((rule.letter, value.abs(), alias));
+        }
+    }
+    aliases
 }
 
 /// The letter of a word as tables write it, and whether a comma stands before it.

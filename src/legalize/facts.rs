@@ -5,7 +5,6 @@
 //! for by data flow.
 
 use super::Context;
-use super::census::{Census, Thing};
 use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
 use crate::dialect::{Behaviour, CodeMeaning, Control, Row, Side};
@@ -18,26 +17,26 @@ use crate::text::Span;
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Reports the unconfirmed facts of the target that programs rest on.
-pub fn of_target(module: &Module, context: &mut Context<'_>) {
-    look(module, context, context.target, Side::Target);
+/// Reports the unconfirmed facts of the target that programs rest on; `computes` is false where all values are constants.
+pub fn of_target(module: &Module, computes: bool, context: &mut Context<'_>) {
+    look(module, computes, context, context.target, Side::Target);
 }
 
 /// Reports the unconfirmed facts of the source about vacant variables that programs rest on: these
 /// hang on where a variable may be vacant, which lowering does not know.
 pub fn of_source(module: &Module, context: &mut Context<'_>) {
     if context.source.is("vacancy") {
-        look(module, context, context.source, Side::Source);
+        look(module, true, context, context.source, Side::Source);
     }
 }
 
 /// What matters only where a variable may be vacant.
 const VACANCY: [&str; 3] = ["vacant.eq.zero", "vacant.compares.as.zero", "vacant.arithmetic.zero"];
 
-fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: Side) {
+fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Control, side: Side) {
     // Where nothing is computed, nothing vacant is.
     let asked = VACANCY.iter().any(|name| control.behaviour(name).is_some_and(|row| !row.origin.confirmed));
-    let own = asked && context.source.is("vacancy") && Census::of(&module.programs).has(Thing::Computed);
+    let own = computes && asked && context.source.is("vacancy");
     let summaries = if own { Summaries::of(module) } else { Summaries::default() };
     let given = given(module);
     let none = BTreeSet::new();
@@ -49,6 +48,7 @@ fn look(module: &Module, context: &mut Context<'_>, control: &Control, side: Sid
             all: Vec::new(),
             home: program.site.span,
             seen: BTreeSet::new(),
+            words: [0; WORDS],
         };
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
@@ -88,26 +88,69 @@ struct Found<'c> {
     home: Span,
     /// Operations and words of blocks that were looked at.
     seen: BTreeSet<Shape>,
+    /// The words of those of them that have no operation, a bit for each word.
+    words: [u64; WORDS],
 }
 
-/// The operations and words of a block of constants, each word by its role and the sign of its value.
-type Shape = SmallVec<[(u16, i8); 8]>;
+/// The operations and words of a block of constants.
+type Shape = SmallVec<[Part; 8]>;
 
-/// What a block rests on hangs on no more than this; none where it may.
-fn shape(nc: &Nc) -> Option<Shape> {
-    let part = |item: &NcItem| match item {
-        NcItem::Op(op) => Some((*op as u16, 0)),
+/// An operation, or a word by its role and the sign of its value.
+type Part = (u16, Sign);
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Sign {
+    /// Of an operation.
+    None,
+    Plus,
+    Minus,
+    /// That stands before the constant.
+    Negated,
+}
+
+/// Of 64 bits: four signs of each role.
+const WORDS: usize = Role::ALL.len() * 4 / 64 + 1;
+
+/// What a block rests on hangs on no more than this of each item; none where it may.
+fn part(item: &NcItem) -> Option<Part> {
+    match item {
+        NcItem::Op(op) => Some((*op as u16, Sign::None)),
         NcItem::Word(Role::WorkOffset | Role::Repeat, _) | NcItem::Code(..) => None,
-        NcItem::Word(role, Expr::Number(value)) => Some((*role as u16, if *value < 0.0 { -1 } else { 1 })),
-        NcItem::Word(role, Expr::Negate(inner)) => {
-            matches!(**inner, Expr::Number(_)).then_some((*role as u16, -2))
+        NcItem::Word(role, value) => {
+            let sign = match value {
+                Expr::Number(value) if *value < 0.0 => Sign::Minus,
+                Expr::Number(_) => Sign::Plus,
+                Expr::Negate(inner) if matches!(**inner, Expr::Number(_)) => Sign::Negated,
+                _ => return None,
+            };
+            Some((*role as u16, sign))
         }
-        NcItem::Word(..) => None,
-    };
-    nc.items.iter().map(part).collect()
+    }
+}
+
+/// The bit of a word.
+fn bit((role, sign): Part) -> (usize, u64) {
+    let at = usize::from(role) * 4 + sign as usize;
+    (at / 64, 1 << (at % 64))
 }
 
 impl Found<'_> {
+    /// True where a block of these words rests on nothing that was not looked at; notes that it was.
+    fn is_known(&mut self, nc: &Nc) -> bool {
+        let known = |item: &NcItem| {
+            let word = part(item).filter(|(_, sign)| *sign != Sign::None).map(bit);
+            word.is_some_and(|(at, bit)| self.words[at] & bit != 0)
+        };
+        if nc.items.iter().all(known) {
+            return true;
+        }
+        let Some(shape) = nc.items.iter().map(part).collect::<Option<Shape>>() else { return false };
+        if shape.iter().all(|(_, sign)| *sign != Sign::None) {
+            shape.iter().map(|word| bit(*word)).for_each(|(at, bit)| self.words[at] |= bit);
+        }
+        !self.seen.insert(shape)
+    }
+
     fn row<T: Row>(&mut self, row: &T, span: Span) {
         if row.origin().confirmed || !self.said.insert(row.fact()) {
             return;
@@ -135,7 +178,7 @@ impl Found<'_> {
         for (at, stmt) in block.stmts.iter().enumerate() {
             if let StmtKind::Nc(nc) = &stmt.kind
                 && stmt.site.skip.is_none()
-                && shape(nc).is_some_and(|shape| !self.seen.insert(shape))
+                && self.is_known(nc)
             {
                 continue;
             }

@@ -4,12 +4,19 @@
 //! cycle's planes may be used in the other mode of coordinates than they were given in. The conversion takes both
 //! controls to do the same then. Where no source says what one of them does, a person has to look.
 
+use super::census::{Census, Thing};
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::matters;
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
+
+/// True where something is computed, a cycle stands, or an arc by its radius has an end that counts increments.
+pub fn concerns(census: &Census) -> bool {
+    let computed = [Thing::Computed, Thing::System, Thing::Indirect].into_iter().any(|thing| census.has(thing));
+    computed || census.any_op(Op::is_cycle) || census.role(Role::ArcRadius) && census.has(Thing::Increments)
+}
 
 /// Reports what the programs of a library rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {

@@ -115,7 +115,7 @@ impl Pass {
 /// The passes, in the order they run in.
 pub const PASSES: &[Pass] = &[
     Pass { name: "source-facts", concerns: |c, _| c.has(Thing::Computed), run: Reports(facts::of_source) },
-    Pass { name: "matters", concerns: |_, _| true, run: Reports(matters::run) },
+    Pass { name: "matters", concerns: |c, _| matters::concerns(c), run: Reports(matters::run) },
     Pass { name: "blanks", concerns: |_, context| !context.same_family(), run: Rewrites(blanks::run) },
     Pass {
         name: "link",
@@ -146,7 +146,7 @@ pub const PASSES: &[Pass] = &[
     },
     Pass { name: "active-offsets", concerns: |c, _| c.has(Thing::System), run: Reports(active_offsets::run) },
     Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Rewrites(increments::run) },
-    Pass { name: "units", concerns: |_, _| true, run: Rewrites(units::run) },
+    Pass { name: "units", concerns: units::concerns, run: Rewrites(units::run) },
     Pass { name: "rapid-once", concerns: |c, _| c.op(Op::RapidOnce), run: Rewrites(rapid_once::run) },
     Pass { name: "tapping", concerns: |c, _| c.role(Role::Lead), run: Rewrites(tapping::run) },
     Pass { name: "reference", concerns: |c, _| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
@@ -245,6 +245,10 @@ pub fn assign_registers(
     if census.has(Thing::Message) || census.has(Thing::Input) {
         messages::run(module, context);
     }
-    facts::of_target(module, context);
+    // What was put in above was put in for one of these.
+    let source = [Thing::Computed, Thing::Variable, Thing::Temp, Thing::Clear, Thing::Call, Thing::LocalCall];
+    let asked = [Thing::Input, Thing::Print, Thing::Message];
+    let computes = source.into_iter().chain(asked).any(|thing| census.has(thing));
+    facts::of_target(module, computes, context);
     registers
 }

@@ -90,15 +90,18 @@ impl Modal {
         let before = stmt.site.skip.map(|_| self.clone());
         match &stmt.kind {
             StmtKind::Nc(nc) => {
+                let mut feed = None;
                 for item in &nc.items {
                     match item {
                         NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
                         // A computed code may be any of its letter.
                         NcItem::Code('G', _) => self.forget(),
+                        NcItem::Word(Role::Feed, value) => feed = feed.or(Some(value)),
                         NcItem::Code(..) | NcItem::Word(..) => {}
                     }
                 }
-                if let Some(feed) = nc.word(Role::Feed) {
+                // Behind the unit and the feed mode, which it counts in, wherever they stand.
+                if let Some(feed) = feed {
                     self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
                 }
                 if self.calls.as_ref().is_none_or(|calls| !calls.is_empty()) && nc.moves() {

@@ -6,6 +6,7 @@
 //! as the source was; where the target is set to the other unit, its tables must be kept for this one. Both are a
 //! review diagnostic. Two controls of one family that are set alike need nothing.
 
+use super::census::{Census, Thing};
 use super::emptied::drop_emptied;
 use super::exposed::roots;
 use super::{Context, ModalFacts, calls_of, reachable};
@@ -17,6 +18,17 @@ use crate::ir::{
 };
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    let check = |op| matches!(op, Op::CheckInch | Op::CheckMetric);
+    let others = [Thing::Emptied, Thing::Code, Thing::Modal, Thing::Call, Thing::LocalCall];
+    let entry = &context.entry;
+    entry.op(Group::Units).is_none()
+        || entry.calls.as_ref().is_none_or(|calls| !calls.is_empty())
+        || census.any_op(|op| op.group() == Group::Units || check(op))
+        || others.into_iter().any(|thing| census.has(thing))
+}
 
 /// Tells the target the unit of each main program.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {

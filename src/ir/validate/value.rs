@@ -28,7 +28,8 @@ impl Check<'_> {
     fn expr(&mut self, e: &Expr, depth: usize) {
         let Some(depth) = depth.checked_sub(1) else { return self.add(Problem::Depth) };
         match e {
-            Expr::Number(value) if !value.is_finite() => self.add(Problem::NotFinite),
+            Expr::Number(value) if value.is_finite() => {}
+            Expr::Number(_) => self.add(Problem::NotFinite),
             Expr::Increments(_) => self.add(Problem::Increments),
             Expr::Var(var) if !exists(*var) => self.add(Problem::Variable(*var)),
             Expr::Call(func, arguments) if !func.arity().contains(&arguments.len()) => {
