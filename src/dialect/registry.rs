@@ -6,7 +6,7 @@ use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
 use crate::lower::{self, Lower};
-use crate::syntax::{self, IsPlain, Parser};
+use crate::syntax::{self, IsPlain, Parser, ReadPlain};
 use std::sync::OnceLock;
 
 /// A dialect: its table, and the modules that know it by name.
@@ -19,6 +19,8 @@ pub struct Entry {
     pub table: &'static str,
     /// Reads its blocks.
     pub parse: Parser,
+    /// Reads lines of plain words faster.
+    pub read_plain: ReadPlain,
     /// Knows lines that need not be read to see that they have no fault.
     pub is_plain: IsPlain,
     /// Lowers its programs.
@@ -31,13 +33,14 @@ pub struct Entry {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $plain:expr, $lower:expr, $emit:expr, $execute:expr) => {
+    ($name:literal, $parse:expr, $read_plain:expr, $is_plain:expr, $lower:expr, $emit:expr, $execute:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
             table: include_str!(concat!("../../dialects/", $name, ".toml")),
             parse: $parse,
-            is_plain: $plain,
+            read_plain: $read_plain,
+            is_plain: $is_plain,
             lower: $lower,
             emit: $emit,
             execute: $execute,
@@ -50,6 +53,7 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "fadal",
         syntax::fadal::parse_line,
+        |_, _| None,
         |_, _| false,
         lower::fadal::lower,
         None,
@@ -58,6 +62,7 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "fanuc",
         syntax::fanuc::parse_line,
+        syntax::fanuc::read_plain,
         syntax::fanuc::is_plain,
         lower::fanuc::lower,
         Some(emit::fanuc::emit),
@@ -66,6 +71,7 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "haas",
         syntax::haas::parse_line,
+        syntax::haas::read_plain,
         syntax::haas::is_plain,
         lower::haas::lower,
         Some(emit::haas::emit),
@@ -74,6 +80,7 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "cc100",
         syntax::cc100::parse_line,
+        |_, _| None,
         |_, _| false,
         lower::cc100::lower,
         None,

@@ -14,7 +14,8 @@ use crate::text::Span;
 
 /// True where something is computed, a cycle stands, or an arc by its radius has an end that counts increments.
 pub fn concerns(census: &Census) -> bool {
-    let computed = [Thing::Computed, Thing::System, Thing::Indirect].into_iter().any(|thing| census.has(thing));
+    let computed =
+        [Thing::Computed, Thing::System, Thing::Indirect].into_iter().any(|thing| census.has(thing));
     computed || census.any_op(Op::is_cycle) || census.role(Role::ArcRadius) && census.has(Thing::Increments)
 }
 

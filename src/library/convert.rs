@@ -254,7 +254,7 @@ fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
 /// Lowers one file; errors of reading are findings of the program they stand in.
 fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
     let entry = source.entry();
-    let parsed = parse_items(&input.bytes, entry.parse);
+    let parsed = parse_items(&input.bytes, entry.parse, entry.read_plain);
     (entry.lower)(&parsed, at, &input.name, source)
 }
 

@@ -192,8 +192,11 @@ impl Source {
 
     /// Reads it whole.
     pub fn read(self) -> Result<Input, InputError> {
-        let mut bytes = Vec::new();
         let most = MAX_FILE as u64 + 1;
+        // Room for all of it at once: growing would copy it, and take half as much again.
+        let length = fs::metadata(&self.path).map_or(0, |data| data.len().min(most));
+        let mut bytes = Vec::new();
+        let _ = bytes.try_reserve_exact(length as usize);
         self.open()?.take(most).read_to_end(&mut bytes).map_err(|error| self.unreadable(error))?;
         self.check(&bytes, true)?;
         if bytes.len() > MAX_FILE {

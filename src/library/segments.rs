@@ -1,21 +1,22 @@
 //! Long plain programs, piece by piece, so that memory does not grow with their length.
 //!
 //! Law: a program without jumps, calls and variables is the pieces it is cut into, one behind the other, if each piece
-//! starts in the modal state that the last one left. Pieces are cut before blocks that name an interpolation, so that
-//! what a word means never depends on a block of another piece; where none comes, the block that named the one in force
+//! starts in the modal state that the last one left. What a word means never depends on a block of another piece: they
+//! are cut before blocks that name an interpolation, and where none comes, the block that named the one in force
 //! is read once more at the head of the piece, and left out of it. Side conditions, looked for in every piece: plain words,
 //! comments and program ends only; one control family, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
 use super::convert::{Made, ProgramReport, drop_echoes, frames, make, outcome};
+use super::pieces::{Piece, Pieces};
 use super::{Conversion, Input, Lock, Options, Outcome};
-use crate::canon::{Group, Op};
+use crate::canon::Op;
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::lower::Lowered;
-use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word};
+use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word, read_items};
 use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -57,14 +58,24 @@ fn convert_in(
     if input.bytes.len() < sizes.long || options.draft || !family {
         return None;
     }
-    let mut sink = Sink { expected: input.bytes.len() + input.bytes.len() / 8, ..Sink::default() };
+    // All of it on threads of the pool: going there for each batch takes longer than some pieces.
+    rayon::scope(|_| convert_pieces(sizes, input, source, target, lock, options))
+}
+
+fn convert_pieces(
+    sizes: Sizes,
+    input: &Input,
+    source: &Control,
+    target: &Control,
+    lock: &Lock,
+    options: Options,
+) -> Option<Conversion> {
+    let mut sink = Sink::new(input.bytes.len() + input.bytes.len() / 8);
     let mut state = Modal::unknown();
-    let lines = Lines::new(&input.bytes);
-    let mut pieces =
-        Pieces { source: &input.bytes, control: source, lines, held: None, mode: None, size: sizes.piece };
+    let mut pieces = Pieces::new(&input.bytes, source, sizes.piece);
     loop {
         let many = BATCH * rayon::current_num_threads();
-        let batch: Vec<Piece> = std::iter::from_fn(|| pieces.next()).take(many).collect();
+        let batch: Vec<Piece> = pieces.by_ref().take(many).collect();
         if batch.is_empty() {
             break;
         }
@@ -87,81 +98,15 @@ fn convert_in(
     Some(sink.finish(source, target, lock.clone()))
 }
 
-/// A run of lines.
-struct Piece {
-    /// The line before them that named the interpolation in force, where none of theirs does before it is needed.
-    head: Option<Line>,
-    lines: Vec<Line>,
-}
-
-/// Cuts a file into runs of lines.
-struct Pieces<'s> {
-    source: &'s [u8],
-    control: &'s Control,
-    lines: Lines<'s>,
-    held: Option<Line>,
-    /// The line that named the interpolation in force; none where that is not sure.
-    mode: Option<Line>,
-    size: usize,
-}
-
-impl Pieces<'_> {
-    fn next(&mut self) -> Option<Piece> {
-        let first = self.held.take().or_else(|| self.lines.next())?;
-        let start = first.text.start;
-        let (source, control) = (self.source, self.control);
-        let names = |line: Line| names_interpolation(line.text.of(source), control);
-        let (mut line, mut named) = (first, names(first));
-        let head = self.mode.filter(|_| named != Some(true));
-        let mut lines = Vec::new();
-        loop {
-            match named {
-                Some(true) => self.mode = Some(line),
-                Some(false) => {}
-                None => self.mode = None,
-            }
-            lines.push(line);
-            let Some(next) = self.lines.next() else { break };
-            named = names(next);
-            let length = (next.text.start - start) as usize;
-            let may_cut = named == Some(true) || length > 2 * self.size && self.mode.is_some();
-            if length > self.size && may_cut {
-                self.held = Some(next);
-                break;
-            }
-            line = next;
-        }
-        Some(Piece { head, lines })
-    }
-}
-
-/// True for a line that names an interpolation, false for one that leaves it in force; none where a look at its bytes
-/// cannot tell: comments, skipped blocks, heads of programs, codes that are unknown or belong to cycles.
-fn names_interpolation(line: &[u8], control: &Control) -> Option<bool> {
-    if line.iter().any(|byte| matches!(byte, b'(' | b'/' | b'%' | b':' | b'O' | b'o')) {
-        return None;
-    }
-    let mut named = false;
-    for (at, _) in line.iter().enumerate().filter(|(_, byte)| byte.eq_ignore_ascii_case(&b'G')) {
-        let rest = &line[at + 1..];
-        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count();
-        let number = std::str::from_utf8(&rest[..digits]).ok()?.parse().ok()?;
-        let op = control.code('G', number, &[])?.op;
-        match op.group() {
-            Group::Motion if matches!(op, Op::Rapid | Op::Linear | Op::ArcCw | Op::ArcCcw) => named = true,
-            Group::Motion | Group::Cycle => return None,
-            _ => {}
-        }
-    }
-    Some(named)
-}
-
 /// Reads and lowers a piece; none where it is not plain.
 fn lower(input: &Input, piece: Piece, source: &Control) -> Option<Lowered> {
     let entry = source.entry();
-    let mut blocks = Vec::new();
-    let lines: Vec<Line> = piece.head.into_iter().chain(piece.lines).collect();
-    lines.iter().for_each(|line| (entry.parse)(&input.bytes, line.text, &mut blocks));
+    let own = Lines::within(&input.bytes, piece.lines);
+    let lines: Vec<Line> = piece.head.into_iter().chain(own).collect();
+    let mut blocks = Vec::with_capacity(lines.len());
+    for line in &lines {
+        read_items(&input.bytes, line.text, entry.parse, entry.read_plain, &mut blocks);
+    }
     let plain = blocks
         .iter()
         .all(|block| block.errors.is_empty() && block.items.iter().all(|item| is_plain(item, source)));
@@ -239,53 +184,58 @@ fn piece_made(
 }
 
 /// The programs so far.
-#[derive(Default)]
 struct Sink {
-    programs: Vec<(Option<String>, Vec<Diagnostic>, String)>,
+    programs: Vec<(Option<String>, Vec<Diagnostic>)>,
+    /// The text of all, behind the framing of a file.
+    text: String,
+    /// Where the text of each program starts.
+    starts: Vec<usize>,
     said: BTreeSet<(usize, &'static str, String)>,
     tape: bool,
-    /// Bytes that the first program may come to; memory that is not written to costs nothing.
-    expected: usize,
 }
 
+const FRAME: &str = "%\n";
+
 impl Sink {
+    /// Without programs, with room for so many bytes of text; memory that is not written to costs nothing.
+    fn new(expected: usize) -> Self {
+        let mut text = String::with_capacity(expected);
+        text.push_str(FRAME);
+        Self { programs: Vec::new(), text, starts: Vec::new(), said: BTreeSet::new(), tape: false }
+    }
+
     fn add(&mut self, names: Vec<Option<String>>, made: Made, tape: bool) {
         self.tape |= tape;
         for ((name, found), parts) in names.into_iter().zip(made.found).zip(made.parts) {
             if name.is_some() || self.programs.is_empty() {
-                let text = String::with_capacity(std::mem::take(&mut self.expected));
-                self.programs.push((name, Vec::new(), text));
+                self.programs.push((name, Vec::new()));
+                self.starts.push(self.text.len());
             }
             let at = self.programs.len() - 1;
-            let (_, all, text) = &mut self.programs[at];
             // What is said once a program was said for an earlier piece of it.
-            all.extend(
-                found.into_iter().filter(|d| self.said.insert((at, d.code.number(), d.message.clone()))),
-            );
-            parts.iter().for_each(|part| text.push_str(&part.text));
+            let said = &mut self.said;
+            let fresh = found.into_iter().filter(|d| said.insert((at, d.code.number(), d.message.clone())));
+            self.programs[at].1.extend(fresh);
+            parts.iter().for_each(|part| self.text.push_str(&part.text));
         }
     }
 
     fn finish(self, source: &Control, target: &Control, lock: Lock) -> Conversion {
-        let framed = frames(source, target, self.tape);
-        let mut text = String::from(if framed { "%\n" } else { "" });
+        let Self { programs, mut text, starts, .. } = self;
+        let mut end = text.len();
         let mut any = false;
-        let mut programs = Vec::with_capacity(self.programs.len());
-        for (name, mut diagnostics, part) in self.programs {
+        let mut reports = Vec::with_capacity(programs.len());
+        // From the last to the first, so that what is taken out moves nothing that is still to be looked at.
+        for ((name, mut diagnostics), start) in programs.into_iter().zip(starts).rev() {
             diagnostics.sort_by_key(|d| (d.span.start, d.code));
             drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
-            if outcome != Outcome::Refused {
-                any = true;
-                // The first and longest is not copied.
-                if text.len() <= 2 {
-                    let head = std::mem::replace(&mut text, part);
-                    text.insert_str(0, &head);
-                } else {
-                    text.push_str(&part);
-                }
+            match outcome {
+                Outcome::Refused => drop(text.drain(start..end)),
+                _ => any = true,
             }
-            programs.push(ProgramReport {
+            end = start;
+            reports.push(ProgramReport {
                 file: 0,
                 name,
                 outcome,
@@ -294,10 +244,12 @@ impl Sink {
                 map: Vec::new(),
             });
         }
-        if framed {
-            text.push_str("%\n");
+        reports.reverse();
+        match frames(source, target, self.tape) {
+            true => text.push_str(FRAME),
+            false => drop(text.drain(..FRAME.len())),
         }
-        Conversion { programs, texts: vec![any.then_some(text)], lock }
+        Conversion { programs: reports, texts: vec![any.then_some(text)], lock }
     }
 }
 
@@ -366,34 +318,6 @@ mod tests {
             let sizes = Sizes { long: 0, piece: 10 };
             let done = convert_in(sizes, &inputs, &controls[0], &controls[1], &lock, Options::default());
             assert!(done.is_none(), "{line}");
-        }
-    }
-
-    #[test]
-    fn pieces_are_cut_where_an_interpolation_is_sure() {
-        let control = crate::dialect::registry::all().iter().filter(|entry| entry.emit.is_some());
-        let control = control.filter_map(|entry| Control::plain(entry.name)).next().unwrap();
-        for (line, named) in [
-            ("N10 G01 X1.", Some(true)),
-            ("g0x1", Some(true)),
-            ("G00", Some(true)),
-            ("G0", Some(true)),
-            ("G3 X1. R2.", Some(true)),
-            ("X1. G03", Some(true)),
-            ("G17 G1", Some(true)),
-            ("G17", Some(false)),
-            ("G10 L2", None),
-            ("X1. Y2.", Some(false)),
-            ("", Some(false)),
-            ("/G1 X1.", None),
-            ("(G1) X1.", None),
-            ("O1234", None),
-            ("%", None),
-            ("G81 X1.", None),
-            ("G1.1", None),
-            ("G", None),
-        ] {
-            assert_eq!(names_interpolation(line.as_bytes(), &control), named, "{line}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Reads a whole file, line by line and in parallel.
 
-use super::{Block, SyntaxError};
+use super::{Block, Item, SyntaxError};
 use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
 
@@ -10,6 +10,10 @@ use rayon::prelude::*;
 /// appends at least one block for any line but an empty one, and their tokens
 /// tile the line.
 pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
+
+/// What a dialect's parser reads on a line that is one block of plain words without a fault; none for any other line,
+/// and for lines that are not known to be such. Tests hold it to the parser.
+pub type ReadPlain = fn(source: &[u8], line: Span) -> Option<Vec<Item>>;
 
 /// True for a line that a dialect's parser surely reads without a fault; false where only reading tells.
 pub type IsPlain = fn(source: &[u8], line: Span) -> bool;
@@ -59,25 +63,31 @@ const CHUNK: usize = 256 * 1024;
 
 /// Reads all blocks of `source`.
 pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
-    read(source, parser, &|_| {})
+    read(source, &|line, out| parser(source, line, out))
 }
 
 /// As [`parse_file`], without the tokens: a third of it, which only printing needs.
-pub fn parse_items(source: &[u8], parser: Parser) -> ParsedFile<'_> {
-    read(source, parser, &|blocks| blocks.iter_mut().for_each(|block| block.tokens = Vec::new()))
+pub fn parse_items(source: &[u8], parser: Parser, plain: ReadPlain) -> ParsedFile<'_> {
+    read(source, &|line, out| read_items(source, line, parser, plain, out))
 }
 
-fn read<'s>(source: &'s [u8], parser: Parser, trim: &(dyn Fn(&mut [Block]) + Sync)) -> ParsedFile<'s> {
+/// Reads the blocks of one line without their tokens.
+pub fn read_items(source: &[u8], line: Span, parser: Parser, plain: ReadPlain, out: &mut Vec<Block>) {
+    if let Some(items) = plain(source, line) {
+        return out.push(Block { span: line, tokens: Vec::new(), items, errors: Vec::new() });
+    }
+    let first = out.len();
+    parser(source, line, out);
+    out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
+}
+
+fn read<'s>(source: &'s [u8], line: &(dyn Fn(Span, &mut Vec<Block>) + Sync)) -> ParsedFile<'s> {
     let parts: Vec<(Vec<Line>, Vec<Block>)> = chunks(source)
         .into_par_iter()
         .map(|chunk| {
-            let lines: Vec<Line> = chunk_lines(source, chunk).collect();
+            let lines: Vec<Line> = Lines::within(source, chunk).collect();
             let mut blocks = Vec::with_capacity(lines.len());
-            for line in &lines {
-                let first = blocks.len();
-                parser(source, line.text, &mut blocks);
-                trim(&mut blocks[first..]);
-            }
+            lines.iter().for_each(|each| line(each.text, &mut blocks));
             (lines, blocks)
         })
         .collect();
@@ -120,7 +130,7 @@ fn fold_lines<T: Send>(
 ) -> T {
     let fold = |chunk| {
         let (mut out, mut blocks) = (none(), Vec::new());
-        for line in chunk_lines(source, chunk).filter(|line| !is_plain(source, line.text)) {
+        for line in Lines::within(source, chunk).filter(|line| !is_plain(source, line.text)) {
             blocks.clear();
             parser(source, line.text, &mut blocks);
             add(&mut out, line, &mut blocks);
@@ -160,22 +170,13 @@ impl ParseTotals {
     }
 }
 
-fn chunk_lines(source: &[u8], chunk: Span) -> impl Iterator<Item = Line> + '_ {
-    let shift = move |span: Span| Span::new(span.start + chunk.start, span.end + chunk.start);
-    Lines::new(chunk.of(source)).map(move |line| Line { text: shift(line.text), end: shift(line.end) })
-}
-
 /// Cuts `source` behind line ends into pieces of about [`CHUNK`] bytes.
 fn chunks(source: &[u8]) -> Vec<Span> {
     let mut out = Vec::new();
     let mut start = 0;
     while start < source.len() {
         let from = (start + CHUNK).min(source.len());
-        let end = memchr::memchr2(b'\n', b'\r', &source[from..]).map_or(source.len(), |i| {
-            let at = from + i;
-            // A CRLF is one line end.
-            at + 1 + usize::from(source[at] == b'\r' && source.get(at + 1) == Some(&b'\n'))
-        });
+        let end = Lines::behind_line_end(source, from);
         out.push(Span::new(start as u32, end as u32));
         start = end;
     }

@@ -1,7 +1,7 @@
 //! Haas macros, legacy and NGC controls.
 
-use super::Block;
 use super::macro_b::{self, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
+use super::{Block, Item};
 use crate::text::Span;
 
 /// What pest makes of the grammar; it stays in here.
@@ -31,6 +31,11 @@ pub(super) const RULES: Rules = Rules {
 /// Reads the blocks of one line.
 pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
     macro_b::parse_line(&RULES, source, line, out);
+}
+
+/// See [`super::ReadPlain`].
+pub fn read_plain(source: &[u8], line: Span) -> Option<Vec<Item>> {
+    macro_b::read_plain(source, line)
 }
 
 /// See [`super::IsPlain`].

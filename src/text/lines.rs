@@ -29,6 +29,29 @@ impl<'s> Lines<'s> {
         debug_assert!(source.len() <= MAX_FILE);
         Self { source, at: 0 }
     }
+
+    /// Cuts a part of `source` that starts at the start of a line; spans count from the start of `source`.
+    pub fn within(source: &'s [u8], part: Span) -> Self {
+        let end = source.len().min(part.end as usize);
+        Self { source: &source[..end], at: part.start as usize }
+    }
+
+    /// Where the line that `at` lies in ends, its line end included.
+    pub fn behind_line_end(source: &[u8], at: usize) -> usize {
+        let rest = source.get(at..).unwrap_or_default();
+        let (stop, length) = next_end(rest);
+        at + stop + length
+    }
+}
+
+/// Where the first line end stands, and how long it is.
+fn next_end(rest: &[u8]) -> (usize, usize) {
+    match memchr2(b'\n', b'\r', rest) {
+        None => (rest.len(), 0),
+        // A CRLF is one line end.
+        Some(i) if rest[i] == b'\r' && rest.get(i + 1) == Some(&b'\n') => (i, 2),
+        Some(i) => (i, 1),
+    }
 }
 
 impl Iterator for Lines<'_> {
@@ -37,11 +60,8 @@ impl Iterator for Lines<'_> {
     fn next(&mut self) -> Option<Line> {
         let rest = self.source.get(self.at..).filter(|rest| !rest.is_empty())?;
         let start = self.at;
-        let (stop, close) = match memchr2(b'\n', b'\r', rest) {
-            None => (self.source.len(), self.source.len()),
-            Some(i) if rest[i] == b'\r' && rest.get(i + 1) == Some(&b'\n') => (start + i, start + i + 2),
-            Some(i) => (start + i, start + i + 1),
-        };
+        let (length, end) = next_end(rest);
+        let (stop, close) = (start + length, start + length + end);
         self.at = close;
         Some(Line { text: Span::new(start as u32, stop as u32), end: Span::new(stop as u32, close as u32) })
     }

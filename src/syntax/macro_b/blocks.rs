@@ -1,10 +1,11 @@
 //! Cuts a line into blocks and reads each, by the scanner or by the grammar.
 
 use super::faults::{self, outside_text};
-use super::lexeme::{Lex, Lexeme, Row, tokens};
+use super::lexeme::{Lexeme, Row, tokens};
+use super::plain::{NeedsCheck, Plain};
 use super::shape::{self, Shape};
 use super::tree::{self, Tree};
-use super::{Rules, checks, plain, scanner};
+use super::{Rules, checks, scanner};
 use crate::syntax::support::readable;
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;
@@ -17,13 +18,14 @@ pub fn parse_line(rules: &Rules, source: &[u8], line: Span, out: &mut Vec<Block>
         return;
     }
     let first = out.len();
-    let mut row = Row::new();
     let mut at = line.start;
     while at < line.end {
-        row.clear();
-        let end = scanner::scan(source, Span::new(at, line.end), &mut row);
+        let mut scanned =
+            (Row::new(), Plain::within(bytes.get((at - line.start) as usize..).unwrap_or_default()));
+        let end = scanner::scan(source, Span::new(at, line.end), &mut scanned);
+        let (mut row, plain) = scanned;
         let block = match end {
-            Some(end) => plain_block(rules, source, Span::new(at, end), &row),
+            Some(end) => plain_block(rules, source, Span::new(at, end), &row, plain),
             None => {
                 let start = (at - line.start) as usize;
                 let mut shape = shape::outline(bytes, start);
@@ -43,18 +45,25 @@ pub fn parse_line(rules: &Rules, source: &[u8], line: Span, out: &mut Vec<Block>
     }
 }
 
-/// True for a line that is one block of plain words in which nothing can be wrong.
+/// What a line says that is one block of plain words in which nothing can be wrong; none for any other.
+pub fn read_plain(source: &[u8], line: Span) -> Option<Vec<Item>> {
+    let mut plain = Plain::within(line.of(source));
+    let whole = !line.is_empty() && scanner::scan(source, line, &mut plain) == Some(line.end);
+    (whole && !plain.needs_check).then(|| plain.into_items())
+}
+
+/// True for a line that is one block of plain words in which nothing can be wrong, or empty.
 pub fn is_plain(source: &[u8], line: Span) -> bool {
-    let mut row = Row::new();
-    scanner::scan(source, line, &mut row) == Some(line.end) && !plain::needs_check(source, &row)
+    let mut check = NeedsCheck::default();
+    scanner::scan(source, line, &mut check) == Some(line.end) && !check.0
 }
 
 /// A block read by the scanner.
-fn plain_block(rules: &Rules, source: &[u8], span: Span, row: &Row) -> Block {
-    let plain = plain::build(source, row);
-    let mut block = Block { span, tokens: tokens(row), items: plain.items, errors: Vec::new() };
+fn plain_block(rules: &Rules, source: &[u8], span: Span, row: &Row, plain: Plain) -> Block {
+    let needs_check = plain.needs_check;
+    let mut block = Block { span, tokens: tokens(row), items: plain.into_items(), errors: Vec::new() };
     debug_assert!(block.is_tiled());
-    if plain.needs_check {
+    if needs_check {
         checks::check_items(rules, source, &block.items, &mut block.errors);
     }
     block
@@ -150,9 +159,4 @@ fn outside_block(line: Span) -> Block {
         }],
         errors: Vec::new(),
     }
-}
-
-/// An end-of-block leaf, for the scanner.
-pub(super) fn end_leaf(at: u32) -> Lexeme {
-    Lexeme { kind: Lex::EndOfBlock, span: Span::new(at, at + 1) }
 }

@@ -3,7 +3,7 @@
 //! A line goes through four steps. [`blocks`] cuts it at its end-of-block signs;
 //! [`scanner`] reads blocks of plain words (built by [`plain`]), and the dialect's pest grammar
 //! (`grammar/macro_b.pest` and its own file) all others, both into one row of
-//! [`lexeme`]s that tiles the block; [`tree`] builds the items from that row;
+//! [`lexeme`]s that tiles the block; [`tree`] builds the items of the others from that row;
 //! [`checks`] finds what the grammar lets pass but the control does not.
 //! [`faults`] says in a programmer's words why a block could not be read.
 
@@ -22,7 +22,7 @@ mod tree;
 #[cfg(test)]
 mod tests;
 
-pub(super) use blocks::{is_plain, parse_line};
+pub(super) use blocks::{is_plain, parse_line, read_plain};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
 pub(super) use rules::{Reading, Rules, read};

@@ -1,90 +1,135 @@
-//! Builds the items of a block of plain words, straight from the scanner's row.
+//! What becomes of the parts of a block of plain words: leaves, items, or nothing but the news that it has no fault.
 //!
-//! The same as [`super::tree`] would build, which tests hold it to; it need not ask
-//! what may come next, since the scanner yields letters, signs, numbers, comments and
-//! sequence numbers only.
+//! The items are the same as [`super::tree`] would build, which tests hold it to; nothing need be asked of
+//! what may come next, since the scanner meets words, comments and sequence numbers only.
 
-use super::lexeme::{Lex, Lexeme};
-use super::tree::read_number;
-use crate::syntax::{Comment, Expr, ExprKind, Fence, Item, ItemKind, Number, Word};
+use super::lexeme::{Lex, Lexeme, Row};
+use super::scanner::{Scanned, Take};
+use crate::syntax::{Comment, Expr, ExprKind, Fence, Item, ItemKind, Word};
 use crate::text::Span;
 
 /// What a block of plain words says.
 pub struct Plain {
-    pub items: Vec<Item>,
-    /// True where a word stands that can be wrong: a code or speed with a point, a macro call.
+    items: Vec<Item>,
+    /// True where a word stands that can be wrong.
     pub needs_check: bool,
 }
 
-/// Builds the items of a scanned row.
-pub fn build(source: &[u8], row: &[Lexeme]) -> Plain {
-    let count = row.iter().filter(|leaf| starts_item(leaf.kind)).count();
-    let mut plain = Plain { items: Vec::with_capacity(count), needs_check: false };
-    let mut rest = row.iter();
-    while let Some(leaf) = rest.next() {
-        let (kind, end) = match leaf.kind {
-            Lex::Letter => {
-                let Some(next) = rest.next() else { break };
-                let sign = (next.kind == Lex::Sign).then_some(next.span);
-                let Some(number) = (if sign.is_some() { rest.next() } else { Some(next) }) else { break };
-                plain.word(source, leaf.span, sign, number.span)
-            }
-            Lex::SequenceLetter => {
-                let Some(digits) = rest.next() else { break };
-                let number = digits.span.of(source).iter().fold(0u32, |value, digit| {
-                    value.wrapping_mul(10).wrapping_add(u32::from(digit.wrapping_sub(b'0')))
-                });
-                (ItemKind::Sequence { number, inserted: false }, digits.span.end)
-            }
-            Lex::Comment => {
-                let text = Span::new(leaf.span.start + 1, leaf.span.end - 1);
-                (ItemKind::Comment(Comment { text, fence: Fence::Closed }), leaf.span.end)
-            }
-            Lex::EndOfBlock => (ItemKind::EndOfBlock, leaf.span.end),
-            _ => continue,
-        };
-        plain.items.push(Item { kind, span: Span::new(leaf.span.start, end) });
+impl Plain {
+    /// Of a block that is the whole of `text` or less.
+    pub fn within(text: &[u8]) -> Self {
+        let starts = |byte: &&u8| byte.is_ascii_alphabetic() || matches!(byte, b'(' | b';');
+        Self { items: Vec::with_capacity(text.iter().filter(starts).count()), needs_check: false }
     }
-    plain
+
+    /// What it says, in order.
+    pub fn into_items(mut self) -> Vec<Item> {
+        // Files are kept whole: room to spare in each block would be most of what they take.
+        self.items.shrink_to_fit();
+        self.items
+    }
 }
 
-impl Plain {
-    fn word(&mut self, source: &[u8], letter: Span, sign: Option<Span>, digits: Span) -> (ItemKind, u32) {
-        let letter = letter.of(source).first().map_or(' ', |byte| char::from(byte.to_ascii_uppercase()));
-        let number = read_number(digits.of(source));
-        self.needs_check |= can_be_wrong(letter, &number);
-        let constant = Expr { kind: ExprKind::Number(number), span: digits };
+impl Take for Plain {
+    fn sequence(&mut self, letter: Span, digits: Span, number: u32) {
+        let kind = ItemKind::Sequence { number, inserted: false };
+        self.items.push(Item { kind, span: letter.to(digits) });
+    }
+
+    #[inline]
+    fn word(&mut self, scanned: Scanned) {
+        self.needs_check |= scanned.can_be_wrong();
+        let Scanned { letter, start, sign, digits, .. } = scanned;
+        let constant = Expr { kind: ExprKind::Number(scanned.number()), span: digits };
         let value = match sign {
             None => constant,
             Some(sign) => {
                 let inner = Box::new(constant);
-                let minus = sign.of(source) == b"-";
-                let kind = if minus { ExprKind::Negate(inner) } else { ExprKind::Plus(inner) };
-                Expr { kind, span: sign.to(digits) }
+                let kind = if sign == b'-' { ExprKind::Negate(inner) } else { ExprKind::Plus(inner) };
+                Expr { kind, span: Span::new(digits.start - 1, digits.end) }
             }
         };
-        (ItemKind::Word(Word { letter, comma: false, value: Some(value), equals: false }), digits.end)
+        let letter = char::from(letter.to_ascii_uppercase());
+        let kind = ItemKind::Word(Word { letter, comma: false, value: Some(value), equals: false });
+        self.items.push(Item { kind, span: Span::new(start, digits.end) });
+    }
+
+    fn comment(&mut self, span: Span) {
+        let text = Span::new(span.start + 1, span.end - 1);
+        self.items.push(Item { kind: ItemKind::Comment(Comment { text, fence: Fence::Closed }), span });
+    }
+
+    fn end(&mut self, span: Span) {
+        self.items.push(Item { kind: ItemKind::EndOfBlock, span });
     }
 }
 
-/// True where a word of a scanned row can be wrong.
-pub fn needs_check(source: &[u8], row: &[Lexeme]) -> bool {
-    row.iter().enumerate().filter(|(_, leaf)| leaf.kind == Lex::Letter).any(|(at, leaf)| {
-        let letter = leaf.span.of(source).first().map_or(' ', |byte| char::from(byte.to_ascii_uppercase()));
-        let number = || row.iter().skip(at).find(|leaf| leaf.kind == Lex::Number);
-        matches!(letter, 'G' | 'M' | 'S' | 'T')
-            && number().is_some_and(|leaf| can_be_wrong(letter, &read_number(leaf.span.of(source))))
-    })
-}
+/// The leaves.
+impl Take for Row {
+    fn space(&mut self, span: Span) {
+        self.push(Lexeme { kind: Lex::Space, span });
+    }
 
-/// A code that calls a macro, or a code, speed or tool with a point.
-fn can_be_wrong(letter: char, number: &Number) -> bool {
-    match letter {
-        'G' => (65.0..67.0).contains(&number.value),
-        _ => number.point && matches!(letter, 'M' | 'S' | 'T'),
+    fn sequence(&mut self, letter: Span, digits: Span, _: u32) {
+        self.push(Lexeme { kind: Lex::SequenceLetter, span: letter });
+        self.push(Lexeme { kind: Lex::Integer, span: digits });
+    }
+
+    fn word(&mut self, word: Scanned) {
+        self.push(Lexeme { kind: Lex::Letter, span: Span::new(word.start, word.start + 1) });
+        if word.sign.is_some() {
+            self.push(Lexeme { kind: Lex::Sign, span: Span::new(word.start + 1, word.digits.start) });
+        }
+        self.push(Lexeme { kind: Lex::Number, span: word.digits });
+    }
+
+    fn comment(&mut self, span: Span) {
+        self.push(Lexeme { kind: Lex::Comment, span });
+    }
+
+    fn end(&mut self, span: Span) {
+        self.push(Lexeme { kind: Lex::EndOfBlock, span });
     }
 }
 
-fn starts_item(kind: Lex) -> bool {
-    matches!(kind, Lex::Letter | Lex::SequenceLetter | Lex::Comment | Lex::EndOfBlock)
+/// Whether a word stands that can be wrong.
+#[derive(Default)]
+pub struct NeedsCheck(pub bool);
+
+impl Take for NeedsCheck {
+    fn word(&mut self, word: Scanned) {
+        self.0 |= word.can_be_wrong();
+    }
+
+    fn sequence(&mut self, _: Span, _: Span, _: u32) {}
+    fn comment(&mut self, _: Span) {}
+    fn end(&mut self, _: Span) {}
+}
+
+/// Both at once.
+impl<A: Take, B: Take> Take for (A, B) {
+    fn space(&mut self, span: Span) {
+        self.0.space(span);
+        self.1.space(span);
+    }
+
+    fn sequence(&mut self, letter: Span, digits: Span, number: u32) {
+        self.0.sequence(letter, digits, number);
+        self.1.sequence(letter, digits, number);
+    }
+
+    fn word(&mut self, word: Scanned) {
+        self.0.word(word);
+        self.1.word(word);
+    }
+
+    fn comment(&mut self, span: Span) {
+        self.0.comment(span);
+        self.1.comment(span);
+    }
+
+    fn end(&mut self, span: Span) {
+        self.0.end(span);
+        self.1.end(span);
+    }
 }

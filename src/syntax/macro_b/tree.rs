@@ -156,7 +156,7 @@ impl Builder<'_> {
 const MOST_DIGITS: u16 = 40;
 
 /// Powers of ten that a double holds exactly, as far as short numbers need them.
-const TENS: [f64; 16] =
+pub const TENS: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// Reads digits with at most one point among them.

@@ -81,12 +81,15 @@ fn scanner_agrees(dialect: &Dialect, source: &[u8]) -> usize {
         if blocks::is_plain(source, line.text) {
             assert!(blocks.len() <= 1 && blocks.iter().all(|block| block.errors.is_empty()), "{blocks:?}");
         }
+        let plain = blocks::read_plain(source, line.text);
+        assert_eq!(plain.is_some(), !line.text.is_empty() && blocks::is_plain(source, line.text));
+        if let Some(items) = plain {
+            assert_eq!(blocks.iter().map(|block| &block.items).collect::<Vec<_>>(), [&items]);
+        }
         for block in blocks {
             let mut row = Row::new();
-            let Some(end) = scanner::scan(source, Span::new(block.span.start, line.text.end), &mut row)
-            else {
-                continue;
-            };
+            let rest = Span::new(block.span.start, line.text.end);
+            let Some(end) = scanner::scan(source, rest, &mut row) else { continue };
             accepted += 1;
             assert!(tree::build(source, &row, bits_among_arithmetic).is_ok());
             assert_eq!(end, block.span.end, "{}", String::from_utf8_lossy(line.text.of(source)));
