@@ -138,6 +138,7 @@ questions! {
     "tool.word.selects.length" YES, "the tool word brings its length offset into force";
     "spindle.range.suffix" YES, "a fraction of S picks the gear range and is no speed";
     "clear.all" YES, "one statement clears all variables";
+    "output.needs.port" YES, "formatted output needs a port that is open";
     "print.screen" YES, "a statement prints on the screen";
     "message.shows.comment" YES, "the comment behind a stop is shown to the operator";
     "alarm.offset" &[], "what is added to the number of an alarm on the screen";

@@ -22,8 +22,10 @@ pub enum Thing {
     ReturnTo,
     /// A wait for the moves before it, or a limit on reading ahead.
     Wait,
-    /// A print, or formatted output.
+    /// A print.
     Print,
+    /// Formatted output.
+    Output,
     /// A question to the operator.
     Input,
     /// The clearing of a class.
@@ -105,6 +107,7 @@ impl Census {
             StmtKind::ModalCallOff => self.add(Thing::Modal),
             StmtKind::Sync | StmtKind::LimitLookahead(_) => self.add(Thing::Wait),
             StmtKind::Print { .. } => self.add(Thing::Print),
+            StmtKind::Output(_) => self.add(Thing::Output),
             StmtKind::Input { .. } => self.add(Thing::Input),
             StmtKind::ClearAll(_) => self.add(Thing::Clear),
             StmtKind::Alarm { .. } | StmtKind::StopMessage { .. } => self.add(Thing::Message),

@@ -45,6 +45,7 @@ mod operator;
 mod outline;
 mod oversize;
 mod polar;
+mod ports;
 mod probe_points;
 mod programmed;
 mod rapid_once;
@@ -196,6 +197,7 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "truth", concerns: truth::concerns, run: Rewrites(truth::run) },
     Pass { name: "conditions", concerns: |c, _| c.has(Thing::Compound), run: Rewrites(conditions::run) },
     Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Rewrites(constants::run) },
+    Pass { name: "ports", concerns: |c, _| c.has(Thing::Output), run: Rewrites(ports::run) },
     Pass {
         name: "printed-values",
         concerns: |c, _| c.has(Thing::Print),

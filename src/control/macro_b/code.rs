@@ -74,6 +74,10 @@ pub enum Step<'c> {
         first: u32,
         names: Vec<String>,
     },
+    /// The port for output is opened, or closed.
+    Port {
+        open: bool,
+    },
     Output {
         binary: bool,
         parts: Vec<Part>,

@@ -241,9 +241,10 @@ impl<'c> Compiler<'c, '_> {
             | ItemKind::EndOfBlock
             | ItemKind::Program(_)
             | ItemKind::Sequence { .. }
-            | ItemKind::Comment(_)
-            | ItemKind::OpenPort
-            | ItemKind::ClosePort => {}
+            | ItemKind::Comment(_) => {}
+            ItemKind::OpenPort | ItemKind::ClosePort => {
+                gather.steps.push(Step::Port { open: item.kind == ItemKind::OpenPort });
+            }
             _ => gather.steps.push(Step::Unreadable("a statement that this control does not have".into())),
         }
     }

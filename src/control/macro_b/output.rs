@@ -12,6 +12,10 @@ impl Runner<'_> {
     /// Leading places are blank, the fraction is rounded and its zeros are printed; a value too
     /// long for its places takes more.
     pub fn output(&mut self, binary: bool, parts: &[Part]) -> Result<(), Halt> {
+        if !self.port_open {
+            // Whether the text is lost then is not stated: it is printed, and the doubt is kept.
+            self.rules.output_needs_port.ask(&mut self.session.trace);
+        }
         if binary {
             self.session.trace.doubt("statement:output.binary");
         }

@@ -56,6 +56,8 @@ pub struct Runner<'c> {
     pub addresses: [f64; 27],
     /// The row of the drilling cycle in force.
     pub cycle: Option<&'c CodeMeaning>,
+    /// True while the port for output is open.
+    pub port_open: bool,
     /// By how much the value of the last expression may be off.
     pub off: f64,
 }
@@ -98,6 +100,7 @@ impl<'c> Runner<'c> {
             modal: [0.0; 32],
             addresses: [0.0; 27],
             cycle: None,
+            port_open: false,
             off: 0.0,
         };
         // The program before this one called for the tool that is in the spindle.
@@ -214,6 +217,7 @@ impl<'c> Runner<'c> {
                         self.memory.names.insert(name.clone(), number);
                     }
                 }
+                Step::Port { open } => self.port_open = *open,
                 Step::Output { binary, parts } => self.output(*binary, parts)?,
                 Step::Alarm(stop) => return Err(Halt::Alarm(stop.clone())),
                 Step::Unreadable(text) => return Err(Halt::Error(text.clone())),

@@ -104,6 +104,14 @@ fn a_stop_shows_its_comment() {
 }
 
 #[test]
+fn output_to_a_closed_port_is_in_doubt() {
+    let needs = "behaviour:output.needs.port";
+    assert!(doubts(&fanuc("O1\nDPRNT[A]\nM30\n"), needs));
+    assert!(doubts(&fanuc("O1\nPOPEN\nPCLOS\nDPRNT[A]\nM30\n"), needs));
+    assert!(!doubts(&fanuc("O1\nPOPEN\nDPRNT[A]\nPCLOS\nM30\n"), needs));
+}
+
+#[test]
 fn output_has_its_places() {
     let run = haas("O1\n#1=1.5\n#2=-12.3456\nDPRNT[X#1[53]*Y#2[32]Z#1[40]]\nM30\n");
     let text = run.events.iter().find_map(|event| match &event.what {
