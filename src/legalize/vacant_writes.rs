@@ -2,7 +2,9 @@
 //!
 //! Law: a word whose value is vacant is not there, so a block that writes a table with it writes nothing; twice vacant
 //! is 0, and the target would write that. So where the value may be vacant, the block stands twice: without the value
-//! under the condition that it is vacant, and with it. Side condition: only values that are scaled.
+//! under the condition that it is vacant, and with it. Side condition: only values that are scaled. A sign before a
+//! vacant variable leaves nothing to write either, unless the source's table has the word there as 0; where nobody
+//! confirmed that, lowering said so.
 //! Counter-example without it: `G10 L12 P3 R#2` with #2 vacant clears the radius that the source leaves alone.
 
 use super::Context;
@@ -19,22 +21,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let summaries = Summaries::of(module);
+    let signs = context.source.behaviour("bracket.vacant.word").is_none_or(|row| row.value != "zero");
     for program in &mut module.programs {
-        let places = places(program, &summaries);
+        let places = places(program, &summaries, signs);
         if !places.is_empty() {
             split(program, &places);
         }
     }
 }
 
-/// The statements whose value may be vacant.
-fn places(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize)> {
+/// The statements whose value may be vacant; with `signs` behind a sign too.
+fn places(program: &Program, summaries: &Summaries, signs: bool) -> BTreeSet<(BlockId, usize)> {
     let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
     let mut found = BTreeSet::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         vacancy.forward(id, &mut |at, may| {
             if let Some(StmtKind::Nc(nc)) = block.stmts.get(at).map(|stmt| &stmt.kind)
-                && written(nc).is_some_and(|value| value.may_be_vacant() && may(value))
+                && written(nc)
+                    .map(|value| if signs { unsigned(value) } else { value })
+                    .is_some_and(|value| value.may_be_vacant() && may(value))
             {
                 found.insert((id, at));
             }
@@ -45,6 +50,14 @@ fn places(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize)
 
 fn written(nc: &Nc) -> Option<&Expr> {
     nc.word(Role::OffsetValue).filter(|_| super::state::writes_radius(nc))
+}
+
+/// What the signs stand before.
+fn unsigned(value: &Expr) -> &Expr {
+    match value {
+        Expr::Negate(inner) => unsigned(inner),
+        value => value,
+    }
 }
 
 fn split(program: &mut Program, places: &BTreeSet<(BlockId, usize)>) {
@@ -60,7 +73,7 @@ fn split(program: &mut Program, places: &BTreeSet<(BlockId, usize)>) {
                     && let Some(value) = written(nc).cloned()
                 {
                     let (empty, full, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
-                    let cond = Cond::Compare(Relation::Equal, value, Expr::Vacant);
+                    let cond = Cond::Compare(Relation::Equal, unsigned(&value).clone(), Expr::Vacant);
                     builder.end(TermKind::Branch { cond, yes: empty, no: full }, Site::default());
                     builder.start(full);
                     builder.push(stmt.kind.clone(), stmt.site.clone());
