@@ -1,0 +1,165 @@
+//! The feed from before a tap: where the target's own tap feed stands in its place, and what brings it back.
+
+use super::is_tap;
+use crate::canon::{Group, Role, Sys};
+use crate::dialect::Control;
+use crate::ir::analysis::Cfg;
+use crate::ir::{BlockId, Class, Expr, Module, Place, Program, Site, Stmt, StmtKind, TermKind, Var};
+use crate::legalize::ModalFacts;
+use crate::legalize::modal::Modal;
+use crate::legalize::rewrite::highest_temp;
+
+/// F by the place of its letter.
+const ADDRESS_F: u32 = 6;
+
+/// The feed in force on the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feed {
+    /// That of the source.
+    Same,
+    /// A register holds that of the source; in force is that of a tap, or the same.
+    Held,
+    /// That of a tap may be in force, and nothing holds that of the source.
+    Lost,
+}
+
+/// What must be done at a statement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Does {
+    Nothing,
+    /// Before it the feed is read into the register.
+    Reads,
+    /// It says this feed again.
+    Says(f64),
+    /// It says the feed that the register holds.
+    SaysHeld,
+    /// It should say the feed, which is not known.
+    Fails,
+}
+
+/// The feed at the start of every block of a library.
+pub struct Kept {
+    readable: bool,
+    entries: Vec<Vec<Option<Feed>>>,
+    /// What holds the feed, in those programs that need it.
+    registers: Vec<Option<Var>>,
+}
+
+impl Kept {
+    /// Follows the feed through a library.
+    pub fn of(module: &Module, facts: &ModalFacts, target: &Control) -> Self {
+        let readable = target.system_address(Sys::Address, &[ADDRESS_F]).is_some();
+        let modal_calls = module
+            .programs
+            .iter()
+            .flat_map(|program| program.blocks.iter().flat_map(|block| &block.stmts))
+            .any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
+        let mut kept = Self { readable, entries: Vec::new(), registers: Vec::new() };
+        // Programs find and leave the feed as it was, unless one calls or returns in the middle of a tap.
+        let open = modal_calls || kept.flow(module, facts, Feed::Same);
+        if open {
+            kept.flow(module, facts, Feed::Lost);
+        }
+        for (index, program) in module.programs.iter().enumerate() {
+            let asks = program.ids().any(|id| {
+                let (mut modal, mut feed) = (facts.at(index, id), kept.at(index, id));
+                let stmts = program.blocks.get(id.index()).into_iter().flat_map(|block| &block.stmts);
+                stmts.into_iter().any(|stmt| kept.step(stmt, &mut modal, &mut feed) == Does::SaysHeld)
+            });
+            let register = Var { class: Class::Temp, number: highest_temp(program) + 1 };
+            kept.registers.push(asks.then_some(register));
+        }
+        kept
+    }
+
+    /// Follows the feed where programs begin, and go on behind calls, in this state. True where one calls or returns
+    /// in another.
+    fn flow(&mut self, module: &Module, facts: &ModalFacts, begins: Feed) -> bool {
+        let mut open = false;
+        self.entries = module.programs.iter().map(|program| vec![None; program.blocks.len()]).collect();
+        for (index, program) in module.programs.iter().enumerate() {
+            let cfg = Cfg::of(program);
+            let mut work: Vec<(BlockId, Feed)> = cfg.roots().iter().map(|id| (*id, begins)).collect();
+            // A block's state changes twice at the most.
+            while let Some((id, feed)) = work.pop() {
+                let Some(entry) = self.entries.get_mut(index).and_then(|all| all.get_mut(id.index())) else {
+                    continue;
+                };
+                let joined = entry.map_or(feed, |old| if old == feed { old } else { Feed::Lost });
+                if *entry == Some(joined) {
+                    continue;
+                }
+                *entry = Some(joined);
+                let out = self.through(program, id, facts.at(index, id), joined);
+                let kind = program.blocks.get(id.index()).map(|block| &block.term.kind);
+                let calls = matches!(kind, Some(TermKind::Call { .. }));
+                let ends = matches!(kind, Some(TermKind::End { .. }));
+                open |= out != Feed::Same && !ends && (calls || cfg.succs(id).is_empty());
+                let out = if calls && begins == Feed::Lost { Feed::Lost } else { out };
+                work.extend(cfg.succs(id).iter().map(|to| (*to, out)));
+            }
+        }
+        open
+    }
+
+    fn through(&self, program: &Program, id: BlockId, mut modal: Modal, mut feed: Feed) -> Feed {
+        for stmt in program.blocks.get(id.index()).into_iter().flat_map(|block| &block.stmts) {
+            self.step(stmt, &mut modal, &mut feed);
+        }
+        feed
+    }
+
+    /// The feed at the start of a block.
+    pub fn at(&self, program: usize, id: BlockId) -> Feed {
+        let entry = self.entries.get(program).and_then(|all| all.get(id.index()));
+        entry.copied().flatten().unwrap_or(Feed::Lost)
+    }
+
+    /// What holds the feed in a program.
+    pub fn register(&self, program: usize) -> Option<Var> {
+        self.registers.get(program).copied().flatten()
+    }
+
+    /// The statement that reads the feed into a register before another one.
+    pub fn reading(register: Var, stmt: &Stmt) -> Stmt {
+        let read = Expr::System(Sys::Address, vec![Expr::Number(f64::from(ADDRESS_F))]);
+        let kind = StmtKind::Assign { target: Place::Var(register), value: read };
+        Stmt { kind, site: Site { span: stmt.site.span, ..Site::default() } }
+    }
+
+    /// Goes on behind a statement, and says what must be done at it.
+    pub fn step(&self, stmt: &Stmt, modal: &mut Modal, feed: &mut Feed) -> Does {
+        let (was, known) = (modal.op(Group::Cycle), modal.feed());
+        modal.step(stmt);
+        let StmtKind::Nc(nc) = &stmt.kind else { return Does::Nothing };
+        let skipped = stmt.site.skip.is_some();
+        // What was read counts something else in another unit or feed mode.
+        let other = nc.ops().any(|op| matches!(op.group(), Group::Units | Group::FeedMode));
+        let mut does = Does::Nothing;
+        if nc.ops().any(is_tap) {
+            if *feed == Feed::Same && nc.word(Role::Lead).is_some() {
+                (*feed, does) =
+                    if self.readable { (Feed::Held, Does::Reads) } else { (Feed::Lost, Does::Nothing) };
+            }
+        } else if nc.word(Role::Feed).is_some() {
+            *feed = if skipped && *feed != Feed::Same { Feed::Lost } else { Feed::Same };
+            return Does::Nothing;
+        } else if *feed != Feed::Same
+            && was.is_none_or(is_tap)
+            && modal.op(Group::Cycle).is_some_and(|op| !is_tap(op))
+        {
+            does = match (known, *feed) {
+                (Some(feed), _) => Does::Says(feed),
+                (None, Feed::Held) if !other => Does::SaysHeld,
+                _ => Does::Fails,
+            };
+            if does != Does::Fails && !skipped {
+                *feed = Feed::Same;
+            }
+        }
+        if other && *feed == Feed::Held {
+            *feed = Feed::Lost;
+        }
+        does
+    }
+}
