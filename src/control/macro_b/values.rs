@@ -99,6 +99,9 @@ impl<'c> Runner<'c> {
             Role::Feed => (self.rules.bare_feed, Some(self.length_increment())),
             _ => (self.rules.bare_length, self.increment_of(role)),
         };
+        if role.is_scale() {
+            self.session.trace.doubt("numbers");
+        }
         let Some(increment) = increment else { return Ok(value) };
         if self.rules.numbers_unsure || bare == BareLength::Unknown {
             self.session.trace.doubt("numbers");

@@ -28,8 +28,10 @@ impl<'a> Lowering<'a> {
         }
         let counted = role.is_length() || role.is_angle();
         if role.is_scale() && !point && number != 0.0 {
-            let note = "what a scale factor without a decimal point counts; it is taken as written";
-            self.findings.unconfirmed("numbers".into(), Some(note), value.span);
+            // In thousandths or in hundred-thousandths by a parameter of its own: B-63682EN/01 p. 117.
+            let message = "what a scale factor without a decimal point counts is set at the control: write it with its point";
+            self.findings.not_understood(value.span, message);
+            return None;
         }
         if point || number == 0.0 || !(counted || matches!(role, Role::Feed | Role::Lead)) {
             return Some((role, Expr::Number(number)));
