@@ -14,6 +14,7 @@ mod alarms;
 mod banks;
 mod bare_arcs;
 mod blanks;
+mod carried;
 mod census;
 mod chain;
 mod clear;

@@ -1,33 +1,42 @@
 //! Modal calls by a call behind each move, where the target has none.
 //!
 //! Law: under open modal calls, a block that moves an axis and then calls the innermost one does what they make of it;
-//! inside that macro the ones outside it are open, so the macro is copied with their calls behind its own moves. Side
-//! conditions: it is known at each move which modal calls are open; a callee that opens a level finds its arguments
-//! anew each time, which is the same only while it does not change them.
+//! inside that macro the ones outside it are open, so the macro is copied with their calls behind its own moves. The
+//! arguments are those of the block that opens it, so computed ones are kept in temporaries. A word whose value is
+//! vacant is not there: where that may be so of all axes, the call stands under the condition that one is. Side
+//! conditions: it is known at each move which modal calls are open; a callee that opens a level finds its locals
+//! anew each time, which is the same only while it reads none that an earlier run of it wrote.
 //! Counter-example: a macro that counts in `#1`: under the modal call the count goes on.
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
-use super::{Context, ModalFacts};
+use super::rewrite::{Part, highest_temp, rebuild, unless_skipped};
+use super::{Context, ModalFacts, carried};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
-    BlockId, Builder, Call, Callee, Class, Expr, Module, NcItem, Place, Program, Site, StmtKind, TermKind,
-    Var,
+    BlockId, Builder, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site,
+    StmtKind, TermKind, Var,
 };
 use crate::syntax::ProgramName;
+use std::collections::BTreeSet;
 
 /// Replaces modal calls by explicit ones.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let native = context.target.statement("call.modal").is_some();
+    if !native {
+        module.programs.iter_mut().for_each(hold_arguments);
+    }
     let facts = match native {
         true => ModalFacts::of(module, &context.entry),
         false => ModalFacts::with_copies(module, &context.entry),
     };
-    let mut expansion = Expansion { module: module.clone(), facts, native, copies: Vec::new() };
+    let summaries = Summaries::of(module);
+    let mut expansion = Expansion { module: module.clone(), facts, summaries, native, copies: Vec::new() };
     let count = module.programs.len();
     for index in 0..count {
         let program = &module.programs[index];
-        let done = expansion.expand(index, program, None, context);
+        let done = expansion.expand(index, program, None, &BTreeSet::new(), context);
         module.programs[index] = done;
     }
     for Copied { origin, copy, .. } in expansion.copies {
@@ -42,18 +51,75 @@ fn is_modal(program: &Program) -> bool {
     stmts.any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff))
 }
 
+/// Computes the arguments of modal calls where those are opened.
+fn hold_arguments(program: &mut Program) {
+    let computed = |call: &Call| call.arguments.iter().any(|argument| argument.value.constant().is_none());
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    if !stmts.any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call))) {
+        return;
+    }
+    let mut temp = highest_temp(program);
+    rebuild(program, &mut |builder, mut part| {
+        if let Part::Stmt(stmt) = &mut part
+            && let StmtKind::ModalCall(call) = &mut stmt.kind
+        {
+            for argument in call.arguments.iter_mut().filter(|a| a.value.constant().is_none()) {
+                temp += 1;
+                let var = Var { class: Class::Temp, number: temp };
+                let value = std::mem::replace(&mut argument.value, Expr::Var(var));
+                let site = Site { skip: stmt.site.skip, ..Site::default() };
+                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site);
+            }
+        }
+        part.keep(builder);
+    });
+}
+
+/// The moves of a program that are none where what their words hold is vacant.
+fn unsure_moves(
+    program: &Program,
+    summaries: &Summaries,
+    given: &BTreeSet<Var>,
+) -> BTreeSet<(BlockId, usize)> {
+    let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
+    let kept = |e: &Expr| matches!(e, Expr::Var(var) if given.contains(var) && !carried::sets(program, *var));
+    let mut found = BTreeSet::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        vacancy.forward(id, &mut |at, may| {
+            if let Some(StmtKind::Nc(nc)) = block.stmts.get(at).map(|stmt| &stmt.kind)
+                && nc.moves()
+                && axes(nc).all(|value| value.may_be_vacant() && may(value) && !kept(value))
+            {
+                found.insert((id, at));
+            }
+        });
+    }
+    found
+}
+
+/// The values of a block's axis words.
+fn axes(nc: &Nc) -> impl Iterator<Item = &Expr> {
+    nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(role, value) if role.is_axis() => Some(value),
+        _ => None,
+    })
+}
+
 /// A macro with outer calls in it.
 struct Copied {
     /// Which program it is of.
     origin: usize,
     /// The outer calls, outermost first.
     under: Vec<Call>,
+    /// The locals that those who call it give a number.
+    given: BTreeSet<Var>,
     copy: Program,
 }
 
 struct Expansion {
     module: Module,
     facts: ModalFacts,
+    summaries: Summaries,
     native: bool,
     /// Copies of macros with outer calls in them.
     copies: Vec<Copied>,
@@ -64,14 +130,17 @@ const DEEPEST: usize = 5;
 
 impl Expansion {
     /// The program with its modal calls made explicit; under `outer`, those calls come behind its
-    /// moves where it opens none of its own.
+    /// moves where it opens none of its own. It is called with numbers in the locals that are `given`.
     fn expand(
         &mut self,
         index: usize,
         program: &Program,
         outer: Option<&[Call]>,
+        given: &BTreeSet<Var>,
         context: &mut Context<'_>,
     ) -> Program {
+        let unsure =
+            if self.native { BTreeSet::new() } else { unsure_moves(program, &self.summaries, given) };
         let mut builder = Builder::over(program.blocks.len());
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = self.facts.at(index, id);
@@ -80,21 +149,23 @@ impl Expansion {
             }
             builder.start(id);
             block.labels.iter().for_each(|label| builder.label(label.clone()));
-            for stmt in &block.stmts {
+            for (at, stmt) in block.stmts.iter().enumerate() {
                 let before = state.calls.clone();
                 state.step(stmt);
                 let site = stmt.site.clone();
                 match &stmt.kind {
                     StmtKind::ModalCall(call) if !self.native => {
-                        let computed = call.arguments.iter().any(|a| a.value.constant().is_none());
-                        if call.level && (computed || self.changes(call)) {
-                            let why = "each move calls the macro anew: its arguments are computed and set again each time";
-                            context.add(index, Diagnostic::new(Code::Conditional, site.span, why));
+                        if let Some(local) = self.carries(call) {
+                            let why = format!(
+                                "each move would call the macro anew, and it reads local variable {local} as an earlier run of it left it"
+                            );
+                            context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, why));
                         }
                         leave(&mut builder, site);
                     }
                     StmtKind::ModalCallOff if !self.native => leave(&mut builder, site),
-                    StmtKind::Nc(nc) => {
+                    StmtKind::Nc(written) => {
+                        let nc = written;
                         let here =
                             nc.has(Op::CycleHere) && before.as_ref().is_none_or(|calls| !calls.is_empty());
                         let runs = here || (nc.moves() && !self.native);
@@ -132,7 +203,24 @@ impl Expansion {
                             }
                             Some(calls) if runs && !calls.is_empty() => {
                                 let call = self.innermost(calls, index, span, context);
-                                builder.end_then(site, |next| TermKind::Call { call, next });
+                                let behind = builder.fresh();
+                                unless_skipped(&mut builder, stmt.site.skip, behind);
+                                if !here && unsure.contains(&(id, at)) {
+                                    let vacant =
+                                        |e: &Expr| Cond::Compare(Relation::Equal, e.clone(), Expr::Vacant);
+                                    let cond = match axes(written).map(vacant).collect::<Vec<_>>() {
+                                        all if all.len() > 1 => Cond::And(all),
+                                        one => one.into_iter().next().unwrap_or(Cond::And(Vec::new())),
+                                    };
+                                    let yes = behind;
+                                    builder.end_then(Site::default(), |no| TermKind::Branch {
+                                        cond,
+                                        yes,
+                                        no,
+                                    });
+                                }
+                                builder.end(TermKind::Call { call, next: behind }, site);
+                                builder.start(behind);
                             }
                             _ => leave(&mut builder, site),
                         }
@@ -195,7 +283,11 @@ impl Expansion {
                     })
                     .collect();
                 let text = format!("{} UNDER {}", written(&name), under.join(" "));
-                let same = |copied: &&Copied| copied.origin == at && copied.under == calls;
+                let arguments = call.arguments.iter().filter(|argument| argument.value.constant().is_some());
+                let given: BTreeSet<Var> =
+                    arguments.map(|argument| Var { class: Class::Local, number: argument.local }).collect();
+                let same =
+                    |copied: &&Copied| copied.origin == at && copied.under == calls && copied.given == given;
                 let known = self.copies.iter().find(same).and_then(|copied| copied.copy.name.clone());
                 let name = known.unwrap_or_else(|| {
                     // The outer calls may differ in their arguments only.
@@ -207,8 +299,9 @@ impl Expansion {
                     let mut copy = self.module.programs[at].clone();
                     copy.name = Some(name.clone());
                     // Noted first: a macro that moves under itself would copy itself for ever.
-                    self.copies.push(Copied { origin: at, under: calls.clone(), copy: copy.clone() });
-                    self.copies[taken].copy = self.expand(at, &copy, Some(&calls), context);
+                    let (under, noted) = (calls.clone(), given.clone());
+                    self.copies.push(Copied { origin: at, under, given: noted, copy: copy.clone() });
+                    self.copies[taken].copy = self.expand(at, &copy, Some(&calls), &given, context);
                     name
                 });
                 call.callee = Callee::Program(name);
@@ -221,14 +314,12 @@ impl Expansion {
         call
     }
 
-    /// True where the callee changes one of its arguments, or is not known.
-    fn changes(&self, call: &Call) -> bool {
-        let Callee::Program(name) = &call.callee else { return call.level };
-        let program = self.module.programs.iter().find(|p| p.name.as_ref() == Some(name));
-        program.is_none_or(|program| {
-            let written = locals_written(program);
-            call.arguments.iter().any(|argument| written.contains(&argument.local))
-        })
+    /// A local of the callee that it reads as an earlier run of it left it.
+    fn carries(&self, call: &Call) -> Option<u32> {
+        match &call.callee {
+            Callee::Program(name) if call.level => carried::local(&self.module, name),
+            _ => None,
+        }
     }
 }
 
@@ -237,7 +328,8 @@ fn reads_locals(call: &Call) -> bool {
     let mut found = false;
     for argument in &call.arguments {
         argument.value.walk(&mut |e| {
-            found |= matches!(e, Expr::Indirect(..) | Expr::Var(Var { class: Class::Local, .. }));
+            found |=
+                matches!(e, Expr::Indirect(..) | Expr::Var(Var { class: Class::Local | Class::Temp, .. }));
         });
     }
     found
@@ -248,14 +340,4 @@ fn leave(builder: &mut Builder, site: Site) {
     if !site.remarks.is_empty() {
         builder.push(StmtKind::Remark, site);
     }
-}
-
-fn locals_written(program: &Program) -> Vec<u32> {
-    let targets = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.target());
-    targets
-        .filter_map(|target| match target {
-            Place::Var(Var { class: Class::Local, number }) => Some(*number),
-            _ => None,
-        })
-        .collect()
 }

@@ -178,7 +178,7 @@ fn lay(builder: &mut Builder, prelude: Vec<Prelude>, site: &Site) {
 }
 
 /// Goes on at `behind` while the switch of a skipped block is on: a terminator cannot be skipped itself.
-fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
+pub(super) fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
     if let Some(level) = skip {
         let cond = Cond::Switch(level);
         builder.end_then(Site::default(), |no| TermKind::Branch { cond, yes: behind, no });
