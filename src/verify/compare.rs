@@ -5,7 +5,9 @@ use super::left::left_differs;
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::substitutes::{cannot_cancel, has_no_feed, is_builders, is_idle, is_left_out, stands_for};
+use super::substitutes::{
+    cannot_cancel, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
+};
 use crate::control::trace::{Event, Happening, Position};
 use crate::control::{End, Run};
 use std::collections::BTreeSet;
@@ -190,7 +192,7 @@ impl<'r> Pairs<'_, 'r> {
             self.uncancelled = true;
             return true;
         }
-        let left_out = is_left_out(self.target, what);
+        let left_out = is_left_out(self.target, what).or_else(|| returns_to_caller(what));
         self.found.substituted.extend(left_out.clone());
         left_out.is_some()
     }

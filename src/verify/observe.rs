@@ -1,5 +1,6 @@
 //! What an observer of the machine could tell of a run.
 
+use super::compare::is_cut;
 use super::names::Side as Library;
 use crate::canon::{Group, Op};
 use crate::control::Run;
@@ -73,7 +74,10 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
         }
         seen.act(event, run.events.get(at + 1));
     }
-    seen.settle(false);
+    // Where a run was stopped from outside, nothing says which settings the next action would have found.
+    if !is_cut(run) {
+        seen.settle(false);
+    }
     seen.out
 }
 

@@ -33,6 +33,13 @@ pub fn cannot_cancel(target: &Side<'_>, source: &Happening) -> Option<String> {
     none.then(|| "it returns with all zero shifts cancelled, which the target cannot do".to_owned())
 }
 
+/// A return to a block of whoever called the program, where it runs by itself: the target says where by a variable
+/// that callers look at, and each of those that the library has is compared.
+pub fn returns_to_caller(source: &Happening) -> Option<String> {
+    let Happening::Other { operation: Op::Return, code: Some(code) } = source else { return None };
+    Some(format!("it returns to block {code} of its caller, which only callers show"))
+}
+
 /// A move at feed of a source that was given no feed: what its control does then no source says.
 pub fn has_no_feed(source: &Happening) -> Option<String> {
     let none = matches!(source, Happening::Feed { feed: 0.0, .. } | Happening::Arc { feed: 0.0, .. });

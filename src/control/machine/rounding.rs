@@ -92,7 +92,11 @@ impl Machine {
             }
         }
         let centre = self.most_off(command, |role| axis(role).is_none());
-        trace.rounded = before.max(self.off_by()) + centre;
+        // A rotation puts the far end of a move off farther than its start.
+        let words = command.words.iter().filter(|(role, _)| axis(*role).is_some());
+        let far = words.map(|(_, value)| value.abs() * self.unit()).fold(0.0, f64::max);
+        let far = if incremental { reach + far } else { reach.max(far) };
+        trace.rounded = before.max(self.off_within(far)) + centre;
     }
 
     /// Takes in the words of a block that sets the frame of coordinates.
@@ -136,6 +140,11 @@ impl Machine {
 
     /// How far the machine may be off in any axis.
     pub(super) fn off_by(&self) -> f64 {
+        self.off_within(self.position.iter().fold(0.0f64, |a, b| a.max(b.abs())))
+    }
+
+    /// How far it may be off within some distance of the origin, millimetres.
+    fn off_within(&self, reach: f64) -> f64 {
         let Rounding { axes, frame, turn, .. } = &self.rounding;
         let mut off = axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
         if off > 0.0 && self.frame.is_shaped() {
@@ -145,7 +154,6 @@ impl Machine {
             off *= scale * std::f64::consts::SQRT_2;
         }
         if *turn > 0.0 {
-            let reach = self.position.iter().fold(0.0f64, |a, b| a.max(b.abs()));
             off += turn.to_radians() * reach * std::f64::consts::SQRT_2;
         }
         off + frame.iter().sum::<f64>()

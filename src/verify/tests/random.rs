@@ -110,3 +110,45 @@ fn questions_beyond_the_answers_are_answered_on_both_sides() {
     let names = [("V1", 501), ("V2", 502), ("V3", 503)];
     assert_eq!(run("fadal", source, "fanuc", target, &names).witness, None);
 }
+
+/// `M99 P` is a matter of whoever called: O1 goes on at N20 on both sides, O2 alone only says where to.
+#[test]
+fn a_return_to_a_block_shows_in_callers_alone() {
+    let source = "O1\nM98P2\nG90G0X1.\nN20G90G0X2.\nM30\nO2\nG90G0Y1.\nM99P20\n";
+    let with = |register: u32| {
+        let target = format!(
+            "O1\nM98P2\nIF[#501EQ20]GOTO20\nG90G0X1.\nN20G90G0X2.\nM30\nO2\nG90G0Y1.\n#{register}=20\nM99\n"
+        );
+        let names = Names { scratch: [501, 502].into(), ..Names::default() };
+        named(("fanuc", source), ("haas", &target), names)
+    };
+    let found = with(501);
+    assert!(found.iter().all(|program| program.witness.is_none()), "{found:#?}");
+    assert!(found[1].reasons.iter().any(|reason| reason.text.contains("block P20 of its caller")));
+    assert_eq!(with(502)[0].outcome, Outcome::Different);
+}
+
+/// The target calls a program that has no conversion: which speed that one sets, its run cannot show.
+#[test]
+fn settings_before_a_call_that_cannot_run_are_not_compared() {
+    let source = "O1\nG90G0X1.\nS800M3\nM98P2\nG0X2.\nM30\nO2\nS700M3\nM99\n";
+    let across = |speed: u32| {
+        let target = format!("O1\nG90G0X1.\nS{speed}M3\nM98P2\nG0X2.\nM30\n");
+        programs(("fanuc", source), ("haas", &target), &[])[0].clone()
+    };
+    let found = across(800);
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(found.reasons.iter().any(|reason| reason.why == Why::CannotRun));
+}
+
+/// The word of the angle is 0.333: 200 mm from the centre that is 0.0012 mm, on the first move already.
+#[test]
+fn the_far_end_of_a_turned_move_is_off_by_what_the_angle_rounds() {
+    let source = "O1\nG90 G0 X0 Y0\n#R9=1/3\nG68 X0 Y0 R+R9\nX200. Y20.\nG69\nM2\n";
+    let across = |x: &str| {
+        let target = format!("O1\nG90G0X0.Y0.\n#509=1/3\nG68X0.Y0.R#509\nX{x}Y20.\nG69\nM2\n");
+        run("fadal", source, "fanuc", &target, &[("R9", 509)])
+    };
+    assert_eq!(across("200.").witness, None);
+    assert_eq!(across("200.01").outcome, Outcome::Different);
+}
