@@ -3,6 +3,7 @@
 //! `MACROGLOT_PROGRAMS=1000 MACROGLOT_SEED=7 cargo test --test random -- --nocapture` tries so many programs
 //! of each dialect and policy. A program that shows a fault is made smaller, then printed with its seed.
 //! `MACROGLOT_KINDS="fadal DeepDo"` tries that kind alone, `MACROGLOT_KINDS=fadal` those of one dialect.
+//! `MACROGLOT_REASONS=1` prints why each conversion is undecided.
 
 #[path = "support/generate/mod.rs"]
 mod generate;
@@ -143,6 +144,7 @@ fn search(running: &Running, programs: u64, seed: u64) {
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
     let mut longest = (Duration::ZERO, 0);
     let mut faulty: Vec<(&str, Policy, u64, String)> = Vec::new();
+    let verbose = std::env::var_os("MACROGLOT_REASONS").is_some();
     let wanted = std::env::var("MACROGLOT_KINDS").unwrap_or_default();
     for (at, (dialect, policy)) in kinds.into_iter().enumerate() {
         // Left out, a kind keeps its place: the seeds of the others stay what they are.
@@ -164,6 +166,10 @@ fn search(running: &Running, programs: u64, seed: u64) {
         }
         for (seed, trial) in &trials {
             longest = longest.max((trial.took, *seed));
+            if verbose {
+                let told = trial.reasons.iter().map(|reason| format!("{:?}: {}", reason.why, reason.text));
+                told.for_each(|reason| eprintln!("{dialect} {policy:?} seed {seed} undecided: {reason}"));
+            }
             let sorts: BTreeSet<String> = trial.reasons.iter().map(sort_of).collect();
             sorts.into_iter().for_each(|sort| *reasons.entry(sort).or_default() += 1);
         }

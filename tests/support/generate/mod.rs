@@ -36,11 +36,19 @@ pub enum Policy {
     Cycles,
     /// Work offsets, tool offsets, positions read back.
     Offsets,
+    /// Arcs in all planes, and what turns, mirrors, shifts or compensates moves.
+    Figures,
+    /// Calls of all forms, modal ones and repeats too.
+    Calls,
+    /// What the operator sees, is asked and switches.
+    Operator,
+    /// Words by variables, numbers in all forms, spacing, tools and spindle.
+    Words,
 }
 
 impl Policy {
     /// All of them.
-    pub const ALL: [Policy; 7] = [
+    pub const ALL: [Policy; 11] = [
         Policy::Goto,
         Policy::DeepDo,
         Policy::Arguments,
@@ -48,6 +56,10 @@ impl Policy {
         Policy::Vacancy,
         Policy::Cycles,
         Policy::Offsets,
+        Policy::Figures,
+        Policy::Calls,
+        Policy::Operator,
+        Policy::Words,
     ];
 }
 
@@ -174,6 +186,39 @@ pub enum Kind {
     Machine(usize),
     /// What only this dialect has, by number.
     Own(usize, Value),
+    /// A move that is more than a line, by number.
+    Figure(usize, [Value; 2]),
+    /// Moves in a mode that ends behind them.
+    Within {
+        frame: Frame,
+        values: [Value; 2],
+        body: Vec<Step>,
+    },
+    /// A subprogram that runs after each of some moves.
+    Modal {
+        sub: usize,
+        values: Vec<(usize, Value)>,
+        body: Vec<Step>,
+    },
+    /// What the operator or the machine beside the program takes part in, by number.
+    Talk(usize, Value),
+    /// Words in one of their spellings, by number.
+    Words(usize, Value),
+}
+
+/// A mode that holds moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    Rotated,
+    Mirrored,
+    Scaled,
+    /// Cutter compensation to the left.
+    Left,
+    Right,
+    /// A length offset.
+    Long,
+    Shifted,
+    Incremental,
 }
 
 /// A step about offsets.

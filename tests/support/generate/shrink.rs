@@ -48,10 +48,11 @@ fn variants(steps: &[Step]) -> Vec<Vec<Step>> {
     out
 }
 
-fn held(kind: &Kind) -> Vec<&Vec<Step>> {
+/// The steps that a step holds.
+pub fn held(kind: &Kind) -> Vec<&Vec<Step>> {
     match kind {
         Kind::If { then, otherwise, .. } => vec![then, otherwise],
-        Kind::Repeat { body, .. } => vec![body],
+        Kind::Repeat { body, .. } | Kind::Within { body, .. } | Kind::Modal { body, .. } => vec![body],
         Kind::Switch { arms, .. } => arms.iter().collect(),
         _ => Vec::new(),
     }
@@ -60,7 +61,7 @@ fn held(kind: &Kind) -> Vec<&Vec<Step>> {
 fn held_mut(kind: &mut Kind) -> Vec<&mut Vec<Step>> {
     match kind {
         Kind::If { then, otherwise, .. } => vec![then, otherwise],
-        Kind::Repeat { body, .. } => vec![body],
+        Kind::Repeat { body, .. } | Kind::Within { body, .. } | Kind::Modal { body, .. } => vec![body],
         Kind::Switch { arms, .. } => arms.iter_mut().collect(),
         _ => Vec::new(),
     }
@@ -92,6 +93,26 @@ fn plainer(kind: &Kind) -> Vec<Kind> {
                 out.push(Kind::Call { sub: *sub, values: fewer, times: *times });
             }
         }
+        Kind::Figure(which, values) => {
+            out.extend(simpler(values).into_iter().map(|values| Kind::Figure(*which, values)));
+        }
+        Kind::Within { frame, values, body } => out.extend(simpler(values).into_iter().map(|values| {
+            let body = body.clone();
+            Kind::Within { frame: *frame, values, body }
+        })),
+        Kind::Talk(which, value) => {
+            out.extend(parts(value).into_iter().map(|value| Kind::Talk(*which, value)));
+        }
+        Kind::Words(which, value) => {
+            out.extend(parts(value).into_iter().map(|value| Kind::Words(*which, value)));
+        }
+        Kind::Modal { sub, values, body } => {
+            for at in 0..values.len() {
+                let mut fewer = values.clone();
+                fewer.remove(at);
+                out.push(Kind::Modal { sub: *sub, values: fewer, body: body.clone() });
+            }
+        }
         Kind::Cycle { kind, depth, plane, initial, places } => {
             for at in 0..places.len() {
                 let mut fewer = places.clone();
@@ -103,6 +124,12 @@ fn plainer(kind: &Kind) -> Vec<Kind> {
         _ => {}
     }
     out
+}
+
+/// Two values, one of them a part of itself.
+fn simpler([a, b]: &[Value; 2]) -> Vec<[Value; 2]> {
+    let first = parts(a).into_iter().map(|a| [a, b.clone()]);
+    first.chain(parts(b).into_iter().map(|b| [a.clone(), b])).collect()
 }
 
 fn parts(value: &Value) -> Vec<Value> {

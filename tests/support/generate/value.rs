@@ -11,6 +11,18 @@ pub enum Value {
     Binary(Binary, Box<Value>, Box<Value>),
 }
 
+impl Value {
+    /// The first variable in it.
+    pub fn slot(&self) -> Option<usize> {
+        match self {
+            Value::Number(_) | Value::Empty => None,
+            Value::Slot(slot) => Some(*slot),
+            Value::Unary(_, a) => a.slot(),
+            Value::Binary(_, a, b) => a.slot().or(b.slot()),
+        }
+    }
+}
+
 /// A function of one value. What is not defined everywhere is spelled so that it is: the root is that of a
 /// square and one more, tangents are of the arc tangent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +115,15 @@ impl Test {
             Test::Empty(slot, empty) => Test::Empty(*slot, !empty),
             Test::Both(a, b) => Test::Either(Box::new(a.opposite()), Box::new(b.opposite())),
             Test::Either(a, b) => Test::Both(Box::new(a.opposite()), Box::new(b.opposite())),
+        }
+    }
+
+    /// The variables that it looks at by themselves.
+    pub fn given(&self) -> Vec<usize> {
+        match self {
+            Test::Compare(_, left, _) => left.slot().into_iter().collect(),
+            Test::Empty(slot, _) => vec![*slot],
+            Test::Both(a, b) | Test::Either(a, b) => [a.given(), b.given()].concat(),
         }
     }
 }

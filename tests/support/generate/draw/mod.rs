@@ -1,9 +1,15 @@
 //! Draws abstract programs by policy.
 
-use super::{Binary, Kind, Offset, Policy, Program, Relation, Source, Step, Test, Unary, Value};
+mod values;
+
+use super::shrink::held;
+use super::{Binary, Frame, Kind, Offset, Policy, Program, Source, Step, Unary, Value};
 
 /// Variables that a program sets as it likes.
 pub const SLOTS: usize = 10;
+/// The first variable that a program reads and never writes: the circumstances give it, and how many there are.
+pub const GIVEN: usize = 10;
+const GIVENS: usize = 6;
 /// The first variable that counts a loop.
 pub const COUNTERS: usize = 20;
 
@@ -20,11 +26,19 @@ struct Draw<'s, 'b> {
     around: Vec<usize>,
     /// The first subprogram that may be called here, and how many there are.
     callable: (usize, usize),
+    /// Given variables that the conditions around look at.
+    tested: Vec<usize>,
+    /// True in what a modal call or a frame holds, where there is no other.
+    framed: bool,
 }
 
 pub fn program(dialect: &'static str, policy: Policy, source: &mut Source<'_>) -> Program {
     let salt = source.below(1 << 16) as u64;
-    let few = if policy == Policy::Arguments { 1 + source.below(3) } else { source.below(3) };
+    let few = if matches!(policy, Policy::Arguments | Policy::Calls) {
+        1 + source.below(3)
+    } else {
+        source.below(3)
+    };
     let mut draw = Draw {
         policy,
         macro_b: matches!(dialect, "fanuc" | "haas"),
@@ -33,9 +47,11 @@ pub fn program(dialect: &'static str, policy: Policy, source: &mut Source<'_>) -
         rounds: 1,
         around: Vec::new(),
         callable: (0, few),
+        tested: Vec::new(),
+        framed: false,
         source,
     };
-    draw.fuel = 8 + draw.source.below(12);
+    draw.fuel = 6 + draw.source.below(if policy == Policy::Goto { 7 } else { 12 });
     let mut main = draw.head();
     let body = draw.steps(6);
     main.extend(body);
@@ -45,7 +61,22 @@ pub fn program(dialect: &'static str, policy: Policy, source: &mut Source<'_>) -
         draw.fuel = 4 + draw.source.below(6);
         subs.push(draw.steps(3));
     }
+    // What nobody calls shows nothing.
+    let called = |sub: &usize| calls(&main, *sub) || subs.iter().any(|steps| calls(steps, *sub));
+    let lonely: Vec<usize> = (0..few).filter(|sub| !called(sub)).collect();
+    for sub in lonely {
+        let values = vec![(0, draw.number()), (1, draw.number())];
+        main.push(draw.step(Kind::Call { sub, values, times: 1 }));
+    }
     Program { dialect, policy, main, subs, salt }
+}
+
+fn calls(steps: &[Step], wanted: usize) -> bool {
+    steps.iter().any(|step| match &step.kind {
+        Kind::Call { sub, .. } => *sub == wanted,
+        Kind::Modal { sub, body, .. } => *sub == wanted || calls(body, wanted),
+        kind => held(kind).iter().any(|body| calls(body, wanted)),
+    })
 }
 
 impl Draw<'_, '_> {
@@ -81,15 +112,20 @@ impl Draw<'_, '_> {
     }
 
     fn kind(&mut self) -> Kind {
-        // How often: set, cell, mode, move, arc, dwell, if, repeat, leave, switch, call, cycle, offset, machine, own.
-        let weights: [usize; 15] = match self.policy {
-            Policy::Goto => [5, 1, 1, 5, 1, 0, 8, 1, 2, 3, 1, 0, 0, 0, 1],
-            Policy::DeepDo => [4, 2, 1, 4, 1, 0, 2, 9, 3, 0, 1, 0, 0, 0, 1],
-            Policy::Arguments => [4, 0, 1, 4, 0, 0, 2, 1, 1, 1, 8, 0, 0, 0, 1],
-            Policy::NearRounding => [9, 1, 1, 6, 1, 1, 4, 1, 1, 1, 1, 0, 1, 0, 1],
-            Policy::Vacancy => [6, 1, 1, 6, 1, 0, 5, 1, 1, 1, 3, 1, 1, 0, 1],
-            Policy::Cycles => [3, 0, 2, 3, 0, 0, 1, 2, 0, 0, 2, 8, 1, 1, 1],
-            Policy::Offsets => [3, 0, 2, 5, 1, 0, 1, 1, 0, 0, 1, 1, 9, 2, 1],
+        // How often: set, cell, mode, move, arc, dwell, if, repeat, leave, switch, call, cycle, offset, machine, own,
+        // figure, frame, modal call, talk, words.
+        let weights: [usize; 20] = match self.policy {
+            Policy::Goto => [5, 1, 1, 5, 1, 0, 8, 1, 2, 3, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0],
+            Policy::DeepDo => [4, 2, 1, 4, 1, 0, 2, 9, 3, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0],
+            Policy::Arguments => [4, 0, 1, 4, 0, 0, 2, 1, 1, 1, 8, 0, 0, 0, 1, 0, 0, 0, 0, 0],
+            Policy::NearRounding => [9, 1, 1, 6, 1, 1, 4, 1, 1, 1, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0],
+            Policy::Vacancy => [6, 1, 1, 6, 1, 0, 5, 1, 1, 1, 3, 1, 1, 0, 1, 0, 0, 0, 0, 0],
+            Policy::Cycles => [3, 0, 2, 3, 0, 0, 1, 2, 0, 0, 2, 8, 1, 1, 1, 0, 1, 0, 0, 0],
+            Policy::Offsets => [3, 0, 2, 5, 1, 0, 1, 1, 0, 0, 1, 1, 9, 2, 1, 0, 1, 0, 0, 0],
+            Policy::Figures => [2, 0, 1, 2, 2, 0, 1, 1, 0, 0, 1, 1, 1, 1, 0, 8, 6, 0, 0, 1],
+            Policy::Calls => [3, 0, 1, 3, 0, 0, 2, 1, 1, 1, 7, 0, 0, 0, 0, 1, 1, 5, 0, 1],
+            Policy::Operator => [3, 0, 0, 3, 0, 2, 3, 1, 0, 0, 1, 0, 1, 2, 1, 0, 0, 0, 9, 1],
+            Policy::Words => [2, 0, 1, 2, 1, 1, 2, 1, 0, 1, 1, 1, 1, 2, 1, 1, 0, 0, 0, 9],
         };
         let mut drawn = self.source.below(weights.iter().sum());
         let mut which = 0;
@@ -115,15 +151,21 @@ impl Draw<'_, '_> {
             5 => Kind::Dwell(100 + 50 * self.source.below(20) as u32),
             6 => {
                 let test = self.test(1);
+                let known = self.tested.len();
+                self.tested.extend(test.given());
                 let then = self.steps(3);
                 let otherwise = if self.source.one_in(2) { self.steps(2) } else { Vec::new() };
+                self.tested.truncate(known);
                 Kind::If { test, then, otherwise }
             }
             7 if self.rounds <= 12 => self.repeat(),
             8 if !self.around.is_empty() => Kind::Leave(self.test(0)),
             9 => {
-                let on = self.source.below(SLOTS);
+                let given = self.given().filter(|_| !self.source.one_in(10));
+                let on = given.unwrap_or_else(|| self.source.below(SLOTS));
+                self.tested.push(on);
                 let arms = (0..2 + self.source.below(2)).map(|_| self.steps(2)).collect();
+                self.tested.pop();
                 Kind::Switch { on, arms }
             }
             10 if self.callable.0 < self.callable.1 => {
@@ -136,12 +178,17 @@ impl Draw<'_, '_> {
             12 => Kind::Offset(self.offset()),
             13 => Kind::Machine(self.source.below(8)),
             14 => Kind::Own(self.source.below(16), self.value(1)),
+            15 => Kind::Figure(self.source.below(16), [self.value(1), self.value(1)]),
+            16 if !self.framed => self.frame(),
+            17 if self.callable.0 < self.callable.1 => self.modal(),
+            18 => Kind::Talk(self.source.below(20), self.value(1)),
+            19 => Kind::Words(self.source.below(24), self.value(1)),
             _ => Kind::Set { slot: self.source.below(SLOTS), value: self.value(3) },
         }
     }
 
     fn repeat(&mut self) -> Kind {
-        let (counter, times) = (self.counters, 1 + self.source.below(3) as u32);
+        let (counter, times) = (self.counters, 2 + self.source.below(2) as u32);
         self.counters += 1;
         self.rounds *= times;
         self.around.push(counter);
@@ -161,6 +208,56 @@ impl Draw<'_, '_> {
         }
         let feed = self.source.one_in(4).then(|| 100.0 + 10.0 * self.source.below(9) as f64);
         Kind::Move { rapid: self.source.one_in(2), axes, feed }
+    }
+
+    /// A mode, and the moves in it.
+    fn frame(&mut self) -> Kind {
+        const FRAMES: [Frame; 8] = [
+            Frame::Rotated,
+            Frame::Mirrored,
+            Frame::Scaled,
+            Frame::Left,
+            Frame::Right,
+            Frame::Long,
+            Frame::Shifted,
+            Frame::Incremental,
+        ];
+        let frame = self.source.pick(&FRAMES);
+        let values = [self.value(1), self.value(1)];
+        let body = self.moves();
+        Kind::Within { frame, values, body }
+    }
+
+    /// Moves alone, with a figure or a hole among them.
+    fn moves(&mut self) -> Vec<Step> {
+        let mut out = Vec::new();
+        for _ in 0..1 + self.source.below(3) {
+            let kind = match self.source.below(8) {
+                0 => Kind::Figure(self.source.below(16), [self.value(1), self.value(1)]),
+                1 => self.cycle(),
+                2 if self.policy == Policy::Calls => {
+                    Kind::Set { slot: self.source.below(SLOTS), value: self.value(1) }
+                }
+                _ => self.motion(),
+            };
+            out.push(self.step(kind));
+        }
+        out
+    }
+
+    /// A subprogram that runs after each of some moves, and now and then another one in it.
+    fn modal(&mut self) -> Kind {
+        let sub = self.callable.0 + self.source.below(self.callable.1 - self.callable.0);
+        let many = self.source.below(4);
+        let values = (0..many).map(|_| (self.source.below(SLOTS), self.value(1))).collect();
+        let mut body = self.moves();
+        if !self.framed && self.source.one_in(4) {
+            self.framed = true;
+            let inner = self.modal();
+            self.framed = false;
+            body.push(self.step(inner));
+        }
+        Kind::Modal { sub, values, body }
     }
 
     fn cycle(&mut self) -> Kind {
@@ -193,88 +290,5 @@ impl Draw<'_, '_> {
             _ if self.source.one_in(2) => Offset::ReadModal(slot),
             _ => Offset::Home,
         }
-    }
-
-    fn some_slot(&mut self) -> Value {
-        if !self.around.is_empty() && self.source.one_in(3) {
-            return Value::Slot(self.source.pick(&self.around.clone()));
-        }
-        // Most reads are of what the head set, unless it is vacancy that is wanted.
-        let from = if self.policy == Policy::Vacancy || self.source.one_in(6) { SLOTS } else { 4 };
-        Value::Slot(self.source.below(from))
-    }
-
-    fn number(&mut self) -> Value {
-        const NEAR: [f64; 20] = [
-            0.0005, 1.0005, 0.00049, -0.0005, 2.5, -2.5, 0.4999999, 0.5, -0.5, 1.5, 0.0015, 2.0025, 3.9999,
-            0.99995, 0.1, 0.2, 0.3, 1.00005, 12.34565, -7.9995,
-        ];
-        let near = self.policy == Policy::NearRounding;
-        Value::Number(match self.source.below(if near { 8 } else { 5 }) {
-            0 => self.source.below(10) as f64,
-            1 => self.source.below(41) as f64 / 2.0 - 10.0,
-            2 => self.source.below(2000) as f64 / 100.0 - 10.0,
-            3 => self.source.pick(&[0.0, 1.0, -1.0, 2.0]),
-            4 => 1.0 + self.source.below(20) as f64,
-            _ => self.source.pick(&NEAR),
-        })
-    }
-
-    fn value(&mut self, depth: usize) -> Value {
-        let leaf = depth == 0 || self.source.one_in(2);
-        if leaf {
-            let empty = self.macro_b && self.policy == Policy::Vacancy && self.source.one_in(8);
-            return match self.source.below(3) {
-                _ if empty => Value::Empty,
-                0 => self.number(),
-                _ => self.some_slot(),
-            };
-        }
-        if self.source.one_in(3) {
-            const COMMON: [Unary; 6] =
-                [Unary::Negate, Unary::Abs, Unary::Sine, Unary::Cosine, Unary::ArcTangent, Unary::Root];
-            const WHOLE: [Unary; 3] = [Unary::Fix, Unary::Up, Unary::Round];
-            let whole = self.source.one_in(if self.policy == Policy::NearRounding { 2 } else { 4 });
-            let function = if whole { self.source.pick(&WHOLE) } else { self.source.pick(&COMMON) };
-            return Value::Unary(function, Box::new(self.value(depth - 1)));
-        }
-        let operation = match self.source.below(16) {
-            0..5 => Binary::Add,
-            5..9 => Binary::Subtract,
-            9..12 => Binary::Multiply,
-            12..14 => Binary::Divide,
-            _ => self.source.pick(&[
-                Binary::Remainder,
-                Binary::And,
-                Binary::Or,
-                Binary::Xor,
-                Binary::ArcTangent,
-            ]),
-        };
-        let left = Box::new(self.value(depth - 1));
-        let right = match operation {
-            Binary::Divide | Binary::Remainder | Binary::ArcTangent => {
-                Value::Number(self.source.pick(&[2.0, 3.0, 4.0, 7.0, 10.0]))
-            }
-            // A product of two variables grows without bound in a loop.
-            Binary::Multiply => Value::Number(self.source.pick(&[0.5, 2.0, -1.0, 0.1, 1.5, 3.0])),
-            _ => self.value(depth - 1),
-        };
-        Value::Binary(operation, left, Box::new(right))
-    }
-
-    fn test(&mut self, depth: usize) -> Test {
-        if depth > 0 && self.source.one_in(5) {
-            let (a, b) = (Box::new(self.test(depth - 1)), Box::new(self.test(depth - 1)));
-            return if self.source.one_in(2) { Test::Both(a, b) } else { Test::Either(a, b) };
-        }
-        let empty = self.source.one_in(if self.policy == Policy::Vacancy { 3 } else { 20 });
-        if self.macro_b && empty {
-            return Test::Empty(self.source.below(SLOTS), self.source.one_in(2));
-        }
-        let near = self.policy == Policy::NearRounding;
-        let left = if near { self.value(2) } else { self.some_slot() };
-        let right = if self.source.one_in(3) { self.value(1) } else { self.number() };
-        Test::Compare(self.source.pick(&Relation::ALL), left, right)
     }
 }

@@ -1,7 +1,13 @@
 //! Spells programs for the control that takes one operation an assignment and branches on what
 //! the last one gave.
 
-use super::{Binary, Kind, Offset, Program, Relation, Source, Step, Test, Unary, Value, plain};
+mod figures;
+mod flow;
+mod offsets;
+mod own;
+mod words;
+
+use super::{Binary, Kind, Program, Relation, Source, Step, Value, plain};
 use std::fmt::Write;
 
 pub fn write(program: &Program) -> String {
@@ -183,6 +189,16 @@ impl Writer {
                 self.line(lines[*which % lines.len()]);
             }
             Kind::Own(which, value) => self.own(*which, value),
+            Kind::Figure(which, values) => self.figure(*which, values),
+            Kind::Within { frame, values, body } => self.within(*frame, values, body),
+            Kind::Modal { sub, values, .. } => {
+                for (slot, value) in values {
+                    self.assign(&name(*slot), value);
+                }
+                self.line(&format!("G22 P{}", 1 + sub));
+            }
+            Kind::Talk(which, value) => self.talk(*which, value),
+            Kind::Words(which, value) => self.spelled(*which, value),
         }
     }
 
@@ -199,179 +215,6 @@ impl Writer {
         }
         line.trim_start().to_owned()
     }
-
-    fn temporary(&mut self) -> String {
-        self.used += 1;
-        format!("V{}", 60 + (self.used - 1) % 18)
-    }
-
-    /// A variable that holds a value.
-    fn variable(&mut self, value: &Value) -> String {
-        if let Value::Slot(slot) = value {
-            return name(*slot);
-        }
-        let name = self.temporary();
-        self.assign(&name, value);
-        name
-    }
-
-    fn assign(&mut self, name: &str, value: &Value) {
-        match value {
-            Value::Number(number) => self.line(&format!("{name}={}", plain(*number))),
-            Value::Empty => self.line(&format!("{name}=0")),
-            Value::Slot(slot) => self.line(&format!("{name}={}", self::name(*slot))),
-            Value::Unary(function, a) => {
-                let a = self.variable(a);
-                match function {
-                    Unary::Negate => self.line(&format!("{name}={a}* -1")),
-                    Unary::Abs | Unary::Root => {
-                        self.line(&format!("V79={a}*{a}"));
-                        self.line(&format!("{name}=SQR V79"));
-                    }
-                    // Angles have to be within a turn.
-                    Unary::Sine | Unary::Cosine => {
-                        self.line(&format!("V79=ATN {a}"));
-                        let function = if *function == Unary::Sine { "SIN" } else { "COS" };
-                        self.line(&format!("{name}={function} V79"));
-                    }
-                    Unary::ArcTangent => self.line(&format!("{name}=ATN {a}")),
-                    Unary::Fix | Unary::Up | Unary::Round => {
-                        self.line(&format!("{name}={a}"));
-                        self.line(&format!("INC {name}"));
-                        self.line(&format!("DEC {name}"));
-                    }
-                }
-            }
-            Value::Binary(operation, a, b) => {
-                let a = self.variable(a);
-                let b = match &**b {
-                    Value::Number(number) if *number >= 0.0 => plain(*number),
-                    b => self.variable(b),
-                };
-                let sign = match operation {
-                    Binary::Multiply => "*",
-                    Binary::Divide | Binary::ArcTangent | Binary::Remainder => "/",
-                    Binary::Subtract => "-",
-                    _ => "+",
-                };
-                self.line(&format!("{name}={a}{sign}{b}"));
-            }
-        }
-    }
-
-    /// Goes on at a label where a condition holds.
-    fn when(&mut self, test: &Test, label: u32) {
-        match test {
-            Test::Compare(relation, a, b) => {
-                let branch = branch(*relation);
-                match (a, b) {
-                    (Value::Slot(slot), Value::Number(0.0)) => self.line(&format!("TST {}", name(*slot))),
-                    (a, b) => {
-                        let difference =
-                            Value::Binary(Binary::Subtract, Box::new(a.clone()), Box::new(b.clone()));
-                        self.assign("V79", &difference);
-                    }
-                }
-                self.line(&format!("{branch} P{label}"));
-            }
-            Test::Empty(slot, empty) => {
-                self.line(&format!("TST {}", name(*slot)));
-                self.line(&format!("{} P{label}", if *empty { "BEQ" } else { "BNE" }));
-            }
-            Test::Either(a, b) => {
-                self.when(a, label);
-                self.when(b, label);
-            }
-            Test::Both(a, b) => {
-                let past = self.labels(1);
-                self.unless(a, past);
-                self.when(b, label);
-                self.place(past);
-            }
-        }
-    }
-
-    fn unless(&mut self, test: &Test, label: u32) {
-        self.when(&test.opposite(), label);
-    }
-
-    fn offset(&mut self, offset: &Offset, choices: &mut Source<'_>) {
-        let axis = |axis: usize| ['X', 'Y', 'Z'][axis];
-        match offset {
-            Offset::Select(row) => self.line(&format!("G{}", 53 + row)),
-            Offset::Write { row, axis: which, value } => {
-                let variable = self.variable(value);
-                self.line(&format!("TRF=G{} {}={variable}", 53 + row, axis(*which)));
-            }
-            Offset::Read { row, axis: which, slot } => {
-                self.line(&format!("TRF=G{} {}={}", 53 + row, name(*slot), axis(*which)));
-            }
-            Offset::Shift(_) | Offset::Position(_) => self.line(choices.pick(&["G92 X0 Y0", "G92 X5"])),
-            Offset::Length(tool) => self.line(&format!("G0 Z30 T{tool:02}")),
-            Offset::NoLength => self.line("T00"),
-            Offset::WriteTool { tool, value } => {
-                let variable = self.variable(value);
-                self.line(&format!("COR=T{tool} {}={variable}", choices.pick(&['L', 'R'])));
-            }
-            Offset::ReadTool { tool, slot } => {
-                self.line(&format!("COR=T{tool} {}={}", name(*slot), choices.pick(&['L', 'R'])));
-            }
-            Offset::ReadPosition { axis: which, slot } => {
-                self.line(&format!("{}={}", name(*slot), axis(*which)));
-            }
-            Offset::ReadModal(slot) => {
-                let past = self.labels(1);
-                self.line(&format!("TST G{}", choices.pick(&[90, 0, 54, 1])));
-                self.line(&format!("BEQ P{past}"));
-                self.line(&format!("{}=1", name(*slot)));
-                self.place(past);
-            }
-            Offset::Home => {
-                self.line("G53");
-                self.line("G0 Z0 T00");
-                self.line("G54");
-            }
-        }
-    }
-
-    fn own(&mut self, which: usize, value: &Value) {
-        match which {
-            0..3 => self.line(&format!("INC {}", name(which))),
-            3..6 => self.line(&format!("DEC {}", name(which - 3))),
-            6 => {
-                self.line("G20 X0 Y0");
-                let a = self.variable(value);
-                self.line("V77=10");
-                self.line("G91");
-                self.line(&format!("A={a} D=V77"));
-                self.line("G90");
-            }
-            7 => {
-                self.line("M0");
-                self.line("(LOOK AT THE PART)");
-            }
-            8 => self.line("V30=V30+1 V31=V30*2"),
-            9 => {
-                let past = self.labels(1);
-                self.line(&format!("V30=V30-1 BLT P{past}"));
-                self.line("V31=V30");
-                self.place(past);
-            }
-            10 => {
-                let f = self.variable(&Value::Number(700.0));
-                self.line(&format!("F={f}"));
-            }
-            11 => {
-                // The time of moves that were rounded is no number to compare.
-                self.line("TIM V36");
-                self.line("V36=0");
-            }
-            12 => self.line("G62"),
-            13 => self.line("V31=F"),
-            14 => self.line("COR=T3 V30=R V31=L"),
-            _ => self.line("(A COMMENT)"),
-        }
-    }
 }
 
 fn name(slot: usize) -> String {
@@ -379,6 +222,8 @@ fn name(slot: usize) -> String {
         0..=7 => format!("V{}", 30 + slot),
         8 => "VA".into(),
         9 => "VB".into(),
+        // What circumstances give: VK to VP.
+        10..=15 => format!("V{}", char::from(b'A' + slot as u8)),
         _ => format!("V{}", 20 + slot),
     }
 }

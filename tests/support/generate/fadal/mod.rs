@@ -1,6 +1,15 @@
 //! Spells programs for the control with `#` lines for macros, and R words in its NC lines.
 
-use super::{Binary, Kind, Offset, Program, Source, Step, Test, Unary, Value, plain, pointed};
+mod figures;
+mod flow;
+mod offsets;
+mod own;
+mod spelling;
+mod talk;
+mod words;
+
+use super::{Kind, Program, Source, Step, Unary, Value, pointed};
+use spelling::{name, text};
 use std::fmt::Write;
 
 /// The longest macro line.
@@ -64,16 +73,6 @@ impl Writer {
         let first = self.label;
         self.label += many;
         first
-    }
-
-    /// Every third label is a sequence number.
-    fn place(&mut self, label: u32) {
-        let line = if label.is_multiple_of(3) { format!("N{label} (PLACE") } else { format!("#:L{label}") };
-        self.line(&line);
-    }
-
-    fn to(label: u32) -> String {
-        if label.is_multiple_of(3) { format!("GOTO N{label}") } else { format!("GOTO :L{label}") }
     }
 
     fn steps(&mut self, steps: &[Step]) {
@@ -208,6 +207,11 @@ impl Writer {
                 self.line(lines[*which % lines.len()]);
             }
             Kind::Own(which, value) => self.own(*which, value),
+            Kind::Figure(which, values) => self.figure(*which, values),
+            Kind::Within { frame, values, body } => self.within(*frame, values, body),
+            Kind::Modal { sub, values, body } => self.modal(*sub, values, body),
+            Kind::Talk(which, value) => self.talk(*which, value, &mut choices),
+            Kind::Words(which, value) => self.spelled(*which, value),
         }
     }
 
@@ -220,83 +224,6 @@ impl Writer {
             }
         }
         line
-    }
-
-    fn branch(&mut self, test: &Test, then: &[Step], otherwise: &[Step], choices: &mut Source<'_>) {
-        if let ([Step { kind: Kind::Set { slot, value }, .. }], []) = (then, otherwise)
-            && choices.one_in(2)
-        {
-            return self.when(test, &format!("{}={}", name(*slot), text(value, 0)));
-        }
-        let end = self.labels(2);
-        if otherwise.is_empty() && choices.one_in(2) {
-            self.when(&test.opposite(), &Self::to(end));
-            self.steps(then);
-        } else {
-            self.when(test, &Self::to(end + 1));
-            self.steps(otherwise);
-            self.line(&format!("#{}", Self::to(end)));
-            self.place(end + 1);
-            self.steps(then);
-        }
-        self.place(end);
-    }
-
-    /// A statement under a condition; what is too long for a line is worked out on lines before it.
-    fn when(&mut self, test: &Test, statement: &str) {
-        let line = format!("#IF {} THEN {statement}", condition(test));
-        if line.len() <= LINE {
-            return self.line(&line);
-        }
-        let short = self.shorter(test);
-        let line = format!("#IF {} THEN {statement}", condition(&short));
-        if line.len() <= LINE {
-            return self.line(&line);
-        }
-        let (end, other) = (self.labels(1), short.opposite());
-        self.line(&format!("#IF {} THEN {}", condition(&other), Self::to(end)));
-        match statement.split_once('=') {
-            Some((name, _)) if line.len() > LINE + 20 => self.line(&format!("#{name}=0")),
-            _ => self.line(&format!("#{statement}")),
-        }
-        self.place(end);
-    }
-
-    fn shorter(&mut self, test: &Test) -> Test {
-        match test {
-            Test::Compare(relation, a, b) => Test::Compare(*relation, self.temporary(a), self.temporary(b)),
-            Test::Empty(slot, empty) => Test::Empty(*slot, *empty),
-            Test::Both(a, b) => Test::Both(Box::new(self.shorter(a)), Box::new(self.shorter(b))),
-            Test::Either(a, b) => Test::Either(Box::new(self.shorter(a)), Box::new(self.shorter(b))),
-        }
-    }
-
-    /// A variable that holds a value, on the lines before the one that is being written.
-    fn temporary(&mut self, value: &Value) -> Value {
-        if matches!(value, Value::Slot(_) | Value::Number(_)) {
-            return value.clone();
-        }
-        let at = self.temporaries;
-        let slot = 90 + at;
-        self.assign(&name(slot), value);
-        self.temporaries = at + 1;
-        Value::Slot(slot)
-    }
-
-    fn assign(&mut self, name: &str, value: &Value) {
-        let line = format!("#{name}={}", text(value, 0));
-        if line.len() <= LINE {
-            return self.line(&line);
-        }
-        let short = match value {
-            Value::Binary(operation, a, b) => {
-                let (a, b) = (self.temporary(a), self.temporary(b));
-                Value::Binary(*operation, Box::new(a), Box::new(b))
-            }
-            Value::Unary(function, a) => Value::Unary(*function, Box::new(self.temporary(a))),
-            other => other.clone(),
-        };
-        self.line(&format!("#{name}={}", text(&short, 0)));
     }
 
     fn call(&mut self, sub: usize, times: u32, choices: &mut Source<'_>) {
@@ -316,71 +243,6 @@ impl Writer {
                 self.line("G67");
             }
             _ => self.line(&format!("L{code}")),
-        }
-    }
-
-    fn offset(&mut self, offset: &Offset, choices: &mut Source<'_>) {
-        let axis = |axis: usize| ['X', 'Y', 'Z'][axis];
-        match offset {
-            Offset::Select(row) => self.line(&format!("E{} X0 Y0", row + 3 * choices.below(2) as u32)),
-            Offset::Write { row, axis: which, value } if choices.one_in(2) => {
-                self.assign(&format!("F{}{row}", axis(*which)), value);
-            }
-            Offset::Write { row, axis: which, value } => {
-                let word = self.word(value);
-                self.line(&format!("G10 L2 P{row} {}{word}", axis(*which)));
-            }
-            Offset::Read { row, axis: which, slot } => {
-                self.line(&format!("#{}=F{}{row}", name(*slot), axis(*which)));
-            }
-            Offset::Shift([x, y]) | Offset::Position([x, y]) => {
-                let (x, y) = (self.word(x), self.word(y));
-                self.line(&format!("G92 X{x} Y{y}"));
-            }
-            Offset::Length(tool) => self.line(&format!("H{tool} Z30.")),
-            Offset::NoLength => self.line(choices.pick(&["H0", "G49"])),
-            Offset::WriteTool { tool, value } => {
-                let table = choices.pick(&["H", "D"]);
-                self.assign(&format!("{table}{tool}"), value);
-            }
-            Offset::ReadTool { tool, slot } => {
-                let table = choices.pick(&["H", "H", "D"]);
-                self.line(&format!("#{}={table}{tool}", name(*slot)));
-            }
-            Offset::ReadPosition { axis: which, slot } => {
-                self.line(&format!("#{}=A{}", name(*slot), axis(*which)));
-            }
-            Offset::ReadModal(slot) => self.line(&format!("#{}=G({})", name(*slot), choices.pick(&[1, 5]))),
-            Offset::Home => self.line(choices.pick(&["E0 X0 Y0", "H0 Z0", "G28 X0 Y0 Z0"])),
-        }
-    }
-
-    fn own(&mut self, which: usize, value: &Value) {
-        let word = |writer: &mut Self| writer.word(value);
-        match which {
-            0 => self.line("#PRINT \"AT\",V1"),
-            1 => self.line("#INPUT V6"),
-            2 => self.line("#CLEAR V5-V6"),
-            3 => self.line("#SET RND2"),
-            4 => self.line(&format!("#V5=SGN({})", text(value, 0))),
-            5 => self.line("#WAIT"),
-            6 => {
-                let word = word(self);
-                self.line(&format!("G91 G0 X{word} L2"));
-                self.line("G90");
-            }
-            7 => self.line("#V6=V(60)+V(60+1)"),
-            8 => self.line("G5 X1."),
-            9 => self.line("G9"),
-            10 => self.line("G8"),
-            11 => {
-                let word = word(self);
-                self.line(&format!("/X{word}"));
-            }
-            12 => self.line("M49"),
-            13 => self.line("#SPRINT \"X\",R5"),
-            14 => self.line("R6+R5"),
-            _ => self.line("(A COMMENT"),
         }
     }
 
@@ -406,57 +268,4 @@ impl Writer {
 
 fn signed(number: f64) -> String {
     if number < 0.0 { pointed(number) } else { format!("+{}", pointed(number)) }
-}
-
-fn name(slot: usize) -> String {
-    match slot {
-        0..=3 => format!("R{}", slot + 5),
-        4..=9 => format!("V{}", slot - 3),
-        _ => format!("V{slot}"),
-    }
-}
-
-/// A value beside operators of a rank.
-fn text(value: &Value, rank: u32) -> String {
-    match value {
-        Value::Number(number) if *number < 0.0 && rank > 0 => format!("({})", plain(*number)),
-        Value::Number(number) => plain(*number),
-        Value::Slot(slot) => name(*slot),
-        Value::Empty => "0".into(),
-        Value::Unary(Unary::Negate, a) if rank > 0 => format!("(-{})", text(a, 9)),
-        Value::Unary(Unary::Negate, a) => format!("-{}", text(a, 9)),
-        Value::Unary(function, a) => {
-            let name = match function {
-                Unary::Abs | Unary::Negate => "ABS",
-                Unary::Sine => "SIN",
-                Unary::Cosine => "COS",
-                Unary::ArcTangent => "ATN",
-                Unary::Root => return format!("SQR(ABS({}))", text(a, 0)),
-                Unary::Fix | Unary::Up => "INT",
-                Unary::Round => "RND",
-            };
-            format!("{name}({})", text(a, 0))
-        }
-        Value::Binary(Binary::ArcTangent, a, b) => format!("ATN({}/{})", text(a, 6), text(b, 7)),
-        Value::Binary(operation, a, b) => {
-            let (name, own) = match operation {
-                Binary::Multiply => ("*", 6),
-                Binary::Divide | Binary::Remainder => ("/", 6),
-                Binary::Subtract => ("-", 5),
-                _ => ("+", 5),
-            };
-            let text = format!("{}{name}{}", text(a, own), text(b, own + 1));
-            if own < rank { format!("({text})") } else { text }
-        }
-    }
-}
-
-fn condition(test: &Test) -> String {
-    match test {
-        Test::Compare(relation, a, b) => format!("{}{}{}", text(a, 5), relation.signs(), text(b, 5)),
-        Test::Empty(slot, true) => format!("{}=0", name(*slot)),
-        Test::Empty(slot, false) => format!("{}<>0", name(*slot)),
-        Test::Both(a, b) => format!("({}) AND ({})", condition(a), condition(b)),
-        Test::Either(a, b) => format!("({}) OR ({})", condition(a), condition(b)),
-    }
 }
