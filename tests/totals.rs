@@ -150,8 +150,7 @@ fn refusals(out: &mut String, pairs: &[Pair]) {
             let _ =
                 writeln!(out, "- {} {}", inputs[program.file].name, program.name.as_deref().unwrap_or(""));
             let errors = program.diagnostics.iter().filter(|d| d.severity() == Severity::Error);
-            let reasons: BTreeSet<(&str, &str)> =
-                errors.map(|d| (d.code.number(), d.message.as_str())).collect();
+            let reasons: BTreeSet<(&str, &str)> = errors.map(|d| (d.code.number(), &*d.message)).collect();
             for (code, message) in reasons {
                 let _ = writeln!(out, "  - {code} {message}");
             }

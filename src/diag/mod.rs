@@ -5,6 +5,7 @@ mod codes;
 pub use codes::{ALL, Code};
 
 use crate::text::Span;
+use std::sync::Arc;
 
 /// How grave a diagnostic is, and what it does to the outcome of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -26,29 +27,30 @@ pub struct Diagnostic {
     /// Where, in the file that it was found in.
     pub span: Span,
     /// What is the matter here, in one sentence.
-    pub message: String,
+    /// A library has few texts many times over, so they may be shared.
+    pub message: Arc<str>,
     /// What to do about it here, where that is more than the catalogue says.
-    pub help: Option<String>,
+    pub help: Option<Arc<str>>,
     /// The unconfirmed fact that it reports, as machine profiles confirm it.
-    pub fact: Option<String>,
+    pub fact: Option<Arc<str>>,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
-    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
+    pub fn new(code: Code, span: Span, message: impl Into<Arc<str>>) -> Self {
         Self { code, span, message: message.into(), help: None, fact: None }
     }
 
     /// Adds what to do about it.
     #[must_use]
-    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+    pub fn with_help(mut self, help: impl Into<Arc<str>>) -> Self {
         self.help = Some(help.into());
         self
     }
 
     /// Names the unconfirmed fact that it reports.
     #[must_use]
-    pub fn with_fact(mut self, fact: impl Into<String>) -> Self {
+    pub fn with_fact(mut self, fact: impl Into<Arc<str>>) -> Self {
         self.fact = Some(fact.into());
         self
     }

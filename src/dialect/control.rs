@@ -29,6 +29,7 @@ pub struct Control {
     pub(super) states: HashMap<Sys, Vec<usize>>,
     /// The codes that call programs, by letter and number.
     pub(super) aliases: Vec<(char, f64, Alias)>,
+    behaviours: HashMap<String, usize>,
 }
 
 impl Control {
@@ -59,7 +60,23 @@ impl Control {
             states.entry(row.state).or_default().push(at);
         }
         let aliases = aliases(&dialect, &settings);
-        Self { entry, dialect, profile, settings, reserved, codes, targets, words, system, states, aliases }
+        // Reversed, so that the first of equals counts.
+        let behaviours = dialect.behaviours.iter().enumerate().rev();
+        let behaviours = behaviours.map(|(at, row)| (row.name.clone(), at)).collect();
+        Self {
+            entry,
+            dialect,
+            profile,
+            settings,
+            reserved,
+            codes,
+            targets,
+            words,
+            system,
+            states,
+            aliases,
+            behaviours,
+        }
     }
 
     /// Short name of its dialect.
@@ -167,7 +184,7 @@ impl Control {
 
     /// The answer to a question of [`super::behaviours`]; none where the table is silent.
     pub fn behaviour(&self, name: &str) -> Option<&Behaviour> {
-        self.dialect.behaviours.iter().find(|row| row.name == name)
+        self.behaviours.get(name).and_then(|&at| self.dialect.behaviours.get(at))
     }
 
     /// True where the answer is `true`; a silent table and an unknown answer are no.

@@ -6,6 +6,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::text::{LineIndex, Span};
 use serde::de::{DeserializeOwned, Deserializer, Visitor};
 use std::ops::Range;
+use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
@@ -32,7 +33,7 @@ impl Reader {
     }
 
     /// Notes a fault.
-    pub fn fault(&mut self, place: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+    pub fn fault(&mut self, place: Range<usize>, message: impl Into<Arc<str>>, help: impl Into<Arc<str>>) {
         let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         let span = Span::new(offset(place.start), offset(place.end));
         self.faults.push(Diagnostic::new(self.code, span, message).with_help(help));

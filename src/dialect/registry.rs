@@ -5,7 +5,7 @@ use super::{Dialect, load};
 use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
-use crate::lower::{self, Lower};
+use crate::lower::{self, Cuts, Lower};
 use crate::syntax::{self, IsPlain, Parser, ReadPlain};
 use std::sync::OnceLock;
 
@@ -25,6 +25,8 @@ pub struct Entry {
     pub is_plain: IsPlain,
     /// Lowers its programs.
     pub lower: Lower,
+    /// Cuts files that need not be lowered whole.
+    pub cuts: Cuts,
     /// Writes programs for it; absent while it is a source only.
     pub emit: Option<Emit>,
     /// Runs programs as its control would; absent where there is no emulated control.
@@ -33,7 +35,7 @@ pub struct Entry {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $read_plain:expr, $is_plain:expr, $lower:expr, $emit:expr, $execute:expr) => {
+    ($name:literal, $parse:expr, $read_plain:expr, $is_plain:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
@@ -42,6 +44,7 @@ macro_rules! entry {
             read_plain: $read_plain,
             is_plain: $is_plain,
             lower: $lower,
+            cuts: $cuts,
             emit: $emit,
             execute: $execute,
             loaded: OnceLock::new(),
@@ -56,6 +59,7 @@ static ENTRIES: [Entry; 4] = [
         |_, _| None,
         |_, _| false,
         lower::fadal::lower,
+        |_, _| Vec::new(),
         None,
         Some(control::fadal::execute)
     ),
@@ -65,6 +69,7 @@ static ENTRIES: [Entry; 4] = [
         syntax::fanuc::read_plain,
         syntax::fanuc::is_plain,
         lower::fanuc::lower,
+        lower::fanuc::cuts,
         Some(emit::fanuc::emit),
         Some(control::fanuc::execute)
     ),
@@ -74,6 +79,7 @@ static ENTRIES: [Entry; 4] = [
         syntax::haas::read_plain,
         syntax::haas::is_plain,
         lower::haas::lower,
+        lower::haas::cuts,
         Some(emit::haas::emit),
         Some(control::haas::execute)
     ),
@@ -83,6 +89,7 @@ static ENTRIES: [Entry; 4] = [
         |_, _| None,
         |_, _| false,
         lower::cc100::lower,
+        |_, _| Vec::new(),
         None,
         Some(control::cc100::execute)
     ),

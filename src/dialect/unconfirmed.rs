@@ -6,7 +6,7 @@ use crate::text::Span;
 use std::fmt;
 
 /// Which control of a conversion a fact is about; a program that is only read has the source's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
     /// The control that the programs were written for.
     Source,

@@ -2,6 +2,7 @@
 
 use super::{Block, BlockId, Callee, Program, Site, Stmt, StmtKind, TermKind, Terminator};
 use crate::syntax::{Label, ProgramName};
+use smallvec::SmallVec;
 
 /// Builds a program block by block, in source order.
 ///
@@ -58,7 +59,7 @@ impl Builder {
         self.open = true;
         let Some(slot @ None) = self.blocks.get_mut(id.index()) else { return };
         *slot = Some(Block {
-            labels: Vec::new(),
+            labels: SmallVec::new(),
             stmts: Vec::new(),
             term: Terminator { kind: TermKind::Stray, site: Site::default() },
         });

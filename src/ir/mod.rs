@@ -72,6 +72,7 @@ pub use stmt::{
 pub use validate::{Valid, validate};
 
 use crate::syntax::{Label, ProgramName};
+use smallvec::SmallVec;
 use std::collections::BTreeMap;
 
 /// A library of programs.
@@ -113,7 +114,7 @@ impl BlockId {
 pub struct Block {
     /// The labels it has in the source: sequence numbers and names. Targets of computed
     /// jumps and of returns to a sequence number find the block by them.
-    pub labels: Vec<Label>,
+    pub labels: SmallVec<[Label; 1]>,
     /// Its statements.
     pub stmts: Vec<Stmt>,
     /// How it ends.

@@ -4,6 +4,7 @@ use super::{BlockId, Cond, Expr};
 use crate::canon::{Op, Role, Sys};
 use crate::syntax::ProgramName;
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 /// A class of variables: who can see them and how long they last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -97,7 +98,7 @@ pub struct Site {
     /// Its sequence number.
     pub sequence: Option<u32>,
     /// Its comments.
-    pub remarks: Vec<Remark>,
+    pub remarks: ThinVec<Remark>,
     /// Its block-skip level: skipped when that switch is on. On a terminator always absent:
     /// lowering makes a branch on [`Cond::Switch`] of it.
     pub skip: Option<u8>,
@@ -136,7 +137,7 @@ pub enum StmtKind {
     /// A block of NC words.
     Nc(Nc),
     /// From here on, each block that moves an axis calls `call` when its move is done.
-    ModalCall(Call),
+    ModalCall(Box<Call>),
     /// Ends the innermost modal call.
     ModalCallOff,
     /// Stops the machine for good with a number and a message.
@@ -267,7 +268,7 @@ pub enum TermKind {
     /// Calls, then goes on.
     Call {
         /// The call.
-        call: Call,
+        call: Box<Call>,
         /// Where it goes on.
         next: BlockId,
     },

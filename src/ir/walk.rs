@@ -122,7 +122,16 @@ impl Expr {
     /// Visits the expression and everything in it. Bounded by the validator's depth limit.
     pub fn walk<'e>(&'e self, f: &mut dyn FnMut(&'e Expr)) {
         f(self);
-        self.exprs(&mut |operand| operand.walk(f));
+        match self {
+            Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
+            Expr::Indirect(_, a) | Expr::Negate(a) => a.walk(f),
+            Expr::System(_, all) | Expr::Call(_, all) => all.iter().for_each(|e| e.walk(f)),
+            Expr::Binary(_, a, b) => {
+                a.walk(f);
+                b.walk(f);
+            }
+            Expr::Truth(cond) => cond.exprs(&mut |e| e.walk(f)),
+        }
     }
 
     /// Like [`Expr::walk`], to change things in place.
@@ -213,7 +222,14 @@ impl Expr {
     pub fn variables(&self, f: &mut dyn FnMut(Var)) {
         match self {
             Expr::Var(var) => f(*var),
-            e => e.exprs(&mut |operand| operand.variables(f)),
+            Expr::Number(_) | Expr::Increments(_) | Expr::Vacant => {}
+            Expr::Indirect(_, a) | Expr::Negate(a) => a.variables(f),
+            Expr::System(_, all) | Expr::Call(_, all) => all.iter().for_each(|e| e.variables(f)),
+            Expr::Binary(_, a, b) => {
+                a.variables(f);
+                b.variables(f);
+            }
+            Expr::Truth(cond) => cond.exprs(&mut |e| e.variables(f)),
         }
     }
 }

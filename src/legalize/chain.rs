@@ -38,7 +38,7 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
                 builder.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Stop)] }), site);
                 let callee = Callee::Program(name);
                 let call = Call { callee, level: false, arguments: Vec::new(), count: None };
-                builder.end_then(Site::default(), |next| TermKind::Call { call, next });
+                builder.end_then(Site::default(), |next| TermKind::Call { call: Box::new(call), next });
                 builder.end(TermKind::End { rewind: true }, Site { span, ..Site::default() });
             }
             other => other.keep(builder),

@@ -4,7 +4,8 @@ use super::Modal;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::sync::Arc;
 
 /// The controls of a conversion and the findings so far.
 pub struct Context<'a> {
@@ -17,6 +18,10 @@ pub struct Context<'a> {
     /// For each program the one of the source that it comes from: passes add programs.
     pub origins: Vec<usize>,
     findings: Findings,
+    /// Questions of behaviour that programs were seen to rest on.
+    rested: HashSet<(usize, Side, &'static str)>,
+    /// What is said of those that nothing confirms.
+    facts: HashMap<(Side, &'static str), Diagnostic>,
 }
 
 #[derive(Debug, Default)]
@@ -29,7 +34,16 @@ impl<'a> Context<'a> {
     /// A context without findings, for a library of so many programs.
     pub fn new(source: &'a Control, target: &'a Control, programs: usize) -> Self {
         let findings = Findings { by_program: vec![Vec::new(); programs], said: BTreeSet::new() };
-        Self { source, target, entry: Modal::unknown(), origins: (0..programs).collect(), findings }
+        let (rested, facts) = Default::default();
+        Self {
+            source,
+            target,
+            entry: Modal::unknown(),
+            origins: (0..programs).collect(),
+            findings,
+            rested,
+            facts,
+        }
     }
 
     /// True where both controls are of one family.
@@ -55,21 +69,25 @@ impl<'a> Context<'a> {
     }
 
     /// Adds, once a program, that it rests on an unconfirmed fact.
-    pub fn unconfirmed(&mut self, program: usize, span: Span, fact: &str, what: impl Into<String>) {
+    pub fn unconfirmed(&mut self, program: usize, span: Span, fact: &str, what: impl Into<Arc<str>>) {
         self.add_once(program, fact, Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(fact));
     }
 
     /// Says, once a program, that it rests on how the source behaves, where no maker's text confirms that.
-    pub fn rests_on_source(&mut self, program: usize, span: Span, name: &str) {
+    pub fn rests_on_source(&mut self, program: usize, span: Span, name: &'static str) {
         self.rests_on(self.source, Side::Source, program, span, name);
     }
 
     /// As [`Context::rests_on_source`], of the target.
-    pub fn rests_on_target(&mut self, program: usize, span: Span, name: &str) {
+    pub fn rests_on_target(&mut self, program: usize, span: Span, name: &'static str) {
         self.rests_on(self.target, Side::Target, program, span, name);
     }
 
-    fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, name: &str) {
+    fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, name: &'static str) {
+        let origin = self.origins.get(program).copied().unwrap_or(program);
+        if !self.rested.insert((origin, side, name)) {
+            return;
+        }
         let row = control.behaviour(name);
         if row.is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
             return;
@@ -77,7 +95,9 @@ impl<'a> Context<'a> {
         let meaning = crate::dialect::behaviours::find(name).map_or("no source says so", |q| q.meaning);
         let note = row.and_then(|row| row.origin.note.as_deref()).unwrap_or(meaning);
         let fact = format!("behaviour:{name}");
-        let finding = control.unconfirmed(side, &fact, Some(note), span);
+        let told = self.facts.entry((side, name));
+        let told = told.or_insert_with(|| control.unconfirmed(side, &fact, Some(note), span));
+        let finding = Diagnostic { span, ..told.clone() };
         self.add_once(program, &format!("{side} {fact}"), finding);
     }
 

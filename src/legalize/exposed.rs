@@ -86,13 +86,17 @@ impl Exposed {
 
 /// The shared variables that programs read.
 fn universe(module: &Module) -> Universe {
-    let mut all = Vec::new();
+    let mut all = BTreeSet::new();
     for block in module.programs.iter().flat_map(|program| &program.blocks) {
-        let mut note = |e: &Expr| read(e, &mut |var| all.push(var));
+        let mut note = |e: &Expr| {
+            read(e, &mut |var| {
+                all.insert(var);
+            })
+        };
         block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut note));
         block.term.kind.exprs(&mut note);
     }
-    Universe::new(all)
+    Universe::new(all.into_iter().collect())
 }
 
 /// Which routine a call runs.

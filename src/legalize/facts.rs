@@ -7,7 +7,7 @@
 use super::Context;
 use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
-use crate::dialect::{Behaviour, CodeMeaning, Control, Row, Side};
+use crate::dialect::{CodeMeaning, Control, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
     BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, Nc, NcItem, Relation, StmtKind, TermKind, Var,
@@ -15,7 +15,7 @@ use crate::ir::{
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use smallvec::SmallVec;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Reports the unconfirmed facts of the target that programs rest on; `computes` is false where all values are constants.
 pub fn of_target(module: &Module, computes: bool, context: &mut Context<'_>) {
@@ -40,16 +40,20 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
     let summaries = if own { Summaries::of(module) } else { Summaries::default() };
     let given = given(module);
     let none = BTreeSet::new();
+    let mut found = Found {
+        control,
+        side,
+        rows: HashMap::new(),
+        program: 0,
+        all: Vec::new(),
+        home: Span::default(),
+        seen: BTreeSet::new(),
+        words: [0; WORDS],
+    };
     for (index, program) in module.programs.iter().enumerate() {
-        let mut found = Found {
-            control,
-            side,
-            said: BTreeSet::new(),
-            all: Vec::new(),
-            home: program.site.span,
-            seen: BTreeSet::new(),
-            words: [0; WORDS],
-        };
+        (found.home, found.program) = (program.site.span, found.program + 1);
+        found.seen.clear();
+        found.words = [0; WORDS];
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
         for (id, block) in program.ids().zip(&program.blocks) {
@@ -61,7 +65,8 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
                 found.vacant(id, block, vacancy);
             }
         }
-        for (fact, finding) in found.all {
+        for finding in found.all.drain(..) {
+            let fact = finding.fact.as_deref().unwrap_or_default();
             context.add_once(index, &format!("{side} {fact}"), finding);
         }
     }
@@ -82,8 +87,12 @@ fn given(module: &Module) -> BTreeMap<&ProgramName, BTreeSet<Var>> {
 struct Found<'c> {
     control: &'c Control,
     side: Side,
-    said: BTreeSet<String>,
-    all: Vec<(String, Diagnostic)>,
+    /// By the place of a row of the control: what is said of it, and the last program that rests on it.
+    rows: HashMap<usize, (Diagnostic, u32)>,
+    /// Counts the programs.
+    program: u32,
+    /// What is to be said of the present program.
+    all: Vec<Diagnostic>,
     /// Where a finding goes whose statement has no place of its own.
     home: Span,
     /// Operations and words of blocks that were looked at.
@@ -134,7 +143,7 @@ fn bit((role, sign): Part) -> (usize, u64) {
     (at / 64, 1 << (at % 64))
 }
 
-impl Found<'_> {
+impl<'c> Found<'c> {
     /// True where a block of these words rests on nothing that was not looked at; notes that it was.
     fn is_known(&mut self, nc: &Nc) -> bool {
         let known = |item: &NcItem| {
@@ -151,20 +160,23 @@ impl Found<'_> {
         !self.seen.insert(shape)
     }
 
-    fn row<T: Row>(&mut self, row: &T, span: Span) {
-        if row.origin().confirmed || !self.said.insert(row.fact()) {
+    fn row<T: Row>(&mut self, row: &'c T, span: Span) {
+        if row.origin().confirmed {
             return;
         }
-        let fact = row.fact();
-        let finding = self.control.unconfirmed(self.side, &fact, row.origin().note.as_deref(), span);
-        self.all.push((fact, finding));
+        let place = std::ptr::from_ref(row) as usize;
+        let (control, side) = (self.control, self.side);
+        let told = || control.unconfirmed(side, &row.fact(), row.origin().note.as_deref(), span);
+        let (finding, last) = self.rows.entry(place).or_insert_with(|| (told(), 0));
+        if std::mem::replace(last, self.program) != self.program {
+            self.all.push(Diagnostic { span, ..finding.clone() });
+        }
     }
 
     /// The behaviour must be confirmed, whatever its answer.
     fn behaviour(&mut self, name: &str, span: Span) {
-        let row: Option<Behaviour> = self.control.behaviour(name).cloned();
-        if let Some(row) = row {
-            self.row(&row, span);
+        if let Some(row) = self.control.behaviour(name) {
+            self.row(row, span);
         }
     }
 
@@ -235,10 +247,10 @@ impl Found<'_> {
         for item in &nc.items {
             let NcItem::Word(role, value) = item else { continue };
             if let Some((letter, comma)) = self.control.letter(*role, None)
-                && let Some(row) = self.control.word(letter, comma).filter(|row| row.role == *role).cloned()
+                && let Some(row) = self.control.word(letter, comma).filter(|row| row.role == *role)
                 && !rows.iter().any(|code| code.words.values().any(|own| own == role))
             {
-                self.row(&row, span);
+                self.row(row, span);
             }
             if (role.is_length() || role.is_axis()) && value.constant().is_none() {
                 self.behaviour("word.bare.expression", span);
@@ -263,24 +275,24 @@ impl Found<'_> {
     }
 
     fn statement(&mut self, name: &str, span: Span) {
-        if let Some(row) = self.control.statement(name).cloned() {
-            self.row(&row, span);
+        if let Some(row) = self.control.statement(name) {
+            self.row(row, span);
         }
     }
 
     fn code(&mut self, op: Op, operands: &std::collections::BTreeMap<crate::canon::Role, f64>, span: Span) {
         // Operands pick between spellings of one operation only where it has several.
         let some = if op == Op::SelectWork { operands.clone() } else { Default::default() };
-        if let Some(row) = self.control.code_for(op, &some).cloned() {
-            self.row(&row, span);
+        if let Some(row) = self.control.code_for(op, &some) {
+            self.row(row, span);
         }
     }
 
     fn value(&mut self, e: &Expr, span: Span) {
         match e {
             Expr::Call(function, arguments) => {
-                if let Some(row) = self.control.function(*function, arguments.len()).cloned() {
-                    self.row(&row, span);
+                if let Some(row) = self.control.function(*function, arguments.len()) {
+                    self.row(row, span);
                 }
                 match function {
                     Func::Round => self.behaviour("round.half.away", span),

@@ -56,7 +56,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-fn both(context: &mut Context<'_>, program: usize, span: Span, name: &str) {
+fn both(context: &mut Context<'_>, program: usize, span: Span, name: &'static str) {
     context.rests_on_source(program, span, name);
     context.rests_on_target(program, span, name);
 }

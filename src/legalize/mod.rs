@@ -40,6 +40,7 @@ mod messages;
 mod missing;
 mod modal;
 mod modal_calls;
+mod modal_facts;
 mod nesting;
 mod offset_rows;
 mod operator;
@@ -68,7 +69,8 @@ mod vacant_writes;
 
 use census::{Census, Thing};
 pub use context::Context;
-pub use modal::{Modal, ModalFacts, Setting, calls_of, reachable, replace_statements, span_of};
+pub use modal::{Modal, Setting, calls_of, reachable, span_of};
+pub use modal_facts::{ModalFacts, replace_statements};
 pub use oversize::shares_line;
 use registers::allocate;
 pub use registers::{Register, Registers};

@@ -197,8 +197,11 @@ impl Expansion {
                                     let again = call.clone();
                                     builder.push(StmtKind::ModalCallOff, site);
                                     let site = Site { span, ..Site::default() };
-                                    builder.end_then(site.clone(), |next| TermKind::Call { call, next });
-                                    builder.push(StmtKind::ModalCall(again), site);
+                                    builder.end_then(site.clone(), |next| TermKind::Call {
+                                        call: Box::new(call),
+                                        next,
+                                    });
+                                    builder.push(StmtKind::ModalCall(Box::new(again)), site);
                                 }
                             }
                             Some(calls) if runs && !calls.is_empty() => {
@@ -219,7 +222,7 @@ impl Expansion {
                                         no,
                                     });
                                 }
-                                builder.end(TermKind::Call { call, next: behind }, site);
+                                builder.end(TermKind::Call { call: Box::new(call), next: behind }, site);
                                 builder.start(behind);
                             }
                             _ => leave(&mut builder, site),

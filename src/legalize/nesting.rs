@@ -59,7 +59,7 @@ fn report(index: usize, span: Span, (row, most): (&Limit, u32), target: &Control
     if row.origin.confirmed {
         context.add_once(index, "nesting", Diagnostic::new(Code::Conditional, span, what));
     } else {
-        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(&fact);
+        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(&*fact);
         let finding = finding.with_help(to_confirm(&fact, Side::Target));
         context.add_once(index, "nesting", finding);
     }

@@ -12,6 +12,7 @@
 use super::{Context, calls_of, reachable};
 use crate::ir::{Block, BlockId, Callee, Module, Program, Site, StmtKind, TermKind, Terminator};
 use crate::syntax::{Label, ProgramName};
+use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Gives each called block a program of its own, or its place behind the program's end.
@@ -129,7 +130,7 @@ fn extract(
     if !leads {
         let jump = TermKind::Jump(place.get(&entry).copied().unwrap_or(BlockId(0)));
         let term = Terminator { kind: jump, site: Site::default() };
-        blocks.push(Block { labels: Vec::new(), stmts: Vec::new(), term });
+        blocks.push(Block { labels: SmallVec::new(), stmts: Vec::new(), term });
     }
     for block in body.iter().filter_map(|&id| program.block(id)) {
         let mut block = block.clone();

@@ -9,6 +9,7 @@ use super::exposed::{Exposed, roots};
 use super::registers::{Register, Registers};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Class, Module, Var};
+use std::sync::Arc;
 
 /// Reports variables whose life differs.
 pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
@@ -33,8 +34,8 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
             ),
         })
     };
-    let lives: Vec<(Var, String)> =
-        registers.of.iter().filter_map(|(var, register)| Some((*var, told(var, register)?))).collect();
+    let lives: Vec<(Var, Arc<str>)> =
+        registers.of.iter().filter_map(|(var, register)| Some((*var, told(var, register)?.into()))).collect();
     if lives.is_empty() {
         return;
     }
@@ -42,7 +43,7 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
     for index in roots(module) {
         let span = module.programs[index].site.span;
         for (_, what) in lives.iter().filter(|(var, _)| exposed.is_at_entry(index, *var)) {
-            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.as_str()));
+            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.clone()));
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::ir::{
     Site, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::text::Span;
+use std::collections::VecDeque;
 
 /// Where an expression stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,23 +130,49 @@ pub type Rewrite<'f> = dyn FnMut(Expr, Position, &mut Rewriter<'_>) -> Expr + 'f
 /// what it reads is what the expression would have read.
 pub fn rewrite_program(program: &mut Program, rewrite: &mut Rewrite<'_>) {
     let mut next_temp = highest_temp(program);
-    rebuild(program, &mut |builder, mut part| {
-        let mut rewriter = Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span: Span::default() };
-        match &mut part {
-            Part::Start(_) => return,
-            Part::Stmt(stmt) => {
-                rewriter.span = stmt.site.span;
-                statement(&mut stmt.kind, &mut |e, p| map(e, p, rewrite, &mut rewriter));
-                lay(builder, rewriter.prelude, &stmt.site);
+    let mut preludes: VecDeque<(usize, usize, Vec<Prelude>)> = VecDeque::new();
+    for (id, block) in program.blocks.iter_mut().enumerate() {
+        let mut each = |at: usize, span: Span, walk: &mut dyn FnMut(&mut Each<'_>)| {
+            let mut rewriter = Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span };
+            walk(&mut |e, p| map(e, p, rewrite, &mut rewriter));
+            if !rewriter.prelude.is_empty() {
+                preludes.push_back((id, at, rewriter.prelude));
             }
-            Part::Term(term) => {
-                rewriter.span = term.site.span;
-                terminator(&mut term.kind, &mut |e, p| map(e, p, rewrite, &mut rewriter));
-                lay(builder, rewriter.prelude, &term.site);
-            }
+        };
+        for (at, stmt) in block.stmts.iter_mut().enumerate() {
+            each(at, stmt.site.span, &mut |f| statement(&mut stmt.kind, f));
         }
+        let end = block.stmts.len();
+        each(end, block.term.site.span, &mut |f| terminator(&mut block.term.kind, f));
+    }
+    if preludes.is_empty() {
+        return;
+    }
+    let mut place = (0, 0);
+    rebuild(program, &mut |builder, part| {
+        let site = match &part {
+            Part::Start(id) => {
+                place = (id.index(), 0);
+                return;
+            }
+            Part::Stmt(stmt) => &stmt.site,
+            Part::Term(term) => &term.site,
+        };
+        if let Some(prelude) = next_at(&mut preludes, place) {
+            lay(builder, prelude, site);
+        }
+        place.1 += 1;
         part.keep(builder);
     });
+}
+
+/// What runs first at a place, where that is the next one that something does at.
+fn next_at(
+    preludes: &mut VecDeque<(usize, usize, Vec<Prelude>)>,
+    place: (usize, usize),
+) -> Option<Vec<Prelude>> {
+    preludes.front().filter(|(id, at, _)| (*id, *at) == place)?;
+    preludes.pop_front().map(|(.., prelude)| prelude)
 }
 
 fn lay(builder: &mut Builder, prelude: Vec<Prelude>, site: &Site) {
@@ -170,7 +197,7 @@ fn lay(builder: &mut Builder, prelude: Vec<Prelude>, site: &Site) {
             Prelude::Call(call) => {
                 let behind = builder.fresh();
                 unless_skipped(builder, site().skip, behind);
-                builder.end(TermKind::Call { call, next: behind }, Site::default());
+                builder.end(TermKind::Call { call: Box::new(call), next: behind }, Site::default());
                 builder.start(behind);
             }
         }

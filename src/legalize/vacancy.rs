@@ -13,6 +13,7 @@ use crate::ir::{
     Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, Site, Stmt, StmtKind, TermKind,
     Terminator, Var,
 };
+use smallvec::SmallVec;
 
 /// True where there are variables, and only the target's may be vacant.
 pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
@@ -62,5 +63,5 @@ fn guard(program: &mut Program, vars: &[Var]) {
 }
 
 fn block(stmts: Vec<Stmt>, kind: TermKind) -> Block {
-    Block { labels: Vec::new(), stmts, term: Terminator { kind, site: Site::default() } }
+    Block { labels: SmallVec::new(), stmts, term: Terminator { kind, site: Site::default() } }
 }

@@ -1,6 +1,7 @@
 //! A library from one control to another: read, lower, link, legalize, emit.
 
 use super::names::{number_programs, report_twins};
+use super::parts::lower;
 use super::{Input, Lock};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
@@ -9,11 +10,12 @@ use crate::ir::{Module, Program, validate};
 use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
 use crate::lower::Lowered;
 use crate::opt;
-use crate::syntax::{ProgramName, parse_faults, parse_items};
+use crate::syntax::{ProgramName, ReadLines};
 use crate::text::Span;
 use crate::verify;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// What became of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -127,7 +129,10 @@ pub fn convert(
     let mut parts: Vec<Vec<Emitted>> = made.parts;
     for (at, file) in files.iter().enumerate() {
         let framed = frames(source, target, file.tape);
-        let mut text = String::new();
+        let written_here = parts.get(file.programs.clone()).into_iter().flatten().flatten();
+        let mut text = String::with_capacity(written_here.map(|part| part.text.len() + 2).sum::<usize>() + 4);
+        text.push_str(if framed { "%\n" } else { "" });
+        let head = text.len();
         let mut any = false;
         for index in file.programs.clone() {
             let mut diagnostics = std::mem::take(&mut made.found[index]);
@@ -138,13 +143,19 @@ pub fn convert(
             let mut map = Vec::new();
             if outcome != Outcome::Refused || options.draft {
                 // Nothing else shows where a program without a number begins.
-                if framed && written[index].is_none() && !text.is_empty() && same_family(source, target) {
+                if framed && written[index].is_none() && text.len() > head && same_family(source, target) {
                     text.push_str("%\n");
                 }
                 for part in std::mem::take(&mut parts[index]) {
                     any |= !part.text.is_empty();
-                    let base = text.len() + if framed { 2 } else { 0 };
-                    map.extend(part.blocks.into_iter().map(|(span, r)| (span, r.start + base..r.end + base)));
+                    let base = text.len();
+                    let moved = part.blocks.into_iter().map(|(span, r)| (span, r.start + base..r.end + base));
+                    // Most programs are one part, whose table is changed in place.
+                    if map.is_empty() {
+                        map = moved.collect()
+                    } else {
+                        map.extend(moved)
+                    }
                     text.push_str(&part.text);
                 }
             }
@@ -157,7 +168,8 @@ pub fn convert(
                 map,
             });
         }
-        texts.push(any.then(|| if framed { format!("%\n{text}%\n") } else { text }));
+        text.push_str(if framed { "%\n" } else { "" });
+        texts.push(any.then_some(text));
     }
     debug_assert!(home.windows(2).all(|w| w[0] <= w[1]));
     Conversion { programs: reports, texts, lock: made.lock }
@@ -222,8 +234,13 @@ pub(super) fn make(
     match validate(&module) {
         Ok(_) => {
             let write = target.entry().emit.map(|emit| emit(&naming, target));
-            let emitted: Vec<_> =
-                module.programs.par_iter().map(|program| emit(program, write.as_ref(), target)).collect();
+            let lines = || ReadLines::new(target.entry().parse, target.entry().is_plain);
+            // Each program is dropped when it is written.
+            let programs = std::mem::take(&mut module.programs);
+            let emitted: Vec<_> = programs
+                .into_par_iter()
+                .map_init(lines, |read, program| emit(&program, write.as_ref(), target, read))
+                .collect();
             for (origin, result) in origins.into_iter().zip(emitted) {
                 match result {
                     Ok(mut text) => {
@@ -247,43 +264,44 @@ pub(super) fn make(
 /// Adds findings but for facts of the source that lowering has told already.
 fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
     let facts = all.iter().filter(|finding| finding.code == Code::UnconfirmedFact);
-    let told: BTreeSet<String> = facts.map(|finding| finding.message.clone()).collect();
-    all.extend(more.into_iter().filter(|finding| !told.contains(&finding.message)));
-}
-
-/// Lowers one file; errors of reading are findings of the program they stand in.
-fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
-    let entry = source.entry();
-    let parsed = parse_items(&input.bytes, entry.parse, entry.read_plain);
-    (entry.lower)(&parsed, at, &input.name, source)
+    let told: BTreeSet<Arc<str>> = facts.map(|finding| finding.message.clone()).collect();
+    let is_told = |d: &Diagnostic| d.code == Code::UnconfirmedFact && told.contains(&d.message);
+    all.extend(more.into_iter().filter(|finding| !is_told(finding)));
+    all.shrink_to_fit();
 }
 
 /// Emits a program, and reads the text back: what the target's own grammar refuses is never written.
-fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Result<Emitted, Vec<Diagnostic>> {
+fn emit(
+    program: &Program,
+    write: Option<&Writer<'_>>,
+    target: &Control,
+    read: &mut ReadLines,
+) -> Result<Emitted, Vec<Diagnostic>> {
     let Some(write) = write else {
         let what = format!("programs cannot be written for {}", target.dialect().title);
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
     };
-    let emitted = write(program)?;
-    let faults: Vec<Diagnostic> =
-        parse_faults(emitted.text.as_bytes(), target.entry().parse, target.entry().is_plain)
-            .into_iter()
-            .filter(|fault| fault.code.severity() == Severity::Error)
-            .map(|fault| {
-                let at = fault.span.start as usize;
-                let source =
-                    emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
-                let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
-                let line = emitted.text[line..].lines().next().unwrap_or_default();
-                let (code, what) = match fault.code {
-                    // Constants that were computed out of the domain: so would they be on the machine.
-                    Code::DivisionByZero | Code::FunctionDomain => (fault.code, "this would become"),
-                    _ => (Code::Internal, "the target would not read"),
-                };
-                let what = format!("{what} '{line}': {}", fault.message);
-                Diagnostic::new(code, source.unwrap_or(program.site.span), what)
-            })
-            .collect();
+    let mut emitted = write(program)?;
+    emitted.text.shrink_to_fit();
+    emitted.blocks.shrink_to_fit();
+    let faults: Vec<Diagnostic> = read
+        .faults(emitted.text.as_bytes())
+        .into_iter()
+        .filter(|fault| fault.code.severity() == Severity::Error)
+        .map(|fault| {
+            let at = fault.span.start as usize;
+            let source = emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
+            let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
+            let line = emitted.text[line..].lines().next().unwrap_or_default();
+            let (code, what) = match fault.code {
+                // Constants that were computed out of the domain: so would they be on the machine.
+                Code::DivisionByZero | Code::FunctionDomain => (fault.code, "this would become"),
+                _ => (Code::Internal, "the target would not read"),
+            };
+            let what = format!("{what} '{line}': {}", fault.message);
+            Diagnostic::new(code, source.unwrap_or(program.site.span), what)
+        })
+        .collect();
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
 }
 

@@ -11,6 +11,7 @@ mod inputs;
 mod lock;
 mod names;
 mod outputs;
+mod parts;
 mod pieces;
 mod project;
 mod segments;

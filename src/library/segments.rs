@@ -113,7 +113,7 @@ fn lower(input: &Input, piece: Piece, source: &Control) -> Option<Lowered> {
     if !plain {
         return None;
     }
-    let parsed = ParsedFile { source: &input.bytes, lines, blocks };
+    let parsed = ParsedFile { source: &input.bytes, before: 0, lines, blocks };
     let mut lowered = (entry.lower)(&parsed, 0, &input.name, source);
     if let (Some(head), Some((program, found))) = (piece.head, lowered.programs.first_mut()) {
         let is_head = |span: Span| head.text.start <= span.start && span.end <= head.text.end;
@@ -214,7 +214,8 @@ impl Sink {
             let at = self.programs.len() - 1;
             // What is said once a program was said for an earlier piece of it.
             let said = &mut self.said;
-            let fresh = found.into_iter().filter(|d| said.insert((at, d.code.number(), d.message.clone())));
+            let fresh =
+                found.into_iter().filter(|d| said.insert((at, d.code.number(), d.message.to_string())));
             self.programs[at].1.extend(fresh);
             parts.iter().for_each(|part| self.text.push_str(&part.text));
         }

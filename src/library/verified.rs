@@ -56,7 +56,8 @@ pub fn judge(
     };
     let mut reported: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for program in &conversion.programs {
-        let facts = program.diagnostics.iter().filter_map(|diagnostic| diagnostic.fact.clone());
+        let facts =
+            program.diagnostics.iter().filter_map(|diagnostic| diagnostic.fact.as_deref().map(str::to_owned));
         reported.entry(inputs[program.file].name.clone()).or_default().extend(facts);
     }
     let job = Job { source: &from, target: &to, names: &names, reported: &reported, effort };

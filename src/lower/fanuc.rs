@@ -1,5 +1,6 @@
 //! Lowering of Fanuc Custom Macro B: all of it is the family's.
 
+pub use super::macro_b::cuts;
 use super::{Lowered, macro_b};
 use crate::dialect::Control;
 use crate::syntax::ParsedFile;

@@ -1,5 +1,6 @@
 //! Lowering of Haas macros: the family's, and the two numberings of its variables.
 
+pub use super::macro_b::cuts;
 use super::{Lowered, macro_b};
 use crate::dialect::Control;
 use crate::syntax::ParsedFile;

@@ -23,6 +23,19 @@ use std::collections::BTreeMap;
 /// `name` its name (some controls know programs by their file).
 pub type Lower = fn(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control) -> Lowered;
 
+/// Where a file can be cut, at least `least` bytes apart: lowering the parts one by one is lowering the file, if a
+/// program begins each of them. None where a program may need what stands in others.
+pub type Cuts = fn(source: &[u8], least: usize) -> Vec<Cut>;
+
+/// A line that a part of a file begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cut {
+    /// Offset of its first byte.
+    pub at: u32,
+    /// How many lines stand before it.
+    pub lines: usize,
+}
+
 /// The programs of one file.
 #[derive(Clone, Debug, Default)]
 pub struct Lowered {

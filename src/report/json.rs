@@ -104,7 +104,7 @@ fn findings<S: Serializer>(
 ) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(program.diagnostics.iter().map(|d| {
         let (line, column) = index.place(d.span.start);
-        let (message, help) = (d.message.as_str(), d.help.as_deref());
+        let (message, help) = (&*d.message, d.help.as_deref());
         Finding { code: d.code, severity: d.severity(), file, line, column, message, help }
     }))
 }

@@ -45,7 +45,7 @@ fn results(part: &Part<'_>) -> Vec<Value> {
             "ruleId": d.code.number(),
             "ruleIndex": ALL.iter().position(|code| *code == d.code),
             "level": level(d.severity()),
-            "message": { "text": d.message },
+            "message": { "text": &*d.message },
             "locations": [{ "physicalLocation": {
                 "artifactLocation": { "uri": part.inputs[file].path.to_string_lossy().replace('\\', "/") },
                 "region": {

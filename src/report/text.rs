@@ -44,9 +44,9 @@ impl Sheet {
         let mut drawn = MietteDiagnostic::new(diagnostic.code.title())
             .with_code(diagnostic.code.number())
             .with_severity(severity)
-            .with_label(LabeledSpan::new(Some(diagnostic.message.clone()), start, end - start));
+            .with_label(LabeledSpan::new(Some(diagnostic.message.to_string()), start, end - start));
         if let Some(help) = &diagnostic.help {
-            drawn = drawn.with_help(help.clone());
+            drawn = drawn.with_help(help.to_string());
         }
         let report =
             Report::new(drawn).with_source_code(NamedSource::new(self.name.clone(), self.text.clone()));

@@ -1,8 +1,9 @@
 //! Reads a whole file, line by line and in parallel.
 
-use super::{Block, Item, SyntaxError};
+use super::{Block, Fence, Item, ItemKind, SyntaxError};
 use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
+use std::collections::HashSet;
 
 /// Reads the blocks of one line of a dialect.
 ///
@@ -23,6 +24,8 @@ pub type IsPlain = fn(source: &[u8], line: Span) -> bool;
 pub struct ParsedFile<'s> {
     /// The bytes it was read from.
     pub source: &'s [u8],
+    /// How many lines of the source stand before those.
+    pub before: usize,
     /// Its lines.
     pub lines: Vec<Line>,
     /// Its blocks, in order; an empty line has none.
@@ -30,6 +33,11 @@ pub struct ParsedFile<'s> {
 }
 
 impl ParsedFile<'_> {
+    /// The line that a place of it stands in, from 1.
+    pub fn line_of(&self, at: u32) -> usize {
+        self.before + self.lines.partition_point(|line| line.text.start <= at).max(1)
+    }
+
     /// The file's bytes.
     pub fn print(&self) -> Vec<u8> {
         let mut out = Vec::with_capacity(self.source.len());
@@ -71,6 +79,18 @@ pub fn parse_items(source: &[u8], parser: Parser, plain: ReadPlain) -> ParsedFil
     read(source, &|line, out| read_items(source, line, parser, plain, out))
 }
 
+/// As [`parse_items`], of whole lines of a file, `before` of which stand before them.
+pub fn parse_part(
+    source: &[u8],
+    part: Span,
+    before: usize,
+    parser: Parser,
+    plain: ReadPlain,
+) -> ParsedFile<'_> {
+    let (lines, blocks) = read_lines(source, part, &|line, out| read_items(source, line, parser, plain, out));
+    ParsedFile { source, before, lines, blocks }
+}
+
 /// Reads the blocks of one line without their tokens.
 pub fn read_items(source: &[u8], line: Span, parser: Parser, plain: ReadPlain, out: &mut Vec<Block>) {
     if let Some(items) = plain(source, line) {
@@ -81,20 +101,28 @@ pub fn read_items(source: &[u8], line: Span, parser: Parser, plain: ReadPlain, o
     out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
 }
 
-fn read<'s>(source: &'s [u8], line: &(dyn Fn(Span, &mut Vec<Block>) + Sync)) -> ParsedFile<'s> {
-    let parts: Vec<(Vec<Line>, Vec<Block>)> = chunks(source)
-        .into_par_iter()
-        .map(|chunk| {
-            let lines: Vec<Line> = Lines::within(source, chunk).collect();
-            let mut blocks = Vec::with_capacity(lines.len());
-            lines.iter().for_each(|each| line(each.text, &mut blocks));
-            (lines, blocks)
-        })
-        .collect();
+/// Reads the blocks of a line.
+type ReadLine<'r> = &'r (dyn Fn(Span, &mut Vec<Block>) + Sync);
+
+fn read_lines(source: &[u8], part: Span, line: ReadLine<'_>) -> (Vec<Line>, Vec<Block>) {
+    let mut lines = Vec::with_capacity(memchr::memchr_iter(b'\n', part.of(source)).count() + 1);
+    lines.extend(Lines::within(source, part));
+    let mut blocks = Vec::with_capacity(lines.len());
+    lines.iter().for_each(|each| line(each.text, &mut blocks));
+    (lines, blocks)
+}
+
+fn read<'s>(source: &'s [u8], line: ReadLine<'_>) -> ParsedFile<'s> {
+    let parts: Vec<(Vec<Line>, Vec<Block>)> =
+        chunks(source).into_par_iter().map(|chunk| read_lines(source, chunk, line)).collect();
     let (lines, blocks) =
         (parts.iter().map(|(l, _)| l.len()).sum(), parts.iter().map(|(_, b)| b.len()).sum());
-    let mut file =
-        ParsedFile { source, lines: Vec::with_capacity(lines), blocks: Vec::with_capacity(blocks) };
+    let mut file = ParsedFile {
+        source,
+        before: 0,
+        lines: Vec::with_capacity(lines),
+        blocks: Vec::with_capacity(blocks),
+    };
     for (lines, blocks) in parts {
         file.lines.extend(lines);
         file.blocks.extend(blocks);
@@ -107,7 +135,7 @@ pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
     fold_lines(source, parser, |_, _| false, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
 }
 
-/// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat.
+/// Reads all blocks of `source` but plain lines and keeps only their faults, in order: memory stays flat.
 pub fn parse_faults(source: &[u8], parser: Parser, is_plain: IsPlain) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
@@ -117,6 +145,56 @@ pub fn parse_faults(source: &[u8], parser: Parser, is_plain: IsPlain) -> Vec<Syn
         a
     };
     fold_lines(source, parser, is_plain, Vec::new, add, join)
+}
+
+/// True for a block without a fault, but for text outside a program: what stands before it decides about that.
+fn surely_read(block: &Block) -> bool {
+    let outside = |item: &Item| matches!(&item.kind, ItemKind::Comment(c) if c.fence == Fence::Outside);
+    block.errors.is_empty() && !block.items.iter().any(outside)
+}
+
+/// Lines that a parser read without a fault. What is written of many programs is half repetition: loops' ends, and
+/// the steps of emulated functions.
+#[derive(Debug)]
+pub struct ReadLines {
+    parser: Parser,
+    is_plain: IsPlain,
+    read: HashSet<Box<[u8]>>,
+}
+
+/// Lines that are remembered at a time, and the longest of them.
+const REMEMBERED: (usize, usize) = (4096, 48);
+
+impl ReadLines {
+    /// None yet.
+    pub fn new(parser: Parser, is_plain: IsPlain) -> Self {
+        Self { parser, is_plain, read: HashSet::new() }
+    }
+
+    /// As [`parse_faults`]. Lines of short texts that were read before are not read again; long ones are read in parallel.
+    pub fn faults(&mut self, source: &[u8]) -> Vec<SyntaxError> {
+        if source.len() > CHUNK {
+            return parse_faults(source, self.parser, self.is_plain);
+        }
+        let (mut faults, mut blocks) = (Vec::new(), Vec::new());
+        for line in Lines::new(source).map(|line| line.text) {
+            let bytes = line.of(source);
+            let short = bytes.len() <= REMEMBERED.1;
+            if (self.is_plain)(source, line) || (short && self.read.contains(bytes)) {
+                continue;
+            }
+            blocks.clear();
+            (self.parser)(source, line, &mut blocks);
+            if short && blocks.iter().all(surely_read) {
+                if self.read.len() == REMEMBERED.0 {
+                    self.read.clear();
+                }
+                self.read.insert(bytes.into());
+            }
+            blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
+        }
+        faults
+    }
 }
 
 /// Folds the blocks of all lines but the plain ones in parallel; `join` is given neighbours in their order.

@@ -285,7 +285,7 @@ fn show_var(variable: &VarRef) -> String {
         Index::Name(name) => format!("<{name}>"),
         Index::Computed(inner) => format!("[{}]", show_expr(inner)),
     };
-    variable.name.clone() + &index
+    variable.name.to_string() + &index
 }
 
 fn show_expr(expr: &Expr) -> String {

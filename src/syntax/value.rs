@@ -2,6 +2,7 @@
 
 use crate::canon::Func;
 use crate::text::Span;
+use std::borrow::Cow;
 
 /// A word: an address letter and its value.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,7 +103,7 @@ pub enum BinaryOp {
 #[derive(Clone, Debug, PartialEq)]
 pub struct VarRef {
     /// The name before the subscript, upper case: `#`, `V`, `R`, `FX`, `AX`, `TN`.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// The subscript.
     pub index: Index,
     /// Its bytes.

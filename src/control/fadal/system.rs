@@ -96,7 +96,7 @@ impl Interpreter<'_, '_> {
 
     /// The V or R of a name; none for other names.
     pub(super) fn register(&mut self, variable: &VarRef, number: Option<u32>) -> Flow<Option<Register>> {
-        if !matches!(variable.name.as_str(), "V" | "R") {
+        if !matches!(&*variable.name, "V" | "R") {
             return Ok(None);
         }
         let register = number.and_then(|number| Register::new(&variable.name, number));

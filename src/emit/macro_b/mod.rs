@@ -31,6 +31,7 @@ use crate::text::Span;
 use labels::Labels;
 use line::Line;
 use spellings::Spellings;
+use std::sync::Arc;
 
 /// What tells the dialects of the family apart beyond their tables.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +89,7 @@ struct Emitter<'p> {
 
 impl Emitter<'_> {
     /// Notes that the program cannot be written.
-    fn refuse(&mut self, code: Code, message: impl Into<String>) {
+    fn refuse(&mut self, code: Code, message: impl Into<Arc<str>>) {
         self.faults.push(Diagnostic::new(code, self.span, message));
     }
 

@@ -78,7 +78,11 @@ impl<'t> Parser<'t> {
             if let Some(kind) = self.term_kind()? {
                 let site = self.site()?;
                 self.line()?;
-                return Ok(Block { labels, stmts, term: crate::ir::Terminator { kind, site } });
+                return Ok(Block {
+                    labels: labels.into(),
+                    stmts,
+                    term: crate::ir::Terminator { kind, site },
+                });
             }
             let kind = self.stmt_kind()?;
             let site = self.site()?;

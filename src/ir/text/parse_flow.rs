@@ -37,7 +37,7 @@ impl Parser<'_> {
     fn stmt_rest(&mut self, word: &str) -> Parsed<StmtKind> {
         Ok(match word {
             "nc" => StmtKind::Nc(self.nc()?),
-            "modal" => StmtKind::ModalCall(self.call()?),
+            "modal" => StmtKind::ModalCall(Box::new(self.call()?)),
             "alarm" => StmtKind::Alarm { number: self.expr()?, text: self.string()? },
             "stop" => StmtKind::StopMessage { number: self.expr()?, text: self.string()? },
             "output" => StmtKind::Output(self.list("[", "]", Self::output_part)?),
@@ -143,7 +143,7 @@ impl Parser<'_> {
             "call" => {
                 let call = self.call()?;
                 self.mark("->")?;
-                TermKind::Call { call, next: self.block_id()? }
+                TermKind::Call { call: Box::new(call), next: self.block_id()? }
             }
             "return" => {
                 let to = if self.eat_word("to") { Some(self.expr()?) } else { None };

@@ -66,7 +66,7 @@ fn reads_the_example_of_the_documentation() {
     let module = parse(&text.join("\n")).unwrap();
     let program = &module.programs[0];
     assert_eq!(program.name, Some(ProgramName::Number(9010)));
-    assert_eq!(program.blocks[1].labels, [Label::Number(20), Label::Name("LOOP".into())]);
+    assert_eq!(program.blocks[1].labels[..], [Label::Number(20), Label::Name("LOOP".into())]);
     let stmt = &program.blocks[0].stmts[0];
     assert_eq!((stmt.site.span, stmt.site.sequence, stmt.site.skip), (Span::new(6, 20), Some(10), Some(1)));
     assert!(stmt.site.remarks[0].leading && !stmt.site.remarks[1].leading);
@@ -156,7 +156,7 @@ proptest! {
 
     #[test]
     fn every_value_reads_back_bit_for_bit(value in exprs(), text in ".*", role in prop::sample::select(Role::ALL)) {
-        let site = Site { remarks: vec![Remark { text, leading: true }], sequence: Some(7), ..Site::default() };
+        let site = Site { remarks: [Remark { text, leading: true }].into(), sequence: Some(7), ..Site::default() };
         let nc = Nc { items: vec![NcItem::Word(role, value.clone()), NcItem::Code('é', value.clone()), NcItem::Op(Op::End)] };
         let target = value.place().unwrap_or(Place::Indirect(Bank::Numbered, Box::new(value.clone())));
         let stmts = [StmtKind::Nc(nc), StmtKind::Assign { target, value }];

@@ -45,7 +45,9 @@ impl Check<'_> {
             StmtKind::SetNames { first, .. } if !exists(*first) => self.add(Problem::Variable(*first)),
             kind => kind.exprs(&mut |e| self.value(e)),
         }
-        if let StmtKind::ModalCall(Call { callee: Callee::Block(entry), .. }) = &stmt.kind {
+        if let StmtKind::ModalCall(call) = &stmt.kind
+            && let Callee::Block(entry) = &call.callee
+        {
             self.target(*entry);
         }
     }

@@ -127,6 +127,6 @@ impl Lowering<'_> {
 
     fn call(&mut self, callee: Callee, count: Option<Expr>, site: Site) {
         let call = Call { callee, level: false, arguments: Vec::new(), count };
-        self.build.end_then(site, |next| TermKind::Call { call, next });
+        self.build.end_then(site, |next| TermKind::Call { call: Box::new(call), next });
     }
 }

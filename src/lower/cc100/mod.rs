@@ -48,7 +48,7 @@ pub fn lower(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control
     whole::resolve(&mut program, &mut findings);
     cycle::resolve(&mut program, &mut findings);
     let tape = parsed.blocks.iter().any(|b| b.items.iter().any(|i| i.kind == ItemKind::Tape));
-    Lowered { programs: vec![(program, findings.into_list())], names, tape }
+    Lowered { programs: vec![(program, findings.take_list())], names, tape }
 }
 
 /// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`.

@@ -5,21 +5,35 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side, matters};
 use crate::syntax::{ExprKind, Item, ItemKind};
 use crate::text::Span;
-use std::collections::HashSet;
+use std::collections::HashMap;
+use std::sync::Arc;
 
-/// The findings of one program. A fact that no maker's text confirms is reported
-/// where the program first rests on it, and only there.
+/// The findings of one program after another. A fact that no maker's text confirms is reported
+/// where a program first rests on it, and only there.
 #[derive(Debug)]
 pub struct Findings<'c> {
     control: &'c Control,
     list: Vec<Diagnostic>,
-    told: HashSet<String>,
+    facts: HashMap<String, Told>,
+    /// By the place of a row of the control, which stays where it is: the last program that rests on it.
+    rows: HashMap<usize, u32>,
+    /// Counts the programs.
+    program: u32,
+}
+
+/// What was last said of an unconfirmed fact.
+#[derive(Debug)]
+struct Told {
+    finding: Diagnostic,
+    note: Option<String>,
+    /// The program that it was said in.
+    last: u32,
 }
 
 impl<'c> Findings<'c> {
     /// No findings yet.
     pub fn new(control: &'c Control) -> Self {
-        Self { control, list: Vec::new(), told: HashSet::new() }
+        Self { control, list: Vec::new(), facts: HashMap::new(), rows: HashMap::new(), program: 1 }
     }
 
     /// The control whose facts are relied on.
@@ -33,13 +47,14 @@ impl<'c> Findings<'c> {
     }
 
     /// The construct at `span` has no known meaning: the program is refused.
-    pub fn not_understood(&mut self, span: Span, message: impl Into<String>) {
+    pub fn not_understood(&mut self, span: Span, message: impl Into<Arc<str>>) {
         self.add(Diagnostic::new(Code::NotUnderstood, span, message));
     }
 
     /// The construct at `span` rests on a row of the table.
-    pub fn rest_on<R: Row>(&mut self, row: &R, span: Span) {
-        if !row.origin().confirmed {
+    pub fn rest_on<R: Row>(&mut self, row: &'c R, span: Span) {
+        let place = std::ptr::from_ref(row) as usize;
+        if !row.origin().confirmed && self.rows.insert(place, self.program) != Some(self.program) {
             self.unconfirmed(row.fact(), row.origin().note.as_deref(), span);
         }
     }
@@ -60,11 +75,20 @@ impl<'c> Findings<'c> {
     /// The construct at `span` rests on a fact that nothing confirms, named as
     /// a machine profile confirms it: `behaviour:load.sets.condition`.
     pub fn unconfirmed(&mut self, fact: String, note: Option<&str>, span: Span) {
-        let confirmed = self.control.profile().confirm.contains(&fact);
-        if confirmed || !self.told.insert(fact.clone()) {
+        if let Some(told) = self.facts.get_mut(&fact) {
+            if std::mem::replace(&mut told.last, self.program) == self.program {
+                return;
+            }
+            if told.note.as_deref() == note {
+                return self.list.push(Diagnostic { span, ..told.finding.clone() });
+            }
+        }
+        if self.control.profile().confirm.contains(&fact) {
             return;
         }
-        self.add(self.control.unconfirmed(Side::Source, &fact, note, span));
+        let finding = self.control.unconfirmed(Side::Source, &fact, note, span);
+        self.list.push(finding.clone());
+        self.facts.insert(fact, Told { finding, note: note.map(str::to_owned), last: self.program });
     }
 
     /// Reports a code for absolute or incremental words that stands behind words of its block.
@@ -85,9 +109,11 @@ impl<'c> Findings<'c> {
         }
     }
 
-    /// The findings, in the order of their places.
-    pub fn into_list(mut self) -> Vec<Diagnostic> {
-        self.list.sort_by_key(|finding| finding.span);
-        self.list
+    /// The findings, in the order of their places. Those of another program follow.
+    pub fn take_list(&mut self) -> Vec<Diagnostic> {
+        self.program += 1;
+        let mut list = std::mem::take(&mut self.list);
+        list.sort_by_key(|finding| finding.span);
+        list
     }
 }

@@ -208,7 +208,7 @@ impl<'b> Lowering<'b> {
         axes: bool,
         reading: &mut Reading<'b, '_>,
     ) -> Option<()> {
-        let (Index::Number(number), "R") = (&target.index, target.name.as_str()) else {
+        let (Index::Number(number), "R") = (&target.index, &*target.name) else {
             return self.refuse(target.span, "only R0 to R9 are set on an NC line");
         };
         let var = Var { class: Class::Parametric, number: *number };

@@ -85,7 +85,7 @@ impl<'b> Lowering<'b> {
     fn call_then(&mut self, call: Call) {
         let mut site = self.take_site();
         site.skip = None;
-        self.builder.end_then(site, |next| TermKind::Call { call, next });
+        self.builder.end_then(site, |next| TermKind::Call { call: Box::new(call), next });
     }
 
     /// `M99`, `M99 P10`.
@@ -192,7 +192,7 @@ impl<'b> Lowering<'b> {
             let entry = self.entry(entry);
             let call = call(Callee::Block(entry), count(Expr::Var(temp), *number));
             if at + 1 == subs.len() && !others {
-                self.end(TermKind::Call { call, next: after });
+                self.end(TermKind::Call { call: Box::new(call), next: after });
                 continue;
             }
             let (yes, no) = (self.builder.fresh(), self.builder.fresh());
@@ -205,7 +205,7 @@ impl<'b> Lowering<'b> {
             ]);
             self.end(TermKind::Branch { cond, yes, no });
             self.builder.start(yes);
-            self.end(TermKind::Call { call, next: after });
+            self.end(TermKind::Call { call: Box::new(call), next: after });
             self.builder.start(no);
         }
         if others {
@@ -222,7 +222,7 @@ impl<'b> Lowering<'b> {
         if self.state.modal > 0 || self.state.in_modal {
             let _ = self.rely("call.modal.nested", span);
         }
-        self.push(StmtKind::ModalCall(call));
+        self.push(StmtKind::ModalCall(Box::new(call)));
         Some(())
     }
 

@@ -12,6 +12,7 @@ use crate::lower::common::{Findings, ProgramText, site_of};
 use crate::syntax::{Block, ItemKind, Label};
 use crate::text::Span;
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 /// The lowering of one program.
 pub struct Lowering<'b> {
@@ -81,7 +82,7 @@ pub fn lower(
     }
     lowering.finish();
     let program = lowering.builder.finish(text.name.cloned(), file, head);
-    (program, lowering.findings.into_list())
+    (program, lowering.findings.take_list())
 }
 
 impl<'b> Lowering<'b> {
@@ -90,7 +91,7 @@ impl<'b> Lowering<'b> {
         self.site = site_of(block, self.source);
         self.placed = false;
         for error in &block.errors {
-            self.findings.add(Diagnostic::new(error.code, error.span, &error.message));
+            self.findings.add(Diagnostic::new(error.code, error.span, &*error.message));
         }
         self.enter(at);
         if let Some(item) = block.items.iter().find(|item| matches!(item.kind, ItemKind::Program(_))) {
@@ -145,7 +146,7 @@ impl<'b> Lowering<'b> {
                 || self.shape.begins(self.at).is_some();
         if !self.builder.is_open() {
             // A statement here would be a block of its own that nothing reaches.
-            self.carried.append(&mut site.remarks);
+            self.carried.extend(site.remarks.drain(..));
         } else if !silent || !site.remarks.is_empty() {
             self.builder.push(StmtKind::Remark, site);
         }
@@ -199,7 +200,7 @@ impl<'b> Lowering<'b> {
 
     fn finish(&mut self) {
         if !self.carried.is_empty() {
-            let remarks = std::mem::take(&mut self.carried);
+            let remarks = self.carried.drain(..).collect();
             self.builder.push(StmtKind::Remark, Site { remarks, ..Site::default() });
         }
         let shape = self.shape;
@@ -287,7 +288,7 @@ impl<'b> Lowering<'b> {
     }
 
     /// The block is not understood: the finding is added, and nothing else.
-    pub fn refuse<T>(&mut self, span: Span, message: impl Into<String>) -> Option<T> {
+    pub fn refuse<T>(&mut self, span: Span, message: impl Into<Arc<str>>) -> Option<T> {
         self.findings.not_understood(span, message);
         None
     }

@@ -288,9 +288,9 @@ impl<'a> Lowering<'a> {
                 self.findings.not_understood(site.span, "a modal call that calls in its own block");
             }
             self.modal_calls += 1;
-            return self.builder.push(StmtKind::ModalCall(call), site.clone());
+            return self.builder.push(StmtKind::ModalCall(Box::new(call)), site.clone());
         }
-        self.builder.end_then(site.clone(), |next| TermKind::Call { call, next });
+        self.builder.end_then(site.clone(), |next| TermKind::Call { call: Box::new(call), next });
     }
 }
 

@@ -180,16 +180,11 @@ impl Lowering<'_> {
         if let Some(row) = self.control.behaviour("goto.forward.first").filter(|row| row.value != "unknown") {
             self.findings.rest_on(row, span);
         }
-        let line = self.labels.list.get(chosen).map_or(0, |label| self.line_of(label.span));
+        let line = self.labels.list.get(chosen).map_or(0, |label| self.parsed.line_of(label.span.start));
         let message = format!(
             "N{number} stands {count} times in this program; {rule}, which is the one in line {line}"
         );
         self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
         Some(chosen)
-    }
-
-    /// The line of a place, from 1.
-    fn line_of(&self, span: Span) -> usize {
-        self.parsed.lines.partition_point(|line| line.text.start <= span.start).max(1)
     }
 }

@@ -40,6 +40,7 @@ use crate::text::Span;
 use codes::{CodeId, Codes};
 use labels::Labels;
 use split::Piece;
+pub use split::cuts;
 use std::collections::BTreeMap;
 
 /// What only one control of the family has, and no table can say.
@@ -54,21 +55,22 @@ pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control, fam
     let (pieces, tape) = split::split(parsed);
     let names = variable::names(parsed, control, family);
     let mut codes = Codes::new(control);
+    let mut findings = Findings::new(control);
     let mut programs = Vec::with_capacity(pieces.len());
     for piece in pieces {
         codes.forget_told();
         let labels = Labels::scan(parsed, &piece, &mut codes);
-        let mut lowering = Lowering::new(parsed, control, family, &names, codes, labels, &piece);
+        let mut lowering = Lowering::new(parsed, control, family, &names, (codes, findings), labels, &piece);
         lowering.body(&piece);
-        let Lowering { builder, mut findings, codes: met, signed, .. } = lowering;
-        codes = met;
+        let Lowering { builder, findings: found, codes: met, signed, .. } = lowering;
+        (codes, findings) = (met, found);
         let site = program_site(parsed, &piece);
         let program = builder.finish(piece.name, file, site);
         if signed && let Some(span) = vacancy::signed_word(&program, !control.is("m99.p.jumps.here")) {
             let note = "that a word is dropped whose variable has a sign before it and is vacant is in no source; it is taken for 0";
             findings.unconfirmed("behaviour:vacant.word.dropped".into(), Some(note), span);
         }
-        programs.push((program, findings.into_list()));
+        programs.push((program, findings.take_list()));
     }
     let names = names.into_iter().map(|(name, var)| (var, name)).collect();
     Lowered { programs, names, tape }
@@ -127,7 +129,7 @@ impl<'a> Lowering<'a> {
         control: &'a Control,
         family: Family,
         names: &'a BTreeMap<String, Var>,
-        codes: Codes<'a>,
+        (codes, findings): (Codes<'a>, Findings<'a>),
         labels: Labels,
         piece: &Piece,
     ) -> Self {
@@ -144,7 +146,7 @@ impl<'a> Lowering<'a> {
             names,
             codes,
             labels,
-            findings: Findings::new(control),
+            findings,
             builder,
             hub: None,
             loops: Vec::new(),

@@ -1,6 +1,8 @@
 //! Cuts a file into programs.
 
+use crate::lower::Cut;
 use crate::syntax::{Block, Fence, Item, ItemKind, ParsedFile, ProgramName};
+use crate::text::Lines;
 use std::ops::Range;
 
 /// A program's place in its file.
@@ -53,6 +55,36 @@ pub(super) fn split(parsed: &ParsedFile<'_>) -> (Vec<Piece>, bool) {
         pieces.push(Piece { name: None, head: None, leading: pending, body: 0..0 });
     }
     (pieces, tape)
+}
+
+/// Where a file can be cut; see [`crate::lower::Cuts`].
+///
+/// Before a line that begins with O and a digit, where a line like it stood before and no `%` since: a program is open
+/// there, so that nothing waits for the next one. Not before the first `%`, since what stands there may be no program
+/// at all. Names of variables are good for a whole file, so one with SETVN is not cut.
+pub fn cuts(source: &[u8], least: usize) -> Vec<Cut> {
+    let names = |at: usize| at.checked_sub(3).and_then(|from| source.get(from..at + 2));
+    let mut named = memchr::memchr2_iter(b'V', b'v', source).filter_map(names);
+    if source.len() <= least || named.any(|word| word.eq_ignore_ascii_case(b"SETVN")) {
+        return Vec::new();
+    }
+    let mut cuts: Vec<Cut> = Vec::new();
+    let mut last = 0;
+    let mut open = false;
+    let mut outside = memchr::memchr(b'%', source).is_some();
+    for (lines, line) in Lines::new(source).enumerate() {
+        let (at, text) = (line.text.start, line.text.of(source));
+        if memchr::memchr(b'%', text).is_some() {
+            (open, outside) = (false, false);
+        } else if !outside && matches!(text, [b'O' | b'o', b'0'..=b'9', ..]) {
+            if open && (at - last) as usize >= least {
+                cuts.push(Cut { at, lines });
+                last = at;
+            }
+            open = true;
+        }
+    }
+    cuts
 }
 
 fn program(block: &Block) -> Option<ProgramName> {

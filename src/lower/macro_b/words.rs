@@ -38,7 +38,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The construct rests on a code's row; said once a program.
-    pub(super) fn rest_on_code(&mut self, id: CodeId, row: &CodeMeaning, span: Span) {
+    pub(super) fn rest_on_code(&mut self, id: CodeId, row: &'a CodeMeaning, span: Span) {
         if !row.origin.confirmed && (self.codes.tell(id) || self.codes.get(id).is_some_and(|c| c.depends)) {
             self.findings.rest_on(row, span);
         }

@@ -166,7 +166,7 @@ impl Build {
                         format!("the active {name} cannot be read; only X Y Z E I J K A D F R S T can");
                     self.fault(Code::ValueNotReadable, span, message);
                 }
-                let variable = VarRef { name, index: Index::None, span };
+                let variable = VarRef { name: name.into(), index: Index::None, span };
                 Some(Expr { kind: ExprKind::Variable(Box::new(variable)), span })
             }
             _ => self.operand(pair),
@@ -212,7 +212,7 @@ impl Build {
             Rule::digits => Index::Number(self.whole(&index)),
             _ => Index::Letter(letter(&index)),
         };
-        Some(VarRef { name: "V".to_owned(), index, span })
+        Some(VarRef { name: "V".into(), index, span })
     }
 
     /// `COR=T10 R=V1 V2=L`.

@@ -115,7 +115,7 @@ impl Build<'_> {
         let whole = self.span(&pair);
         let mut parts = pair.into_inner();
         let target = parts.next().map(|name| self.short_variable(&name));
-        let target = target.unwrap_or(VarRef { name: "R".to_owned(), index: Index::None, span: whole });
+        let target = target.unwrap_or(VarRef { name: "R".into(), index: Index::None, span: whole });
         let value = match parts.next() {
             Some(sign) => self.signed(sign, parts.next()),
             None => self.hole(whole),
@@ -159,7 +159,7 @@ impl Build<'_> {
             self.fault(Code::NumberTooLarge, span, "the number has too many digits");
             u32::MAX
         });
-        VarRef { name: name.to_ascii_uppercase(), index: Index::Number(number), span }
+        VarRef { name: super::expr::upper(name), index: Index::Number(number), span }
     }
 
     fn comment(&mut self, pair: Pair<'_, Rule>, span: Span) -> ItemKind {

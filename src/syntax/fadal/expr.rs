@@ -8,6 +8,7 @@ use crate::syntax::support::number;
 use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, VarRef};
 use crate::text::Span;
 use pest::iterators::{Pair, Pairs};
+use std::borrow::Cow;
 use std::iter::Peekable;
 
 type Row<'p> = Peekable<Pairs<'p, Rule>>;
@@ -107,7 +108,7 @@ impl Build<'_> {
     pub(super) fn variable(&mut self, pair: Pair<'_, Rule>) -> VarRef {
         let span = self.span(&pair);
         let mut parts = pair.into_inner();
-        let name = parts.next().map(|name| name.as_str().to_ascii_uppercase()).unwrap_or_default();
+        let name = parts.next().map(|name| upper(name.as_str())).unwrap_or_default();
         let index = match parts.find(|part| matches!(part.as_rule(), Rule::digits | Rule::expr)) {
             None => Index::None,
             Some(digits) if digits.as_rule() == Rule::digits => Index::Number(self.whole(&digits)),
@@ -130,4 +131,13 @@ impl Build<'_> {
 fn whole_number(expr: &Pair<'_, Rule>) -> Option<u32> {
     let text = expr.as_str().trim();
     text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok())?
+}
+
+/// The name of a variable; the usual ones take no memory.
+pub(super) fn upper(name: &str) -> Cow<'static, str> {
+    match name {
+        "R" | "r" => Cow::Borrowed("R"),
+        "V" | "v" => Cow::Borrowed("V"),
+        _ => Cow::Owned(name.to_ascii_uppercase()),
+    }
 }

@@ -136,14 +136,14 @@ impl Builder<'_> {
         if self.kind() == Lex::Open {
             let (inner, brackets) = self.bracketed()?;
             let index = Index::Computed(Box::new(inner));
-            return Ok(VarRef { name: "#".to_owned(), index, span: hash.to(brackets) });
+            return Ok(VarRef { name: "#".into(), index, span: hash.to(brackets) });
         }
         let number = self.integer()?;
         let index = match self.take_if(Lex::Bit) {
             Some(bit) => Index::Bit(number, self.digits(bit, &bit.of(self.source)[1..])),
             None => Index::Number(number),
         };
-        Ok(VarRef { name: "#".to_owned(), index, span: Span::new(hash.start, self.end()) })
+        Ok(VarRef { name: "#".into(), index, span: Span::new(hash.start, self.end()) })
     }
 
     /// `[#NAME]`; a name with a subscript, `[#_ABSIO[1]]`, is a family of variables called `#_ABSIO`.
@@ -157,7 +157,7 @@ impl Builder<'_> {
         } else {
             ("#".to_owned(), Index::Name(name))
         };
-        Ok(VarRef { name, index, span: open.to(self.need(Lex::Close)?) })
+        Ok(VarRef { name: name.into(), index, span: open.to(self.need(Lex::Close)?) })
     }
 }
 

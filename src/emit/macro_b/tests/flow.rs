@@ -70,7 +70,7 @@ fn one_macro_statement_stands_behind_then() {
 #[test]
 fn words_stand_behind_then_where_they_did_and_may() {
     let mut builder = Builder::new();
-    let at = Site { remarks: vec![remark("LAST", false)], ..numbered(1, 10) };
+    let at = Site { remarks: [remark("LAST", false)].into(), ..numbered(1, 10) };
     let (yes, no) = (builder.fresh(), builder.fresh());
     builder.end(TermKind::Branch { cond: gt(1, 5.0), yes, no }, at.clone());
     builder.start(yes);

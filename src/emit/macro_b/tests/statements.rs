@@ -87,7 +87,10 @@ fn g65(arguments: &[(u32, Expr)]) -> Call {
 }
 
 fn called(dialect: &str, call: Call) -> String {
-    let program = blocks([(&[], vec![], TermKind::Call { call, next: BlockId(1) }), (&[], vec![], END)]);
+    let program = blocks([
+        (&[], vec![], TermKind::Call { call: Box::new(call), next: BlockId(1) }),
+        (&[], vec![], END),
+    ]);
     text(dialect, &program).strip_suffix("\nM30\n").unwrap().to_owned()
 }
 
@@ -121,7 +124,10 @@ fn an_argument_that_no_letter_reaches_is_refused() {
         vec![(1, call(Func::Sin, [v(1)])), (1, n(2.0))],
     ] {
         let call = g65(&arguments);
-        let program = blocks([(&[], vec![], TermKind::Call { call, next: BlockId(1) }), (&[], vec![], END)]);
+        let program = blocks([
+            (&[], vec![], TermKind::Call { call: Box::new(call), next: BlockId(1) }),
+            (&[], vec![], END),
+        ]);
         assert_eq!(refused("fanuc", &program), [Code::Unmapped]);
     }
 }
@@ -134,11 +140,13 @@ fn calls_are_those_of_the_control() {
     assert_eq!(called("fanuc", plain(named(), Some(n(3.0)))), "M98 P8000 L3");
     assert_eq!(called("fanuc", plain(Callee::Computed(v(1)), Some(v(2)))), "M98 P#1 L#2");
     assert_eq!(called("fanuc", Call { count: Some(n(2.0)), ..g65(&[(1, n(1.0))]) }), "G65 P9010 L2 A1.");
-    let modal = StmtKind::ModalCall(g65(&[(21, n(5.0))]));
+    let modal = StmtKind::ModalCall(Box::new(g65(&[(21, n(5.0))])));
     assert_eq!(line("fanuc", modal), "G66 P9010 U5.");
-    assert_eq!(refused("haas", &one([StmtKind::ModalCall(g65(&[]))])), [Code::Unmapped]);
+    assert_eq!(refused("haas", &one([StmtKind::ModalCall(Box::new(g65(&[])))])), [Code::Unmapped]);
     let unnamed = plain(Callee::Program(ProgramName::Name("NOBODY".into())), None);
-    let stays = |call| blocks([(&[], vec![], TermKind::Call { call, next: BlockId(1) }), (&[], vec![], END)]);
+    let stays = |call| {
+        blocks([(&[], vec![], TermKind::Call { call: Box::new(call), next: BlockId(1) }), (&[], vec![], END)])
+    };
     assert_eq!(refused("fanuc", &stays(unnamed)), [Code::Unmapped]);
     assert_eq!(refused("fanuc", &stays(plain(Callee::Cycle(800), None))), [Code::Unmapped]);
     let level = Call { level: false, ..g65(&[(1, n(1.0))]) };
@@ -155,7 +163,7 @@ fn a_part_of_the_program_is_called_by_its_sequence_number() {
     };
     let program = || {
         blocks([
-            (&[], vec![], TermKind::Call { call: call(2), next: BlockId(1) }),
+            (&[], vec![], TermKind::Call { call: Box::new(call(2)), next: BlockId(1) }),
             (&[], vec![], END),
             (&[100], vec![mv(1.0)], RETURN),
         ])
@@ -182,7 +190,7 @@ fn ends_and_returns() {
 
 #[test]
 fn what_came_from_one_block_goes_back_to_one() {
-    let at = Site { remarks: vec![remark("HOME", false)], ..numbered(1, 50) };
+    let at = Site { remarks: [remark("HOME", false)].into(), ..numbered(1, 50) };
     let home = nc([op(Op::Incremental), op(Op::ReferenceReturn), word(Role::Z, n(0.0))]);
     let program = |kind: TermKind, rest: usize| {
         let mut builder = Builder::new();
@@ -202,7 +210,7 @@ fn what_came_from_one_block_goes_back_to_one() {
         arguments: vec![],
         count: None,
     };
-    let kind = || TermKind::Call { call: call(), next: BlockId(1) };
+    let kind = || TermKind::Call { call: Box::new(call()), next: BlockId(1) };
     assert_eq!(text("fanuc", &program(kind(), 1)), "N50 G91 G28 Z0. M98 P8000 (HOME)\nM30\n");
     assert_eq!(text("haas", &program(kind(), 1)), "N50 G91 G28 Z0. (HOME)\nM98 P8000\nM30\n");
 }
@@ -210,17 +218,17 @@ fn what_came_from_one_block_goes_back_to_one() {
 #[test]
 fn comments_and_names_stay_with_their_blocks() {
     let mut builder = Builder::new();
-    let remarks = vec![remark("CUT (DEEP)", true), remark("50%", false)];
+    let remarks = [remark("CUT (DEEP)", true), remark("50%", false)].into();
     builder.push(mv(1.0), Site { remarks, ..numbered(2, 10) });
-    builder.push(StmtKind::Remark, Site { remarks: vec![remark("ALONE", true)], ..site(3) });
+    builder.push(StmtKind::Remark, Site { remarks: [remark("ALONE", true)].into(), ..site(3) });
     builder.push(StmtKind::Remark, numbered(4, 20));
     builder.push(StmtKind::Remark, site(5));
     builder.push(mv(2.0), Site { skip: Some(1), ..numbered(6, 30) });
     builder.push(mv(3.0), Site { skip: Some(2), ..site(7) });
     let text_of_alarm = StmtKind::Alarm { number: n(1.0), text: "STOP".into() };
-    let remarks = vec![remark("STOP", false), remark("OR ELSE", false)];
+    let remarks = [remark("STOP", false), remark("OR ELSE", false)].into();
     builder.push(text_of_alarm, Site { remarks, ..numbered(8, 40) });
-    let head = Site { remarks: vec![remark("BOLT CIRCLE", false)], ..numbered(1, 1) };
+    let head = Site { remarks: [remark("BOLT CIRCLE", false)].into(), ..numbered(1, 1) };
     let program = builder.finish(Some(ProgramName::Number(12)), 0, head);
     assert_eq!(
         text("fanuc", &program),
@@ -241,11 +249,11 @@ fn a_long_line_gives_up_its_comments_first() {
     let long =
         "A COMMENT THAT IS SO LONG THAT IT WOULD NOT FIT BESIDE THE WORDS OF THE BLOCK IT STANDS IN AT ALL";
     let mut builder = Builder::new();
-    builder.push(mv(1.0), Site { remarks: vec![remark(long, false)], ..numbered(1, 10) });
+    builder.push(mv(1.0), Site { remarks: [remark(long, false)].into(), ..numbered(1, 10) });
     let program = builder.finish(
         Some(ProgramName::Number(7)),
         0,
-        Site { remarks: vec![remark(long, true)], ..site(0) },
+        Site { remarks: [remark(long, true)].into(), ..site(0) },
     );
     let first = "(A COMMENT THAT IS SO LONG THAT IT WOULD NOT FIT BESIDE THE WORDS OF THE BLOCK";
     let text = text("haas", &program);

@@ -87,7 +87,7 @@ fn expr(e: &Expr) -> String {
 
 fn variable(v: &VarRef) -> String {
     match &v.index {
-        Index::None => v.name.clone(),
+        Index::None => v.name.to_string(),
         Index::Number(number) => format!("{}{number}", v.name),
         Index::Bit(number, bit) => format!("{}{number}.{bit}", v.name),
         Index::Letter(letter) => format!("{}{letter}", v.name),

@@ -1,0 +1,212 @@
+//! Which modal operation is in force where, as far as the text of the library says.
+//!
+//! A forward analysis over all programs at once: the state at a program's entry
+//! joins the states at all its calls, and the state behind a call is the
+//! callee's at its returns. What a program without a known caller starts in, and
+//! what an unknown callee leaves, is not known.
+
+use super::{Modal, calls_of, reachable};
+use crate::ir::{BlockId, Call, Callee, Module, Stmt, StmtKind, TermKind};
+use crate::syntax::ProgramName;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// The modal state at the start of every block of a library.
+#[derive(Clone, Debug)]
+pub struct ModalFacts {
+    entries: Vec<Vec<Entry>>,
+}
+
+/// The state at the start of a block; none where no path leads. Most blocks change nothing, and start in one state.
+type Entry = Option<Rc<Modal>>;
+
+impl ModalFacts {
+    /// Analyses a library whose runs begin in the state `entry`.
+    pub fn of(module: &Module, entry: &Modal) -> Self {
+        Analysis::new(module, false).run(entry)
+    }
+
+    /// The same where the macro of a modal call that stands inside another is a copy of its own: then its
+    /// program runs only where something else calls it.
+    pub fn with_copies(module: &Module, entry: &Modal) -> Self {
+        Analysis::new(module, true).run(entry)
+    }
+
+    /// The state at the start of a block.
+    pub fn at(&self, program: usize, block: BlockId) -> Modal {
+        let entry = self.entries.get(program).and_then(|p| p.get(block.index()));
+        entry.and_then(Option::as_deref).cloned().unwrap_or_else(Modal::unknown)
+    }
+}
+
+/// A routine: a program entered at a block.
+type Routine = (usize, BlockId);
+
+struct Analysis<'m> {
+    module: &'m Module,
+    /// True where nested modal calls do not enter the program that they name.
+    copies: bool,
+    by_name: BTreeMap<&'m ProgramName, usize>,
+    entries: Vec<Vec<Entry>>,
+    exits: BTreeMap<Routine, Modal>,
+    /// Call blocks to look at again when a routine's exit changes.
+    callers: BTreeMap<Routine, BTreeSet<Routine>>,
+    reach: BTreeMap<Routine, BTreeSet<BlockId>>,
+    work: BTreeSet<Routine>,
+}
+
+impl<'m> Analysis<'m> {
+    fn new(module: &'m Module, copies: bool) -> Self {
+        Self {
+            module,
+            copies,
+            by_name: module
+                .programs
+                .iter()
+                .enumerate()
+                .filter_map(|(i, p)| Some((p.name.as_ref()?, i)))
+                .collect(),
+            entries: module.programs.iter().map(|p| vec![None; p.blocks.len()]).collect(),
+            exits: BTreeMap::new(),
+            callers: BTreeMap::new(),
+            reach: BTreeMap::new(),
+            work: BTreeSet::new(),
+        }
+    }
+
+    fn run(mut self, entry: &Modal) -> ModalFacts {
+        let called = self.called_programs();
+        let entry = &Rc::new(entry.clone());
+        for (index, program) in self.module.programs.iter().enumerate() {
+            if !called.contains(&index) && !program.blocks.is_empty() {
+                self.flow(index, BlockId(0), entry);
+            }
+        }
+        self.drain();
+        // Programs that only call one another: nothing outside says how they start.
+        for index in 0..self.module.programs.len() {
+            if self.entries[index].first().is_some_and(Option::is_none) {
+                self.flow(index, BlockId(0), entry);
+                self.drain();
+            }
+        }
+        ModalFacts { entries: self.entries }
+    }
+
+    fn drain(&mut self) {
+        while let Some((program, id)) = self.work.pop_first() {
+            self.block(program, id);
+        }
+    }
+
+    fn called_programs(&self) -> BTreeSet<usize> {
+        let calls = self.module.programs.iter().flat_map(|p| &p.blocks).flat_map(calls_of);
+        calls.filter_map(|call| self.program_of(&call.callee)).collect()
+    }
+
+    fn program_of(&self, callee: &Callee) -> Option<usize> {
+        match callee {
+            Callee::Program(name) => self.by_name.get(name).copied(),
+            _ => None,
+        }
+    }
+
+    fn flow(&mut self, program: usize, to: BlockId, state: &Rc<Modal>) {
+        let Some(entry) = self.entries[program].get_mut(to.index()) else { return };
+        let changed = match entry {
+            _ if state.is_unreached() => false,
+            None => {
+                *entry = Some(Rc::clone(state));
+                true
+            }
+            Some(entry) if Rc::ptr_eq(entry, state) || *entry == *state => false,
+            Some(entry) => Rc::make_mut(entry).join(state),
+        };
+        if changed {
+            self.work.insert((program, to));
+        }
+    }
+
+    fn block(&mut self, index: usize, id: BlockId) {
+        let Some(block) = self.module.programs[index].block(id) else { return };
+        let Some(entry) = self.entries[index][id.index()].clone() else { return };
+        let mut state = Rc::clone(&entry);
+        for stmt in block.stmts.iter().filter(|stmt| Modal::may_step(stmt)) {
+            let nested = state.calls.as_ref().is_some_and(|calls| !calls.is_empty());
+            if let StmtKind::ModalCall(call) = &stmt.kind
+                && !(self.copies && nested)
+            {
+                // It runs behind moves yet to come, under the modal calls outside its own.
+                let inside = Modal::unknown_under(state.calls.clone());
+                self.call(index, id, call, &Rc::new(inside));
+            }
+            Rc::make_mut(&mut state).step(stmt);
+        }
+        if state == entry {
+            state = entry;
+        }
+        match &block.term.kind {
+            TermKind::Call { call, next } => {
+                let after = self.call(index, id, call, &state);
+                self.flow(index, *next, &after);
+            }
+            TermKind::Return { .. } => self.returned(index, id, &state),
+            kind => kind.successors().into_iter().for_each(|to| self.flow(index, to, &state)),
+        }
+    }
+
+    /// Enters a callee and yields the state behind the call as known so far.
+    fn call(&mut self, index: usize, id: BlockId, call: &Call, state: &Rc<Modal>) -> Rc<Modal> {
+        let routine = match (&call.callee, self.program_of(&call.callee)) {
+            (Callee::Block(entry), _) => (index, *entry),
+            (_, Some(program)) => (program, BlockId(0)),
+            _ => return Rc::new(Modal::unknown_under(state.calls.clone())),
+        };
+        if self.callers.entry(routine).or_default().insert((index, id)) {
+            // Its returns may have been looked at before anybody was known to call it.
+            let program = &self.module.programs[routine.0];
+            let body = self.reach.entry(routine).or_insert_with(|| reachable(program, routine.1));
+            let returns = body.iter().filter(|&&id| self.entries[routine.0][id.index()].is_some());
+            self.work.extend(returns.map(|&id| (routine.0, id)));
+        }
+        self.flow(routine.0, routine.1, state);
+        let after = Rc::new(self.exits.get(&routine).cloned().unwrap_or_default());
+        if call.count.is_some() {
+            // Its next run begins in the state that it left.
+            self.flow(routine.0, routine.1, &after);
+        }
+        after
+    }
+
+    /// A return leaves every routine that the block belongs to.
+    fn returned(&mut self, index: usize, id: BlockId, state: &Modal) {
+        let own = (index, BlockId(0))..(index + 1, BlockId(0));
+        let routines: Vec<Routine> = self.callers.range(own).map(|(routine, _)| *routine).collect();
+        for routine in routines {
+            let program = &self.module.programs[index];
+            let body = self.reach.entry(routine).or_insert_with(|| reachable(program, routine.1));
+            if body.contains(&id) && self.exits.entry(routine).or_default().join(state) {
+                self.work.extend(self.callers[&routine].iter().copied());
+            }
+        }
+    }
+}
+
+/// Puts others in the place of statements. `change` gets the program, the state before a statement, which it has to
+/// step, the statement, and where those go that stand for it.
+pub fn replace_statements(
+    module: &mut Module,
+    facts: &ModalFacts,
+    mut change: impl FnMut(usize, &mut Modal, Stmt, &mut Vec<Stmt>),
+) {
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let mut out = Vec::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                change(index, &mut state, stmt, &mut out);
+            }
+            block.stmts = out;
+        }
+    }
+}
