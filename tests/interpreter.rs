@@ -1,0 +1,133 @@
+//! Programs as `macroglot run` runs them, against what an interpreter in another language makes of them
+//! (`tests/interpreter/`).
+
+mod support;
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::process::Command;
+use support::root;
+
+/// How far a number may lie from the expected one, as a part of it where it is above 1.
+const NEAR: f64 = 1e-6;
+const PROGRAMS: usize = 120;
+
+/// What a program does: how it ends, its moves, its common variables.
+#[derive(Debug, Default)]
+struct Run {
+    end: String,
+    moves: Vec<(String, Vec<f64>)>,
+    values: BTreeMap<u32, f64>,
+}
+
+/// A program and what it is to do.
+struct Case<'t> {
+    seed: &'t str,
+    program: &'t str,
+    wanted: Run,
+}
+
+impl<'t> Case<'t> {
+    fn read(text: &'t str) -> Option<Self> {
+        let (head, rest) = text.split_once('\n')?;
+        let (seed, end) = head.split_once(": ")?;
+        let (program, lines) = rest.split_once("--\n")?;
+        let mut wanted = Run { end: end.to_owned(), ..Run::default() };
+        for line in lines.lines().filter(|line| !line.is_empty()) {
+            let (kind, numbers) = line.split_once(' ')?;
+            let numbers = numbers.split(' ').map(|number| number.parse().unwrap());
+            match kind.strip_prefix('#') {
+                Some(variable) => {
+                    wanted.values.extend(numbers.map(|value| (variable.parse().unwrap(), value)))
+                }
+                None => wanted.moves.push((kind.to_owned(), numbers.collect())),
+            }
+        }
+        Some(Self { seed, program, wanted })
+    }
+}
+
+fn run(program: &str, dialect: &str) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.nc");
+    std::fs::write(&path, program).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_macroglot"));
+    command.current_dir(root()).arg("run").arg(path).args(["--trace", "json", "--dialect", dialect]);
+    let output = command.output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let mut found = Run::default();
+    for line in text.lines() {
+        let event: Value = serde_json::from_str(line).unwrap();
+        let place = |key: &str| ["x", "y", "z"].map(|axis| event[key][axis].as_f64().unwrap_or(f64::NAN));
+        match event["event"].as_str().unwrap() {
+            kind @ ("rapid" | "feed") => {
+                let (from, to) = (place("from"), place("to"));
+                if from.iter().zip(to).any(|(a, b)| (a - b).abs() > NEAR) {
+                    found.moves.push((kind.to_owned(), to.to_vec()));
+                }
+            }
+            "result" => {
+                found.end = event["end"].as_str().unwrap().to_owned();
+                for (name, value) in event["variables"].as_object().unwrap() {
+                    let number: u32 = name.trim_start_matches('#').parse().unwrap();
+                    // #110 points at others; below are those of the level.
+                    if number >= 100 && number != 110 {
+                        found.values.extend(value.as_f64().map(|value| (number, value)));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+fn is_near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= NEAR * a.abs().max(1.0)
+}
+
+/// The first thing in which two runs differ.
+fn difference(found: &Run, wanted: &Run) -> Option<String> {
+    if found.end != wanted.end {
+        return Some(format!("ends by {}, not {}", found.end, wanted.end));
+    }
+    let same = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(*a, *b));
+    for at in 0..found.moves.len().max(wanted.moves.len()) {
+        match (found.moves.get(at), wanted.moves.get(at)) {
+            (Some(a), Some(b)) if a.0 == b.0 && same(&a.1, &b.1) => {}
+            (a, b) => return Some(format!("move {at} is {a:?}, not {b:?}")),
+        }
+    }
+    let numbers = found.values.keys().chain(wanted.values.keys());
+    numbers.map(|number| (number, found.values.get(number), wanted.values.get(number))).find_map(
+        |(number, a, b)| {
+            let alike = a.zip(b).is_some_and(|(a, b)| is_near(*a, *b));
+            (!alike).then(|| format!("#{number} is {a:?}, not {b:?}"))
+        },
+    )
+}
+
+fn check(dialect: &str) {
+    let text = std::fs::read_to_string(root().join(format!("tests/interpreter/{dialect}.txt"))).unwrap();
+    let cases = text.split("== ").skip(1).map(|text| Case::read(text).expect("a case"));
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for Case { seed, program, wanted } in cases {
+        count += 1;
+        if let Some(difference) = difference(&run(program, dialect), &wanted) {
+            wrong.push(format!("seed {seed}: {difference}\n{program}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {count}\n{}", wrong.len(), wrong.join("\n"));
+    assert_eq!(count, PROGRAMS);
+}
+
+#[test]
+fn fanuc_programs_run_as_another_interpreter_runs_them() {
+    check("fanuc");
+}
+
+#[test]
+fn haas_programs_run_as_another_interpreter_runs_them() {
+    check("haas");
+}
