@@ -145,3 +145,55 @@ fn scratch_registers_hold_nothing_and_others_do() {
     let target = "O1\n#101=1\n#140=#101\nG0X#140\nM30\n";
     assert_eq!(found("fanuc", "haas", source, target).0, Outcome::Different);
 }
+
+/// A loop that adds a step until a limit, by dialect; it moves one millimetre or inch each time.
+fn counting(dialect: &str, step: &str, limit: &str) -> String {
+    match dialect {
+        "fadal" => {
+            format!("O1\n#V1=0\n#:A\n#V1=V1+{step}\nG91 G1 X1. F100.\n#IF V1<{limit} THEN GOTO :A\nG90\nM2\n")
+        }
+        "cc100" => format!("V31=0\n$1\nV31=V31+{step}\nG91 G1 X1 F100\nV32=V31-{limit}\nBLT P1\nG90\nM30\n"),
+        _ => {
+            format!("O1\n#501=0\nWHILE[#501LT{limit}]DO1\n#501=#501+{step}\nG91G1X1.F100.\nEND1\nG90\nM30\n")
+        }
+    }
+}
+
+/// By `rounding.tsv`, which `rounding.py` works out: the last digit decides where binary and decimal counts differ.
+#[test]
+fn what_the_last_digit_decides_is_marked_and_nothing_else() {
+    let table = include_str!("verify/rounding.tsv");
+    for (from, to) in [
+        ("fadal", "fanuc"),
+        ("fadal", "haas"),
+        ("cc100", "fanuc"),
+        ("cc100", "haas"),
+        ("fanuc", "haas"),
+        ("haas", "fanuc"),
+    ] {
+        let mut marked = 0;
+        for row in table.lines() {
+            let [step, limit, binary, decimal] = row.split('\t').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            let source = counting(from, step, limit);
+            let lock = match from {
+                "fadal" => vec![("V1", 501)],
+                "cc100" => vec![("V31", 501), ("V32", 502)],
+                _ => vec![],
+            };
+            let mut target = counting(to, step, limit);
+            if from == "cc100" {
+                target = target.replace("END1", &format!("#502=#501-{limit}\nEND1"));
+            }
+            let pair =
+                Pair { name: row, from, to, lock, source: &source, target: String::new(), changes: vec![] };
+            let found = judge(&pair, &target);
+            let [program] = &found.programs[..] else { panic!("one program") };
+            assert!(program.witness.is_none(), "{from} {to} {row}: {:#?}", program.witness);
+            assert_eq!(program.rounding_sensitive, Some(binary != decimal), "{from} {to} {row}");
+            marked += usize::from(binary != decimal);
+        }
+        assert!(marked > 3 && marked < table.lines().count() - 3, "{marked} rows are marked");
+    }
+}

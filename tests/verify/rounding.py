@@ -1,0 +1,26 @@
+"""Counts how often a loop runs that adds a step until a limit, in binary and in decimal arithmetic.
+
+    python3 tests/verify/rounding.py > tests/verify/rounding.tsv
+
+Where the two counts differ, the last digit decides what the machine does. The third column is the count in doubles,
+the fourth the one of exact decimals.
+"""
+
+from decimal import Decimal
+
+ROWS = [
+    ("0.1", "1"), ("0.1", "0.95"), ("0.1", "0.8"), ("0.1", "2"), ("0.25", "1"), ("0.5", "3"), ("1", "7"),
+    ("0.3", "0.9"), ("0.3", "1"), ("0.7", "2.1"), ("0.7", "4.9"), ("0.01", "0.06"), ("0.01", "0.065"),
+    ("0.05", "1"), ("0.15", "0.6"), ("0.35", "0.7"), ("1.1", "3.3"), ("1.1", "9.9"),
+]
+
+
+def count(step, limit):
+    value, times = type(step)(0), 0
+    while value < limit:
+        value, times = value + step, times + 1
+    return times
+
+
+for step, limit in ROWS:
+    print(step, limit, count(float(step), float(limit)), count(Decimal(step), Decimal(limit)), sep="\t")
