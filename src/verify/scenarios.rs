@@ -171,7 +171,8 @@ impl<'i> Proposals<'i> {
                 // Smaller than the number that a condition names, or larger, in millimetres or inches.
                 let share = if count % 10 == 8 { 25.4 / 4.0 } else { 1.0 / 50.0 };
                 let size = near * f64::from(*number) * share;
-                *tool = Tool { length: size, radius: size / 2.0, ..Tool::default() };
+                let length = if size > 10.0 * STEP { steps(size / STEP) } else { size };
+                *tool = Tool { length, radius: size / 2.0, ..Tool::default() };
             }
         }
     }
@@ -191,34 +192,43 @@ impl<'i> Proposals<'i> {
     }
 }
 
-/// A machine whose every number is its own, so that no two offsets can be mistaken for each other.
+/// Millimetres that are a whole number of least increments in inches too: 0.005 inch.
+const STEP: f64 = 0.127;
+
+/// So many of them, the nearest whole number.
+fn steps(count: f64) -> f64 {
+    count.round() * 127.0 / 1000.0
+}
+
+/// A machine whose every number is its own, so that no two offsets can be mistaken for each other. Where it stands and by
+/// how much offsets shift it are words in either unit, so that a place which is read back can be said.
 fn machine(random: &mut Random) -> Scenario {
     // A program that returns is one that others call, and a main one that returns would never end.
     let mut scenario = Scenario { called: true, ..Scenario::default() };
     let axes = |base: f64, step: f64| -> Axes {
         let mut out = [0.0; AXES];
         for (axis, value) in out.iter_mut().take(6).enumerate() {
-            *value = base + step * (axis as f64 + 1.0);
+            *value = steps(base + step * (axis as f64 + 1.0));
         }
         out
     };
     // Work offsets far below the reference position, as on real machines.
     for number in (1..=6).chain(101..=148) {
         let n = f64::from(number);
-        scenario.work_offsets.insert(number, axes(-300.0 - 3.217 * n, -17.031 - 0.113 * n));
+        scenario.work_offsets.insert(number, axes(-2400.0 - 29.0 * n, -137.0 - n));
     }
     for number in 1..=99 {
         let n = f64::from(number);
         let tool = Tool {
-            length: 80.0 + 1.733 * n,
-            length_wear: 0.011 * n,
+            length: steps(600.0 + 13.0 * n),
+            length_wear: steps(n),
             radius: 2.0 + 0.257 * n,
             radius_wear: 0.003 * n,
         };
         scenario.tools.insert(number, tool);
     }
-    scenario.references[1] = axes(-50.0, -11.5);
-    scenario.start = axes(-10.0 - random.between(0, 5), -3.25);
+    scenario.references[1] = axes(-394.0, -91.0);
+    scenario.start = axes(-79.0 - 8.0 * random.between(0, 5), -26.0);
     scenario.tool = 1 + random.below(9) as u32;
     scenario
 }

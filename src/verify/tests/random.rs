@@ -152,3 +152,21 @@ fn the_far_end_of_a_turned_move_is_off_by_what_the_angle_rounds() {
     assert_eq!(across("200.").witness, None);
     assert_eq!(across("200.01").outcome, Outcome::Different);
 }
+
+/// A place that is read back can be said again: 0.127 mm are 0.005 inch, a whole number of increments in both.
+#[test]
+fn the_machine_stands_where_words_of_either_unit_can_say() {
+    use crate::verify::{inputs::Inputs, scenarios::Proposals};
+    let inputs = Inputs { rotary: [true; 3], ..Inputs::default() };
+    let mut proposals = Proposals::new(&inputs, Effort::default());
+    for _ in 0..24 {
+        let scenario = proposals.next().unwrap();
+        let lengths = scenario.tools.values().flat_map(|tool| [tool.length, tool.length_wear]);
+        let places = scenario.start.into_iter().chain(scenario.references.into_iter().flatten());
+        let offsets = scenario.work_offsets.values().flatten().copied();
+        for value in places.chain(offsets).chain(lengths) {
+            let thousandths = (value * 1000.0).round();
+            assert!((value * 1000.0 - thousandths).abs() < 1e-9 && thousandths % 127.0 == 0.0, "{value}");
+        }
+    }
+}
