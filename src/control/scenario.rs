@@ -1,6 +1,6 @@
 //! The circumstances of a run: all that a program meets from outside.
 
-use crate::canon::Sys;
+use crate::canon::{Op, Sys};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -22,6 +22,9 @@ pub struct Scenario {
     pub called: bool,
     /// True for inch, false for metric at the start; none for what the profile says.
     pub inch: Option<bool>,
+    /// What is in force at the start, where that is not what power-on leaves: planes, feed modes, absolute or
+    /// incremental.
+    pub modes: Vec<Op>,
     /// Machine position at the start.
     pub start: Axes,
     /// Work offsets, by common number: 1 to 6, 101 and up.
@@ -115,6 +118,7 @@ impl Default for Scenario {
             variables: BTreeMap::new(),
             called: false,
             inch: None,
+            modes: Vec::new(),
             start: [0.0; AXES],
             work_offsets: BTreeMap::new(),
             external_shift: [0.0; AXES],

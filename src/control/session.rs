@@ -1,7 +1,7 @@
 //! A run in the making: what an interpreter keeps besides its own variables.
 
 use super::library::{Library, LoadedFile, ProgramRef, Sections};
-use super::machine::Machine;
+use super::machine::{GIVEN, Machine};
 use super::outcome::{Branches, End, Run, Stop};
 use super::scenario::Scenario;
 use super::trace::{Happening, Place, Program, Trace};
@@ -116,7 +116,8 @@ impl<'r, 'f> Session<'r, 'f> {
         };
         let file = found.map_or(0, |section| section.file);
         let number = self.programs.len() as u32;
-        self.programs.push(Program { file, name, inch: self.machine.is_inch() });
+        let modes = GIVEN.iter().filter_map(|group| self.machine.modal(*group)).collect();
+        self.programs.push(Program { file, name, modes });
         self.numbers.insert(section, number);
         number
     }

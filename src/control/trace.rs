@@ -9,6 +9,7 @@ mod happening;
 pub use happening::*;
 
 use super::outcome::Stop;
+use crate::canon::Op;
 use crate::dialect::Row;
 use crate::text::Span;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
@@ -54,9 +55,9 @@ pub struct Program {
     pub file: usize,
     /// Its name: `O1234`; empty where it has none.
     pub name: String,
-    /// True where lengths were in inches when it was come to first.
+    /// What was in force when it was come to first: [`crate::control::machine::GIVEN`].
     #[serde(skip)]
-    pub inch: bool,
+    pub modes: Vec<Op>,
 }
 
 /// The events of a run in the making.

@@ -7,9 +7,11 @@
 
 use super::compare::{Tolerance, compare, is_cut};
 use super::inputs::{calls, inputs};
-use super::program::{Job, stops_by_itself};
+use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
+use super::stops::stops_by_itself;
 use super::{Certificate, Outcome, ProgramCertificate};
+use crate::canon::{Group, Op};
 use crate::control::{ProgramRef, Run, Scenario, trace};
 use crate::syntax::ProgramName;
 use crate::text::Span;
@@ -32,8 +34,9 @@ pub struct Shown {
 /// Runs of all callers together, and the fewest of each.
 const RUNS: usize = 240;
 const FEWEST: usize = 12;
-/// Runs in which a program shows what it calls.
+/// Runs in which a program shows what it calls, and the most where that is not all which its text calls.
 const LOOKS: usize = 3;
+const MORE_LOOKS: usize = 24;
 
 /// What the runs that come through a program show of it.
 #[derive(Debug, Default)]
@@ -175,6 +178,16 @@ fn scenarios<'j>(
     program: ProgramRef,
     runs: usize,
 ) -> impl Iterator<Item = (Scenario, Run)> + 'j {
+    scenarios_in(job, program, runs, None)
+}
+
+/// The same, begun as its own callers let it begin.
+fn scenarios_in<'j>(
+    job: &'j Job<'_>,
+    program: ProgramRef,
+    runs: usize,
+    given: Option<&Given>,
+) -> impl Iterator<Item = (Scenario, Run)> + 'j {
     let inputs = inputs(job.source, program);
     let mut proposals: Vec<Scenario> = Vec::new();
     let mut proposed = Proposals::new(&inputs, job.effort);
@@ -182,6 +195,7 @@ fn scenarios<'j>(
         && let Some(mut scenario) = proposed.next()
     {
         scenario.inch = unit(job.source, job.target).or(inputs.inch);
+        given.into_iter().for_each(|given| given.start(&mut scenario));
         proposals.push(scenario);
     }
     proposals.into_iter().map(move |scenario| {
@@ -204,24 +218,91 @@ fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r tra
     run.programs.iter().find(|other| other.file == program.file && other.name == name)
 }
 
-/// By program, the unit in which its callers' runs come to it first, true for inch; none where they come in both.
-pub fn units_given(job: &Job<'_>) -> BTreeMap<ProgramRef, Option<bool>> {
+/// What the callers of a program give it, as far as their runs show.
+#[derive(Clone, Debug, Default)]
+pub struct Given {
+    /// What is in force at its start whoever calls it: of each group of [`GIVEN`] at the most one.
+    pub modes: Vec<Op>,
+    /// True once a run came to it.
+    met: bool,
+}
+
+impl Given {
+    /// Takes in what another run gives.
+    fn add(&mut self, modes: &[Op]) {
+        if !std::mem::replace(&mut self.met, true) {
+            self.modes = modes.to_vec();
+        }
+        self.modes.retain(|op| modes.contains(op));
+    }
+
+    /// The unit, true for inch; none where callers come in both.
+    pub fn inch(&self) -> Option<bool> {
+        self.modes.iter().find(|op| op.group() == Group::Units).map(|op| *op == Op::Inch)
+    }
+
+    /// The modes that are not those of power-on, the unit left out.
+    pub fn unlike_power_on(&self) -> Vec<Op> {
+        let usual = [Op::Absolute, Op::PlaneXy, Op::FeedPerMinute];
+        let other = |op: &&Op| op.group() != Group::Units && !usual.contains(op);
+        self.modes.iter().filter(other).copied().collect()
+    }
+
+    /// Lets a scenario start so.
+    pub fn start(&self, scenario: &mut Scenario) {
+        scenario.inch = self.inch().or(scenario.inch);
+        scenario.modes = self.unlike_power_on();
+    }
+}
+
+/// By program, what its callers' runs give it when they come to it first.
+///
+/// Programs that none enters give first; then, in what they are given themselves, those that these enter give to what
+/// was not come to yet.
+pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
     let all = job.source.programs();
-    let mut came: Vec<(ProgramRef, ProgramRef, bool)> = Vec::new();
-    for caller in &all {
-        for (_, run) in scenarios(job, *caller, LOOKS) {
-            let entered = all.iter().filter(|program| *program != caller);
-            came.extend(entered.filter_map(|to| Some((*caller, *to, entry(job, &run, *to)?.inch))));
+    let is_root = roots(job, &all);
+    let mut found: BTreeMap<ProgramRef, Given> = BTreeMap::new();
+    let mut callers: Vec<ProgramRef> = all.iter().filter(|program| is_root(program)).copied().collect();
+    let mut gone: BTreeSet<ProgramRef> = callers.iter().copied().collect();
+    while !callers.is_empty() {
+        let mut came: BTreeMap<ProgramRef, Given> = BTreeMap::new();
+        for caller in &callers {
+            for (to, modes) in gives(job, &all, *caller, found.get(caller)) {
+                if !found.contains_key(&to) {
+                    came.entry(to).or_default().add(&modes);
+                }
+            }
+        }
+        callers = came.keys().filter(|program| gone.insert(**program)).copied().collect();
+        found.extend(came);
+    }
+    found
+}
+
+/// The programs that runs of a caller come to, and what they find there; more runs where some that its text calls are
+/// not among them.
+fn gives(
+    job: &Job<'_>,
+    all: &[ProgramRef],
+    caller: ProgramRef,
+    given: Option<&Given>,
+) -> Vec<(ProgramRef, Vec<Op>)> {
+    let text = || job.source.text(caller).iter().flat_map(|block| calls(job.source, &block.items));
+    let mut wanted: BTreeSet<ProgramRef> = text().filter(|to| *to != caller).collect();
+    let mut out = Vec::new();
+    for (at, (_, run)) in scenarios_in(job, caller, MORE_LOOKS, given).enumerate() {
+        if at >= LOOKS && wanted.is_empty() {
+            break;
+        }
+        for to in all.iter().filter(|program| **program != caller) {
+            if let Some(entered) = entry(job, &run, *to) {
+                wanted.remove(to);
+                out.push((*to, entered.modes.clone()));
+            }
         }
     }
-    let entered: BTreeSet<ProgramRef> = came.iter().map(|(_, to, _)| *to).collect();
-    let mut units = BTreeMap::new();
-    // Programs that others enter start in a unit of their own where they are run by themselves.
-    for (_, to, inch) in came.iter().filter(|(caller, ..)| !entered.contains(caller)) {
-        let unit = units.entry(*to).or_insert(Some(*inch));
-        *unit = unit.filter(|unit| unit == inch);
-    }
-    units
+    out
 }
 
 /// True where something happened in a block, or none is asked for.

@@ -59,6 +59,8 @@ pub struct ProgramCertificate {
     pub outcome: Outcome,
     /// Why it is undecided.
     pub reasons: Vec<Reason>,
+    /// What its callers' runs gave it, which it was run in; empty where they gave nothing, or not all the same.
+    pub given: Vec<String>,
     /// Scenarios that the source was tried in.
     pub scenarios_tried: usize,
     /// Scenarios in which both sides were compared.

@@ -28,6 +28,7 @@ mod questions;
 mod random;
 mod rounding;
 mod scenarios;
+mod stops;
 mod substitutes;
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! The two sides, and what is called what on each.
 
+use super::callers::Given;
 use crate::control::{Execute, Library, LoadedFile, ProgramRef};
 use crate::dialect::{Control, VariableClass};
 use crate::syntax::{Block, ProgramName};
@@ -17,7 +18,7 @@ pub struct Side<'a> {
     /// Their programs.
     pub library: Library<'a>,
     /// The units that callers run its programs in, where anybody asked.
-    pub(super) given: OnceLock<BTreeMap<ProgramRef, Option<bool>>>,
+    pub(super) given: OnceLock<BTreeMap<ProgramRef, Given>>,
 }
 
 impl<'a> Side<'a> {

@@ -1,15 +1,17 @@
 //! The verification of one program.
 
 use super::branches::Coverage;
-use super::callers::{Shown, implicate, through, units_given, ways};
+use super::callers::{Given, Shown, given, implicate, through, ways};
 use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
-use super::compare::{Difference, Tolerance, compare, is_cut};
+use super::compare::{Tolerance, compare, is_cut};
 use super::inputs::{inputs, is_called};
 use super::names::{Names, Side};
 use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
 use super::scenarios::{Proposals, asked, on_target, unit};
+use super::stops::{off_its_circle, stops_by_itself};
 use super::{Certificate, Effort, Outcome};
+use crate::canon::Op;
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, ProgramRef, Run, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,9 +36,6 @@ const FEWER_DIGITS: u32 = 13;
 
 /// Ways not gone that a reason names.
 const NAMED: usize = 3;
-
-/// How far the end of an arc may lie off its circle, millimetres, to be an arc at all.
-const MOST_OFF: f64 = 0.05;
 
 /// How much longer the first run may be where it comes to no end.
 const LONGER: u64 = 10;
@@ -64,8 +63,8 @@ struct Verifier<'v, 'j> {
     program: ProgramRef,
     /// True where other programs of the library call it.
     called: bool,
-    /// The unit that all its callers run it in: true for inch.
-    given: Option<bool>,
+    /// What all its callers give it.
+    given: Given,
     coverage: Coverage,
     reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; with where they did, those that nobody reported.
@@ -87,12 +86,12 @@ struct Verifier<'v, 'j> {
 impl<'v, 'j> Verifier<'v, 'j> {
     fn new(job: &'v Job<'j>, program: ProgramRef) -> Self {
         let called = is_called(job.source, program);
-        let given = || job.source.given.get_or_init(|| units_given(job)).get(&program).copied().flatten();
+        let given = || job.source.given.get_or_init(|| given(job)).get(&program).cloned();
         Self {
             job,
             program,
             called,
-            given: if called { given() } else { None },
+            given: if called { given().unwrap_or_default() } else { Given::default() },
             coverage: Coverage::new(job.source, program),
             reasons: BTreeMap::new(),
             unconfirmed: BTreeMap::new(),
@@ -122,19 +121,28 @@ impl<'v, 'j> Verifier<'v, 'j> {
         self.certificate(there)
     }
 
-    /// Looks at what the program does in the machine's own unit, where its callers run it in the other one.
+    /// Looks at what the program does as after power-on in the machine's own unit, where its callers run it otherwise.
     fn alone(&mut self, there: ProgramRef) {
         let own = unit(self.job.source, self.job.target).unwrap_or(false);
-        let Some(inch) = self.given.filter(|given| *given != own && self.witness.is_none()) else { return };
-        let mut alone = Self { given: None, ..Self::new(self.job, self.program) };
+        let unit = self.given.inch().filter(|given| *given != own);
+        let modes = self.given.unlike_power_on();
+        if self.witness.is_some() || (unit.is_none() && modes.is_empty()) {
+            return;
+        }
+        let mut alone = Self { given: Given::default(), ..Self::new(self.job, self.program) };
         alone.search(there);
-        if let Some(witness) = alone.witness {
-            let unit = if inch { "inches" } else { "millimetres" };
-            let text = format!(
-                "in {unit}, as its callers run it, it does the same; in the other unit not: {}",
-                witness.what
-            );
-            self.because(Why::NotByItself, &text);
+        let Some(witness) = alone.witness else { return };
+        match unit {
+            Some(inch) => {
+                let unit = if inch { "inches" } else { "millimetres" };
+                let text = format!(
+                    "in {unit}, as its callers run it, it does the same; in the other unit not: {}",
+                    witness.what
+                );
+                self.because(Why::NotByItself, &text);
+            }
+            // Whether its callers excuse that is looked at as for any other difference.
+            None => (self.witness, self.shown) = (Some(witness), alone.shown),
         }
     }
 
@@ -146,7 +154,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..self.job.effort });
         let mut endless = 0;
         while let Some(mut scenario) = proposals.next() {
-            scenario.inch = self.given.or(unit(self.job.source, self.job.target)).or(found.inch);
+            scenario.inch = unit(self.job.source, self.job.target).or(found.inch);
+            self.given.start(&mut scenario);
             let mut run = self.run_source(&scenario);
             // A long way to its end is tried once.
             if is_cut(&run) && self.tried == 0 {
@@ -190,7 +199,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
     fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
         let Job { source, target, names, .. } = self.job;
         let mut circumstances = on_target(scenario, names, (source, target), self.called);
-        circumstances.inch = self.given.or(circumstances.inch);
+        circumstances.inch = self.given.inch().or(circumstances.inch);
         circumstances.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
         if is_cut(run) {
             // Only what both did so far is compared.
@@ -357,6 +366,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             target_sha256: target_file.map(|file| sha256(file.parsed.source)),
             outcome,
             reasons: reasons.collect(),
+            given: self.given.modes.iter().map(Op::to_string).collect(),
             scenarios_tried: self.tried,
             scenarios_compared: self.compared,
             branches_covered,
@@ -369,32 +379,5 @@ impl<'v, 'j> Verifier<'v, 'j> {
             texts: self.texts.into_iter().take(20).collect(),
             witness: self.witness,
         }
-    }
-}
-
-/// True where the control stopped the run, not the program.
-fn faults(run: &Run) -> bool {
-    matches!(&run.end, End::Alarm { stop, .. } if stop.program_number.is_none())
-}
-
-/// True where the difference is that the control stopped the run: the program says nothing of what comes then.
-pub(super) fn stops_by_itself(run: &Run, difference: &Difference<'_>) -> bool {
-    faults(run) && at_the_end(run, difference)
-}
-
-/// How far an arc ends off its circle, where that is more than words round.
-fn off_its_circle(difference: &Difference<'_>) -> Option<f64> {
-    match difference.source?.what {
-        Happening::Arc { off, .. } => Some(off.abs()).filter(|off| *off > MOST_OFF),
-        _ => None,
-    }
-}
-
-/// True where the difference lies at the alarm that ended the source, not before it.
-fn at_the_end(run: &Run, difference: &Difference<'_>) -> bool {
-    match (difference.source, run.events.last()) {
-        (Some(event), Some(last)) => std::ptr::eq(event, last),
-        (None, _) => true,
-        _ => false,
     }
 }

@@ -29,12 +29,15 @@ pub use left::Left;
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};
 use super::trace::{FeedMode, Plane, Side, Spindle, Trace};
-use crate::canon::{Op, Sys};
+use crate::canon::{Group, Op, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
 use rounding::Rounding;
 use rules::Rules;
 use std::collections::{BTreeMap, HashMap};
+
+/// The groups of modes that a called program finds as its caller left them.
+pub const GIVEN: [Group; 4] = [Group::Units, Group::Distance, Group::Plane, Group::FeedMode];
 
 /// Millimetres of an inch.
 pub const INCH: f64 = 25.4;
@@ -141,7 +144,23 @@ impl Machine {
             machine.cells.insert(system::cell(cell.state, &cell.subscripts), cell.value);
         }
         machine.select(1);
+        scenario.modes.iter().for_each(|op| machine.start_in(*op));
         machine
+    }
+
+    /// Starts in a mode that a caller gives.
+    fn start_in(&mut self, op: Op) {
+        match op {
+            Op::Absolute => self.incremental = false,
+            Op::Incremental => self.incremental = true,
+            Op::PlaneXy => self.plane = Plane::Xy,
+            Op::PlaneZx => self.plane = Plane::Zx,
+            Op::PlaneYz => self.plane = Plane::Yz,
+            Op::FeedPerMinute => self.feed_mode = FeedMode::PerMinute,
+            Op::FeedPerTurn => self.feed_mode = FeedMode::PerTurn,
+            Op::FeedInverse => self.feed_mode = FeedMode::Inverse,
+            op => self.name_unit(op),
+        }
     }
 
     /// Does what a block says. What it moved and switched stands in the trace; an alarm

@@ -119,3 +119,40 @@ fn callers_that_cannot_be_run_excuse_nothing() {
     let source = "O1\nG65P5A#101\nM30\nO5\nIF[#1GT3]GOTO9\nG0X#1\nM99\nN9#3000=1(TOO FAR)\n";
     assert_eq!(library(source, "TOO FAR", "TOO NEAR")[1].0, Different);
 }
+
+/// A called program is run as its callers come to it; the certificate says how.
+#[test]
+fn called_programs_begin_as_their_callers_let_them() {
+    let given = |source: &str, at: usize| {
+        let found = programs(("fanuc", source), ("fanuc", source), &[]);
+        assert!(found.iter().all(|program| program.witness.is_none()), "{found:#?}");
+        found[at].given.join(" ")
+    };
+    let one = "O1\nG20G91G18G1X1.F9.\nM98P2\nM30\nO2\nG1X5.\nM99\n";
+    assert_eq!(given(one, 1), "units.inch distance.incremental plane.zx feed.per.minute");
+    // Two callers agree in the plane alone.
+    let two = format!("{one}O3\nG21G90G18G95G1X1.F9.\nM98P2\nM30\n");
+    assert_eq!(given(&two, 1), "plane.zx");
+    // By way of another program, which nothing but its caller puts into G91.
+    let way = "O1\nG21G91\nM98P2\nM30\nO2\nM98P3\nM99\nO3\nG0X5.\nM99\n";
+    assert_eq!(given(way, 2), "units.metric distance.incremental plane.xy feed.per.minute");
+    // The first runs never get there.
+    let rare = "O1\nG21G91\nIF[#101NE#102]GOTO9\nIF[#101LT6]GOTO9\nIF[#101GT49]GOTO9\nM98P2\nN9M30\nO2\nG0X5.\nM99\n";
+    let found = given(rare, 1);
+    assert!(found.is_empty() || found.contains("distance.incremental"), "{found}");
+    // Nobody calls a main program.
+    assert_eq!(given(one, 0), "");
+}
+
+/// O3 is come to in inches by way of O2, which by itself would be in the machine's millimetres.
+#[test]
+fn units_are_handed_on() {
+    let library = |way: &str| {
+        format!(
+            "O1\nG20G90G0X1.\nIF[#101EQ7]GOTO9\nG65P2\nN9M30\nO2\nG65P3\nM99\nO3\nIF[#1EQ#0]GOTO9\nG0Y{way}\nN9M99\n"
+        )
+    };
+    let found = programs(("haas", &library("13")), ("haas", &library("0.0013")), &[]);
+    assert!(found.iter().all(|program| program.outcome != Outcome::Different), "{found:#?}");
+    assert_eq!(found[2].given[0], "units.inch");
+}
