@@ -57,7 +57,8 @@ impl<'r> Interpreter<'r, '_> {
                 Some(op) => *op == Op::Incremental,
                 None => session.machine.is_incremental(),
             };
-        self.polar.resolve(command, incremental, &mut session.trace);
+        let increment = session.unstated_increment();
+        self.polar.resolve(command, incremental, increment, &mut session.trace);
         let message = if command.has(Op::Stop) { self.message(block) } else { None };
         let command = &mut read.command;
         if message.is_some() {

@@ -3,6 +3,7 @@
 use crate::canon::{Op, Role};
 use crate::control::machine::Command;
 use crate::control::trace::Trace;
+use crate::control::words::to_increment;
 
 /// The pole, and the words that stay.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,8 +15,15 @@ pub(super) struct Polar {
 }
 
 impl Polar {
-    /// Takes the pole of a block, and turns its polar words into X and Y.
-    pub fn resolve(&mut self, command: &mut Command, incremental: bool, trace: &mut Trace) {
+    /// Takes the pole of a block, and turns its polar words into X and Y; these are rounded to `increment` where computed
+    /// words are.
+    pub fn resolve(
+        &mut self,
+        command: &mut Command,
+        incremental: bool,
+        increment: Option<f64>,
+        trace: &mut Trace,
+    ) {
         if command.has(Op::Pole) {
             self.pole =
                 (command.word(Role::X).unwrap_or(self.pole.0), command.word(Role::Y).unwrap_or(self.pole.1));
@@ -33,7 +41,8 @@ impl Polar {
         let distance = self.distance.unwrap_or(0.0);
         let from = if incremental { (0.0, 0.0) } else { self.pole };
         command.words.retain(|(role, _)| !matches!(role, Role::PolarAngle | Role::PolarDistance));
-        command.words.push((Role::X, from.0 + distance * cos));
-        command.words.push((Role::Y, from.1 + distance * sin));
+        let place = |value: f64| increment.map_or(value, |increment| to_increment(value, increment));
+        command.words.push((Role::X, place(from.0 + distance * cos)));
+        command.words.push((Role::Y, place(from.1 + distance * sin)));
     }
 }

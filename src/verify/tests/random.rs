@@ -170,3 +170,17 @@ fn the_machine_stands_where_words_of_either_unit_can_say() {
         }
     }
 }
+
+/// Five at 30 degrees from (10, 20) are 14.330127 and 22.5: whether the machine stands at 14.33 no source says.
+#[test]
+fn what_is_read_back_behind_a_polar_move_hangs_on_rounding() {
+    let source = "G90\nG0 X0 Y0\nG20 X10 Y20\nG0 A30 D5\nV32=X\nM30\n";
+    let with = |x: &str| {
+        let target = format!("O1\nG21G90G0X0.Y0.\nX[{x}+5*COS[30]]Y[20+5*SIN[30]]\n#502=#5041\nM30\n");
+        run("cc100", source, "fanuc", &target, &[("V32", 502)])
+    };
+    let found = with("10");
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("word.rounds.to.increment")));
+    assert_eq!(with("10.001").outcome, Outcome::Different);
+}
