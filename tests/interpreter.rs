@@ -1,4 +1,4 @@
-//! Programs as `macroglot run` runs them, against what an interpreter in another language makes of them
+//! Programs as `macroglot run` runs them, against what interpreters in another language make of them
 //! (`tests/interpreter/`).
 
 mod support;
@@ -12,12 +12,12 @@ use support::root;
 const NEAR: f64 = 1e-6;
 const PROGRAMS: usize = 120;
 
-/// What a program does: how it ends, its moves, its common variables.
+/// What a program does: how it ends, its moves, the variables that are left.
 #[derive(Debug, Default)]
 struct Run {
     end: String,
     moves: Vec<(String, Vec<f64>)>,
-    values: BTreeMap<u32, f64>,
+    values: BTreeMap<String, f64>,
 }
 
 /// A program and what it is to do.
@@ -36,11 +36,9 @@ impl<'t> Case<'t> {
         for line in lines.lines().filter(|line| !line.is_empty()) {
             let (kind, numbers) = line.split_once(' ')?;
             let numbers = numbers.split(' ').map(|number| number.parse().unwrap());
-            match kind.strip_prefix('#') {
-                Some(variable) => {
-                    wanted.values.extend(numbers.map(|value| (variable.parse().unwrap(), value)))
-                }
-                None => wanted.moves.push((kind.to_owned(), numbers.collect())),
+            match kind {
+                "rapid" | "feed" => wanted.moves.push((kind.to_owned(), numbers.collect())),
+                name => wanted.values.extend(numbers.map(|value| (name.to_owned(), value))),
             }
         }
         Some(Self { seed, program, wanted })
@@ -69,10 +67,9 @@ fn run(program: &str, dialect: &str) -> Run {
             "result" => {
                 found.end = event["end"].as_str().unwrap().to_owned();
                 for (name, value) in event["variables"].as_object().unwrap() {
-                    let number: u32 = name.trim_start_matches('#').parse().unwrap();
-                    // #110 points at others; below are those of the level.
-                    if number >= 100 && number != 110 {
-                        found.values.extend(value.as_f64().map(|value| (number, value)));
+                    // Locals end with their level.
+                    if !name.starts_with('#') || name.len() > "#33".len() {
+                        found.values.extend(value.as_f64().map(|value| (name.clone(), value)));
                     }
                 }
             }
@@ -98,13 +95,11 @@ fn difference(found: &Run, wanted: &Run) -> Option<String> {
             (a, b) => return Some(format!("move {at} is {a:?}, not {b:?}")),
         }
     }
-    let numbers = found.values.keys().chain(wanted.values.keys());
-    numbers.map(|number| (number, found.values.get(number), wanted.values.get(number))).find_map(
-        |(number, a, b)| {
-            let alike = a.zip(b).is_some_and(|(a, b)| is_near(*a, *b));
-            (!alike).then(|| format!("#{number} is {a:?}, not {b:?}"))
-        },
-    )
+    let names = found.values.keys().chain(wanted.values.keys());
+    names.map(|name| (name, found.values.get(name), wanted.values.get(name))).find_map(|(name, a, b)| {
+        let alike = a.zip(b).is_some_and(|(a, b)| is_near(*a, *b));
+        (!alike).then(|| format!("{name} is {a:?}, not {b:?}"))
+    })
 }
 
 fn check(dialect: &str) {
@@ -130,4 +125,14 @@ fn fanuc_programs_run_as_another_interpreter_runs_them() {
 #[test]
 fn haas_programs_run_as_another_interpreter_runs_them() {
     check("haas");
+}
+
+#[test]
+fn fadal_programs_run_as_another_interpreter_runs_them() {
+    check("fadal");
+}
+
+#[test]
+fn cc100_programs_run_as_another_interpreter_runs_them() {
+    check("cc100");
 }
