@@ -72,7 +72,13 @@ impl Builder {
         self.with_current(|block| block.labels.push(label));
     }
 
+    /// Makes room for statements of the present block.
+    pub fn reserve(&mut self, count: usize) {
+        self.with_current(|block| block.stmts.reserve_exact(count));
+    }
+
     /// Adds a statement; behind an ended block it starts an unreachable one.
+    #[inline]
     pub fn push(&mut self, kind: StmtKind, site: Site) {
         self.reopen();
         self.with_current(|block| block.stmts.push(Stmt { kind, site }));
@@ -120,6 +126,7 @@ impl Builder {
         }
     }
 
+    #[inline]
     fn with_current(&mut self, change: impl FnOnce(&mut Block)) {
         if let Some(Some(block)) = self.blocks.get_mut(self.current.index()) {
             change(block);

@@ -96,12 +96,12 @@ impl<'p> Emitter<'p> {
                 }
             }
         }
-        self.line.start = self.emitted.text.len();
+        self.line.start = self.text.len();
         if let Some(level) = skip {
             self.skip(level);
         }
         let unprinted = self.head();
-        self.line.head_end = self.emitted.text.len();
+        self.line.head_end = self.text.len();
         if let Some(number) = unprinted {
             self.space();
             self.push_str("(N");
@@ -111,10 +111,10 @@ impl<'p> Emitter<'p> {
         for at in 0..self.line.remarks.len() {
             if let Some(&remark) = self.line.remarks.get(at).filter(|remark| remark.leading) {
                 self.space();
-                write_remark(&mut self.emitted.text, &remark.text);
+                write_remark(&mut self.text, &remark.text);
             }
         }
-        self.line.body = self.emitted.text.len();
+        self.line.body = self.text.len();
         if let Some(condition) = self.line.condition.take() {
             self.space();
             self.push_str("IF ");
@@ -135,7 +135,7 @@ impl<'p> Emitter<'p> {
             self.integer(label);
             if let Some(name) = self.line.name.take() {
                 self.space();
-                write_remark(&mut self.emitted.text, name);
+                write_remark(&mut self.text, name);
             }
             return standing.filter(|(n, s)| *n != label && *s != Standing::Label).map(|(n, _)| n);
         }
@@ -163,9 +163,8 @@ impl<'p> Emitter<'p> {
 
     /// Separates a word from what stands before it on the line.
     pub(super) fn space(&mut self) {
-        let text = &self.emitted.text;
-        if text.len() > self.line.start && !text.ends_with('/') {
-            self.push(' ');
+        if self.text.len() > self.line.start && self.text.last() != Some(&b'/') {
+            self.text.push(b' ');
         }
     }
 
@@ -181,17 +180,17 @@ impl<'p> Emitter<'p> {
         self.carry(site);
         self.line.sequence = None;
         self.span = site.span;
-        self.line.start = self.emitted.text.len();
+        self.line.start = self.text.len();
         self.push('O');
-        write_padded(&mut self.emitted.text, u64::from(number), 4);
+        write_padded(&mut self.text, u64::from(number), 4);
         let mut remarks = std::mem::take(&mut self.line.waiting).into_iter().peekable();
         let limit = self.control.text().line.map_or(usize::MAX, |limit| limit as usize);
         while let Some(remark) = remarks.peek() {
-            let before = self.emitted.text.len();
+            let before = self.text.len();
             self.space();
-            write_remark(&mut self.emitted.text, &remark.text);
-            if self.emitted.text.len() - self.line.start > limit {
-                self.emitted.text.truncate(before);
+            write_remark(&mut self.text, &remark.text);
+            if self.text.len() - self.line.start > limit {
+                self.text.truncate(before);
                 break;
             }
             remarks.next();
@@ -202,17 +201,17 @@ impl<'p> Emitter<'p> {
 
     /// Ends the line.
     pub(super) fn finish(&mut self) {
-        let end = self.emitted.text.len();
+        let end = self.text.len();
         for at in 0..self.line.remarks.len() {
             if let Some(&remark) = self.line.remarks.get(at).filter(|remark| !remark.leading) {
                 self.space();
-                write_remark(&mut self.emitted.text, &remark.text);
+                write_remark(&mut self.text, &remark.text);
             }
         }
         let text = self.control.text();
         let limit = if self.line.kind == Kind::Words { text.line } else { text.macro_line.or(text.line) };
         if let Some(limit) = limit
-            && self.emitted.text.len() - self.line.start > limit as usize
+            && self.text.len() - self.line.start > limit as usize
         {
             self.shorten(end, limit as usize);
         }
@@ -221,26 +220,27 @@ impl<'p> Emitter<'p> {
 
     fn end_line(&mut self) {
         if !self.span.is_empty() {
-            self.emitted.blocks.push((self.span, self.line.start..self.emitted.text.len()));
+            self.emitted.blocks.push((self.span, self.line.start..self.text.len()));
         }
         self.push('\n');
     }
 
     /// Puts the comments of a line that is too long on lines before it.
     fn shorten(&mut self, end: usize, limit: usize) {
-        let line = self.emitted.text.split_off(self.line.start);
+        let line = self.text.split_off(self.line.start);
         let at = |place: usize| place - self.line.start;
         let head = line.get(..at(self.line.head_end)).unwrap_or_default();
-        let body = line.get(at(self.line.body)..at(end)).unwrap_or_default().trim_start();
+        let body = line.get(at(self.line.body)..at(end)).unwrap_or_default().trim_ascii_start();
         for remark in std::mem::take(&mut self.line.remarks) {
             self.remark_lines(&remark.text);
         }
-        self.line.start = self.emitted.text.len();
-        self.push_str(head);
+        self.line.start = self.text.len();
+        self.text.extend_from_slice(head);
         if !body.is_empty() {
-            self.word(body);
+            self.space();
+            self.text.extend_from_slice(body);
         }
-        let length = self.emitted.text.len() - self.line.start;
+        let length = self.text.len() - self.line.start;
         if length > limit {
             self.refuse(
                 Code::LineTooLong,
@@ -253,10 +253,10 @@ impl<'p> Emitter<'p> {
     pub(super) fn remark_lines(&mut self, text: &str) {
         let room = self.control.text().line.map_or(usize::MAX, |most| most.saturating_sub(2) as usize);
         for piece in wrap(text, room) {
-            let start = self.emitted.text.len();
-            write_remark(&mut self.emitted.text, piece);
+            let start = self.text.len();
+            write_remark(&mut self.text, piece);
             if !self.span.is_empty() {
-                self.emitted.blocks.push((self.span, start..self.emitted.text.len()));
+                self.emitted.blocks.push((self.span, start..self.text.len()));
             }
             self.push('\n');
         }
@@ -274,12 +274,12 @@ impl<'p> Emitter<'p> {
     pub(super) fn label_line(&mut self, label: u32, name: Option<&str>) {
         self.span = Span::default();
         self.line.flushed = Some(label);
-        self.line.start = self.emitted.text.len();
+        self.line.start = self.text.len();
         self.push('N');
         self.integer(label);
         if let Some(name) = name {
             self.space();
-            write_remark(&mut self.emitted.text, name);
+            write_remark(&mut self.text, name);
         }
         self.push('\n');
     }

@@ -31,6 +31,7 @@ use crate::text::Span;
 use labels::Labels;
 use line::Line;
 use spellings::Spellings;
+use std::string::FromUtf8Error;
 use std::sync::Arc;
 
 /// What tells the dialects of the family apart beyond their tables.
@@ -51,6 +52,7 @@ pub fn emit<'a>(names: &'a Naming, control: &'a Control, style: &'static Style) 
             style,
             spellings: &spellings,
             labels: Labels::default(),
+            text: Vec::new(),
             emitted: Emitted::default(),
             faults: Vec::new(),
             span: Span::default(),
@@ -61,7 +63,11 @@ pub fn emit<'a>(names: &'a Naming, control: &'a Control, style: &'static Style) 
             place: expressions::Place::Statement,
         };
         emitter.program();
-        if emitter.faults.is_empty() { Ok(emitter.emitted) } else { Err(emitter.faults) }
+        let Emitter { text, emitted, faults, .. } = emitter;
+        // It is ASCII; were it not, nothing would be lost.
+        let lossy = |fault: FromUtf8Error| String::from_utf8_lossy(fault.as_bytes()).into_owned();
+        let text = String::from_utf8(text).unwrap_or_else(lossy);
+        if faults.is_empty() { Ok(Emitted { text, ..emitted }) } else { Err(faults) }
     })
 }
 
@@ -73,6 +79,9 @@ struct Emitter<'p> {
     style: &'p Style,
     spellings: &'p Spellings<'p>,
     labels: Labels,
+    /// What is written so far. Bytes, because most of them are written one by one.
+    text: Vec<u8>,
+    /// Everything else about it.
     emitted: Emitted,
     faults: Vec<Diagnostic>,
     /// Where the statement that is being written comes from.
@@ -114,10 +123,13 @@ impl Emitter<'_> {
     }
 
     fn push(&mut self, c: char) {
-        self.emitted.text.push(c);
+        match u8::try_from(c) {
+            Ok(byte) if byte.is_ascii() => self.text.push(byte),
+            _ => self.push_str(c.encode_utf8(&mut [0; 4])),
+        }
     }
 
     fn push_str(&mut self, text: &str) {
-        self.emitted.text.push_str(text);
+        self.text.extend_from_slice(text.as_bytes());
     }
 }

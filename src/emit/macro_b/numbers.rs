@@ -2,7 +2,7 @@
 
 use super::Emitter;
 use crate::diag::Code;
-use std::fmt::Write;
+use std::io::Write;
 
 /// Largest number of which every smaller whole number is exact.
 const EXACT: f64 = 9_007_199_254_740_992.0;
@@ -13,13 +13,13 @@ impl Emitter<'_> {
         if !value.is_finite() {
             return self.unmapped("a number that is not finite");
         }
-        let start = self.emitted.text.len();
+        let start = self.text.len();
         if value.is_sign_negative() {
-            self.push('-');
+            self.text.push(b'-');
         }
-        write_digits(&mut self.emitted.text, value.abs());
+        write_digits(&mut self.text, value.abs());
         if point && value.fract() == 0.0 {
-            self.push('.');
+            self.text.push(b'.');
         }
         if let Some(most) = self.control.numbers().digits {
             self.limit_digits(start, most as usize);
@@ -28,51 +28,56 @@ impl Emitter<'_> {
 
     /// The zero before the point counts as a digit, so it goes first.
     fn limit_digits(&mut self, start: usize, most: usize) {
-        let written = &self.emitted.text[start..];
-        let digits = written.bytes().filter(u8::is_ascii_digit).count();
+        let written = &self.text[start..];
+        if written.len() <= most {
+            return;
+        }
+        let digits = written.iter().filter(|byte| byte.is_ascii_digit()).count();
         if digits <= most {
             return;
         }
-        let sign = usize::from(written.starts_with('-'));
-        if digits == most + 1 && written[sign..].starts_with("0.") {
-            self.emitted.text.remove(start + sign);
+        let sign = usize::from(written.starts_with(b"-"));
+        if digits == most + 1 && written[sign..].starts_with(b"0.") {
+            self.text.remove(start + sign);
             return;
         }
+        let written = String::from_utf8_lossy(written);
         let message = format!("{written} has {digits} digits, the control takes {most}");
         self.refuse(Code::NumberTooLong, message);
     }
 
     /// Writes a whole number.
     pub(super) fn integer(&mut self, value: u32) {
-        write_integer(&mut self.emitted.text, u64::from(value));
+        write_integer(&mut self.text, u64::from(value));
     }
 }
 
 /// Writes a number that is not negative.
-fn write_digits(out: &mut String, value: f64) {
+fn write_digits(out: &mut Vec<u8>, value: f64) {
     if value < EXACT && value as u64 as f64 == value {
         return write_integer(out, value as u64);
     }
     // A decimal of at most 15 digits is the value's own where dividing gives the value back,
-    // because that division rounds as reading the decimal does.
-    let mut scaled = (value * 1e6 + 0.5) as u64;
-    if value < 1e9 && scaled as f64 / 1e6 == value {
-        let mut places = 6;
-        while scaled.is_multiple_of(10) {
-            (scaled, places) = (scaled / 10, places - 1);
+    // because that division rounds as reading the decimal does. Most have four places.
+    for (mut places, scale) in [(4, 1e4), (6, 1e6)] {
+        let mut scaled = (value * scale + 0.5) as u64;
+        if value < 1e9 && scaled as f64 / scale == value {
+            while scaled.is_multiple_of(10) {
+                (scaled, places) = (scaled / 10, places - 1);
+            }
+            return write_decimal(out, scaled, places);
         }
-        return write_decimal(out, scaled, places);
     }
-    // Writing to a string cannot fail.
+    // Writing to bytes cannot fail.
     let _ = write!(out, "{value}");
 }
 
-fn write_integer(out: &mut String, value: u64) {
+fn write_integer(out: &mut Vec<u8>, value: u64) {
     write_decimal(out, value, 0);
 }
 
 /// Writes a whole number with a point before its last `places` digits, and one digit at least before the point.
-fn write_decimal(out: &mut String, value: u64, places: usize) {
+fn write_decimal(out: &mut Vec<u8>, value: u64, places: usize) {
     let mut text = [b'0'; 32];
     let (mut at, mut rest, mut written) = (text.len(), value, 0);
     while rest > 0 || written <= places {
@@ -84,13 +89,13 @@ fn write_decimal(out: &mut String, value: u64, places: usize) {
         text[at] = b'0' + (rest % 10) as u8;
         (rest, written) = (rest / 10, written + 1);
     }
-    out.push_str(std::str::from_utf8(&text[at..]).unwrap_or_default());
+    out.extend_from_slice(&text[at..]);
 }
 
 /// Writes a whole number with leading zeros.
-pub(super) fn write_padded(out: &mut String, value: u64, places: u32) {
+pub(super) fn write_padded(out: &mut Vec<u8>, value: u64, places: u32) {
     let digits = value.checked_ilog10().map_or(1, |log| log + 1);
-    (digits..places).for_each(|_| out.push('0'));
+    (digits..places).for_each(|_| out.push(b'0'));
     write_integer(out, value);
 }
 
@@ -99,9 +104,9 @@ mod tests {
     use super::*;
 
     fn digits(value: f64) -> String {
-        let mut out = String::new();
+        let mut out = Vec::new();
         write_digits(&mut out, value);
-        out
+        String::from_utf8(out).unwrap()
     }
 
     #[test]

@@ -8,6 +8,9 @@ use crate::diag::Code;
 use crate::ir::{Block, BlockId, Cond, Site, TermKind};
 use crate::syntax::Label;
 
+/// Bytes that most lines do not reach.
+const USUAL_LINE: usize = 24;
+
 impl<'p> Emitter<'p> {
     /// Writes the program.
     pub(super) fn program(&mut self) {
@@ -22,6 +25,9 @@ impl<'p> Emitter<'p> {
         let most = self.control.text().sequence_max;
         let (labels, faults) = Labels::new(program, &plan.labelled, |n| names.is_returned_to(n), most);
         self.labels = labels;
+        let count = program.blocks.iter().map(|block| block.stmts.len() + 1).sum();
+        self.text.reserve(count * USUAL_LINE);
+        self.emitted.blocks.reserve(count);
         for fault in faults {
             self.refuse(Code::NoSequenceNumber, fault);
         }

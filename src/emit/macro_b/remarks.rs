@@ -5,20 +5,20 @@
 /// A comment ends at its first closing bracket and may hold nothing that ends a block or
 /// a tape: those characters become others that look alike, so that every comment stays
 /// one. Letters outside ASCII lose their accents; what has no like becomes `?`.
-pub(super) fn write_remark(out: &mut String, text: &str) {
-    out.push('(');
+pub(super) fn write_remark(out: &mut Vec<u8>, text: &str) {
+    out.push(b'(');
     for c in unfenced(text).chars() {
         match c {
-            '(' => out.push('['),
-            ')' => out.push(']'),
-            '%' => out.push_str("PCT"),
-            ';' => out.push(','),
-            ' '..='~' => out.push(c),
-            c if c.is_control() => out.push(' '),
-            c => out.push_str(plain(c)),
+            '(' => out.push(b'['),
+            ')' => out.push(b']'),
+            '%' => out.extend_from_slice(b"PCT"),
+            ';' => out.push(b','),
+            ' '..='~' => out.push(c as u8),
+            c if c.is_control() => out.push(b' '),
+            c => out.extend_from_slice(plain(c).as_bytes()),
         }
     }
-    out.push(')');
+    out.push(b')');
 }
 
 /// The text without a bracket at its end that people closed a comment with on a control whose
@@ -93,9 +93,9 @@ mod tests {
     use super::*;
 
     fn remark(text: &str) -> String {
-        let mut out = String::new();
+        let mut out = Vec::new();
         write_remark(&mut out, text);
-        out
+        String::from_utf8(out).unwrap()
     }
 
     #[test]

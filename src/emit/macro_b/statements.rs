@@ -103,7 +103,7 @@ impl<'p> Emitter<'p> {
             .map_or(usize::MAX, |most| most as usize);
         if !text.is_empty() {
             self.push(' ');
-            write_remark(&mut self.emitted.text, text);
+            write_remark(&mut self.text, text);
         }
         if !is_writable(text) || text.len() > most {
             let message = format!("the message '{text}' cannot be shown as it is, or not all of it");

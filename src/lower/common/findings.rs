@@ -46,6 +46,11 @@ impl<'c> Findings<'c> {
         self.list.push(diagnostic);
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.list.len()
+    }
+
     /// The construct at `span` has no known meaning: the program is refused.
     pub fn not_understood(&mut self, span: Span, message: impl Into<Arc<str>>) {
         self.add(Diagnostic::new(Code::NotUnderstood, span, message));

@@ -42,6 +42,39 @@ pub(super) fn acts(item: &Item) -> bool {
     )
 }
 
+/// What stands on a block, besides words and comments.
+#[derive(Default)]
+struct Contents {
+    /// The first item that acts.
+    first: Option<usize>,
+    /// The first sequence number.
+    number: Option<usize>,
+    inserted: bool,
+    skips: bool,
+    loops: bool,
+}
+
+impl Contents {
+    fn of(items: &[Item]) -> Self {
+        let mut found = Self::default();
+        for (index, item) in items.iter().enumerate() {
+            match item.kind {
+                ItemKind::Sequence { inserted, .. } => {
+                    found.number = found.number.or(Some(index));
+                    found.inserted |= inserted;
+                }
+                ItemKind::Skip(_) => found.skips = true,
+                ItemKind::Do { .. } | ItemKind::End { .. } => found.loops = true,
+                _ => {}
+            }
+            if found.first.is_none() && acts(item) {
+                found.first = Some(index);
+            }
+        }
+        found
+    }
+}
+
 impl<'a> Lowering<'a> {
     /// All blocks of the program.
     pub(super) fn body(&mut self, piece: &Piece) {
@@ -85,26 +118,24 @@ impl<'a> Lowering<'a> {
             // They are the program's.
             site.remarks.clear();
         }
-        if block.items.iter().any(|item| matches!(item.kind, ItemKind::Sequence { inserted: true, .. })) {
+        let contents = Contents::of(&block.items);
+        if contents.inserted {
             self.findings.not_understood(block.span, "'N+' is no sequence number here");
         }
         let refused = block.errors.iter().any(|error| error.code.severity() == Severity::Error);
-        let loops = |item: &Item| matches!(item.kind, ItemKind::Do { .. } | ItemKind::End { .. });
-        if refused && !block.items.iter().any(loops) {
+        if refused && !contents.loops {
             return self.builder.push(StmtKind::Remark, site);
         }
-        let Some(first) = block.items.iter().position(acts) else {
+        let Some(first) = contents.first else {
             if !is_head || site.sequence.is_some() {
                 self.builder.push(StmtKind::Remark, site);
             }
             return;
         };
-        let number = block.items.iter().position(|item| matches!(item.kind, ItemKind::Sequence { .. }));
-        if number.is_some_and(|at| at > first) && !self.findings.is("sequence.anywhere", site.span) {
+        if contents.number.is_some_and(|at| at > first) && !self.findings.is("sequence.anywhere", site.span) {
             self.findings.not_understood(site.span, "the sequence number must stand first in its block");
         }
-        let skips = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
-        if skips { self.skipping(block, first, site) } else { self.items(&block.items, &site) }
+        if contents.skips { self.skipping(block, first, site) } else { self.items(&block.items, &site) }
     }
 
     /// A block with a block skip.

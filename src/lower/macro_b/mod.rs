@@ -8,11 +8,12 @@
 //! - `labels` finds the blocks that jumps can reach and the ranges of loops,
 //! - `block` lowers one block: block skip, its statements in order,
 //! - `statement`, `loops`, `flow`, `call`, `arguments` are the macro statements and calls,
-//! - `words`, `roles` and `value` are the NC words,
+//! - `words`, `bare`, `roles` and `value` are the NC words,
 //! - `expr`, `cond` and `variable` are the expressions,
 //! - `vacancy` looks over the finished program for signed variables that may be vacant.
 
 mod arguments;
+mod bare;
 mod block;
 mod call;
 mod codes;
@@ -37,6 +38,7 @@ use crate::dialect::Control;
 use crate::ir::{BlockId, Builder, Remark, Site, Var};
 use crate::syntax::{ItemKind, ParsedFile, ProgramName};
 use crate::text::Span;
+use bare::Known;
 use codes::{CodeId, Codes};
 use labels::Labels;
 use split::Piece;
@@ -95,6 +97,7 @@ struct Lowering<'a> {
     modal_calls: usize,
     /// The motion code in force as the text has it, for the roles of words that stand without one.
     motion: Motion,
+    known: Known,
     /// Index of the block being lowered.
     at: usize,
     /// True in a program that a code calls, where such codes call nothing.
@@ -116,7 +119,7 @@ struct Loop {
 }
 
 /// The motion code in force as the text has it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Motion {
     code: Option<CodeId>,
     /// True where a jump may have come in since the code, with another one in force.
@@ -133,7 +136,10 @@ impl<'a> Lowering<'a> {
         labels: Labels,
         piece: &Piece,
     ) -> Self {
-        let builder = Builder::over(1 + labels.count());
+        let mut builder = Builder::over(1 + labels.count());
+        if labels.count() == 0 {
+            builder.reserve(piece.body.len());
+        }
         let aliased = match piece.name {
             Some(ProgramName::Number(number)) => codes.is_alias_target(number),
             _ => false,
@@ -152,6 +158,7 @@ impl<'a> Lowering<'a> {
             loops: Vec::new(),
             modal_calls: 0,
             motion: Motion::default(),
+            known: Known::default(),
             at: piece.body.start,
             aliased,
             signed: false,

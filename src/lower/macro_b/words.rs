@@ -46,6 +46,9 @@ impl<'a> Lowering<'a> {
 
     /// A block of NC words.
     pub(super) fn nc(&mut self, words: &Words<'a>, site: &Site) {
+        if let Some(nc) = self.bare_words(words) {
+            return self.builder.push(StmtKind::Nc(nc), site.clone());
+        }
         let Some(codes) = self.block_codes(words) else {
             return self.builder.push(StmtKind::Remark, site.clone());
         };
@@ -182,7 +185,11 @@ impl<'a> Lowering<'a> {
     }
 
     fn word(&mut self, word: &'a Word, span: Span, codes: &BlockCodes<'a>, nc: &mut Nc, seen: &mut Seen) {
+        let said = self.findings.count();
         let Some((role, code)) = self.role(word, span, codes) else { return };
+        if codes.is_empty() && code.is_none() && self.findings.count() == said {
+            self.note_role(word, role);
+        }
         let Some(value) = word.value.as_ref().filter(|_| !word.equals) else {
             return self.findings.not_understood(span, format!("{} has no value", word.letter));
         };
@@ -260,7 +267,7 @@ fn drop_clashing(nc: &mut Nc, op: Op) -> bool {
 
 /// What a block has said already.
 #[derive(Default)]
-struct Seen {
+pub(super) struct Seen {
     groups: u32,
     roles: u128,
     m_codes: u32,
@@ -276,7 +283,7 @@ impl Seen {
     }
 
     /// Notes a role; true where it was there.
-    fn role(&mut self, role: Role) -> bool {
+    pub fn role(&mut self, role: Role) -> bool {
         let bit = 1u128.checked_shl(role as u32).unwrap_or(0);
         let there = self.roles & bit != 0;
         self.roles |= bit;
