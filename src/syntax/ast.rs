@@ -111,7 +111,7 @@ pub enum ItemKind {
     /// `#1=2`, `V1=V2+V3`, `R3+7.5`.
     Assign {
         /// What is written.
-        target: VarRef,
+        target: Box<VarRef>,
         /// The value; for `R3-7.5` it holds the sign.
         value: Expr,
         /// True for a sign in place of `=`, outside a macro line: `R3+7.5`.
@@ -121,7 +121,7 @@ pub enum ItemKind {
     /// block). With `bare` the word IF is missing: `[#1000] GOTO10`.
     If {
         /// The condition.
-        condition: Expr,
+        condition: Box<Expr>,
         /// True where THEN is written.
         then: bool,
         /// True where IF is not written.
@@ -155,16 +155,16 @@ pub enum ItemKind {
     /// `INC V1`, `DEC V1`.
     Step {
         /// The variable.
-        target: VarRef,
+        target: Box<VarRef>,
         /// True for DEC.
         down: bool,
     },
     /// `TIM V1`: seconds since cycle start into a variable.
-    Timer(VarRef),
+    Timer(Box<VarRef>),
     /// `COR=T10 R=V1`, `TRF=G54 V1=X`: a transfer between variables and a table.
     Transfer {
         /// The table and its row.
-        table: Table,
+        table: Box<Table>,
         /// The cells that are moved.
         cells: Vec<Cell>,
     },
@@ -283,7 +283,7 @@ pub enum Fence {
 #[derive(Clone, Debug, PartialEq)]
 pub enum TestSubject {
     /// A variable's sign.
-    Variable(VarRef),
+    Variable(Box<VarRef>),
     /// Whether a G code is active.
     Code(u32),
     /// `QX`, `QM`: whether an axis is mirrored, whether dimensions are metric.

@@ -17,8 +17,8 @@ impl Emitter<'_> {
         if value.is_sign_negative() {
             self.text.push(b'-');
         }
-        write_digits(&mut self.text, value.abs());
-        if point && value.fract() == 0.0 {
+        let has_point = write_digits(&mut self.text, value.abs());
+        if point && !has_point {
             self.text.push(b'.');
         }
         if let Some(most) = self.control.numbers().digits {
@@ -52,24 +52,28 @@ impl Emitter<'_> {
     }
 }
 
-/// Writes a number that is not negative.
-fn write_digits(out: &mut Vec<u8>, value: f64) {
-    if value < EXACT && value as u64 as f64 == value {
-        return write_integer(out, value as u64);
+/// Writes a number that is not negative; true where it has a decimal point.
+fn write_digits(out: &mut Vec<u8>, value: f64) -> bool {
+    // Signed, because processors turn such to and from floating point in one step.
+    if value < EXACT && value as i64 as f64 == value {
+        write_integer(out, value as u64);
+        return false;
     }
     // A decimal of at most 15 digits is the value's own where dividing gives the value back,
     // because that division rounds as reading the decimal does. Most have four places.
     for (mut places, scale) in [(4, 1e4), (6, 1e6)] {
-        let mut scaled = (value * scale + 0.5) as u64;
+        let mut scaled = (value * scale + 0.5) as i64;
         if value < 1e9 && scaled as f64 / scale == value {
-            while scaled.is_multiple_of(10) {
+            while scaled % 10 == 0 {
                 (scaled, places) = (scaled / 10, places - 1);
             }
-            return write_decimal(out, scaled, places);
+            write_decimal(out, scaled as u64, places);
+            return true;
         }
     }
     // Writing to bytes cannot fail.
     let _ = write!(out, "{value}");
+    value.fract() != 0.0
 }
 
 fn write_integer(out: &mut Vec<u8>, value: u64) {

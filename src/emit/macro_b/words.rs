@@ -25,6 +25,17 @@ impl Used {
 impl<'p> Emitter<'p> {
     /// Writes the words of a block, in the order they were written in.
     pub(super) fn words(&mut self, nc: &Nc) {
+        let word = |item: &'_ NcItem| matches!(item, NcItem::Word(..));
+        if nc.items.iter().all(word) {
+            // Most blocks have no code.
+            let mut used = Used::default();
+            for item in &nc.items {
+                if let NcItem::Word(role, value) = item {
+                    self.role_word(*role, value, &[], &mut used);
+                }
+            }
+            return;
+        }
         let codes = self.codes(nc);
         let known: SmallVec<[&Code; 8]> = codes.iter().flatten().copied().collect();
         self.count_m_codes(nc, &known);
@@ -122,6 +133,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Writes a word, unless the code beside it says the same.
+    #[inline]
     fn role_word(&mut self, role: Role, value: &Expr, codes: &[&Code], used: &mut Used) {
         if codes.iter().any(|code| !code.row.fixed.is_empty() && code.row.fixed.contains_key(&role)) {
             return;
@@ -194,11 +206,10 @@ impl<'p> Emitter<'p> {
     }
 
     fn literal(&mut self, role: Role, value: f64) {
-        let whole = value.fract() == 0.0;
         match role {
             _ if has_point(role) => self.number(value, true),
             Role::SpeedLimit | Role::Builder => self.number(value, false),
-            _ if whole => self.number(value, false),
+            _ if value.fract() == 0.0 => self.number(value, false),
             // A constant with a point would be an alarm, one in brackets is rounded.
             _ if role.is_integer() && self.control.is("integer.word.rounds") => {
                 self.bracketed(&Expr::Number(value));

@@ -69,7 +69,7 @@ impl Build {
             Rule::assign => {
                 let target = self.variable(parts.next()?)?;
                 let value = self.value(parts.nth(1)?)?;
-                ItemKind::Assign { target, value, by_sign: false }
+                ItemKind::Assign { target: Box::new(target), value, by_sign: false }
             }
             Rule::sequence => {
                 let inserted = parts.clone().any(|part| part.as_rule() == Rule::inserted);
@@ -93,16 +93,16 @@ impl Build {
             Rule::test => {
                 let subject = parts.last()?;
                 ItemKind::Test(match subject.as_rule() {
-                    Rule::variable => TestSubject::Variable(self.variable(subject)?),
+                    Rule::variable => TestSubject::Variable(Box::new(self.variable(subject)?)),
                     Rule::flag => TestSubject::Flag(subject.as_str().chars().last()?.to_ascii_uppercase()),
                     _ => TestSubject::Code(self.whole(&subject)),
                 })
             }
             Rule::step => {
                 let down = parts.next()?.as_rule() == Rule::dec;
-                ItemKind::Step { target: self.variable(parts.next()?)?, down }
+                ItemKind::Step { target: Box::new(self.variable(parts.next()?)?), down }
             }
-            Rule::timer => ItemKind::Timer(self.variable(parts.nth(1)?)?),
+            Rule::timer => ItemKind::Timer(Box::new(self.variable(parts.nth(1)?)?)),
             Rule::tape => ItemKind::Tape,
             _ => return None,
         })
@@ -233,7 +233,7 @@ impl Build {
             let (column, variable) = if store { (first, second) } else { (second, first) };
             cells.push(Cell { letter: letter(&column), variable: self.variable(variable)?, store });
         }
-        Some(ItemKind::Transfer { table: Table { name, row }, cells })
+        Some(ItemKind::Transfer { table: Box::new(Table { name, row }), cells })
     }
 }
 

@@ -120,7 +120,7 @@ impl Build<'_> {
             Some(sign) => self.signed(sign, parts.next()),
             None => self.hole(whole),
         };
-        ItemKind::Assign { target, value, by_sign: true }
+        ItemKind::Assign { target: Box::new(target), value, by_sign: true }
     }
 
     /// A number, or a sign and what it stands before.
@@ -194,7 +194,7 @@ impl Build<'_> {
             Rule::assign => {
                 let target = self.variable(first);
                 let value = self.value(parts.nth(1)?);
-                ItemKind::Assign { target, value, by_sign: false }
+                ItemKind::Assign { target: Box::new(target), value, by_sign: false }
             }
             Rule::if_then => {
                 let condition = self.expr(parts.next()?);
@@ -202,7 +202,7 @@ impl Build<'_> {
                 let body = parts.nth(1)?;
                 let span = self.span(&body);
                 let body = vec![Item { kind: self.statement(body)?, span }];
-                ItemKind::If { condition, then: true, bare: false, body }
+                ItemKind::If { condition: Box::new(condition), then: true, bare: false, body }
             }
             Rule::goto => {
                 let to = parts.next()?;

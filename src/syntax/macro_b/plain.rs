@@ -97,6 +97,8 @@ impl Take for Row {
 pub struct NeedsCheck(pub bool);
 
 impl Take for NeedsCheck {
+    const NUMBERS: bool = false;
+
     fn word(&mut self, word: Scanned) {
         self.0 |= word.can_be_wrong();
     }

@@ -9,6 +9,8 @@ use crate::text::Span;
 
 /// What is done with the parts of a block, in their order. Where the scanner declines, what was taken counts for nothing.
 pub trait Take {
+    /// True where the numbers of words are asked for.
+    const NUMBERS: bool = true;
     /// Blanks.
     fn space(&mut self, _: Span) {}
     /// The letter of a sequence number, and its digits.
@@ -40,7 +42,7 @@ pub struct Scanned {
 
 /// Scans the block at the start of `rest` (up to the end of its line) and says where it
 /// ends; none where anything but plain words stands in it.
-pub fn scan(source: &[u8], rest: Span, take: &mut impl Take) -> Option<u32> {
+pub fn scan<T: Take>(source: &[u8], rest: Span, take: &mut T) -> Option<u32> {
     let line = source.get(..rest.end as usize)?;
     let mut at = rest.start as usize;
     while let Some(&byte) = line.get(at) {
@@ -52,7 +54,11 @@ pub fn scan(source: &[u8], rest: Span, take: &mut impl Take) -> Option<u32> {
                 take.sequence(span(start, start + 1), digits, sequence(digits.of(line))?);
             }
             b'A'..=b'Z' | b'a'..=b'z' if byte | 0x20 != b'o' => {
-                let word = word(line, start, byte)?;
+                let word = match byte {
+                    b'G' | b'g' => word::<true>(line, start, byte)?,
+                    _ if T::NUMBERS => word::<true>(line, start, byte)?,
+                    _ => word::<false>(line, start, byte)?,
+                };
                 at = word.digits.end as usize;
                 take.word(word);
             }
@@ -97,14 +103,16 @@ fn sequence(digits: &[u8]) -> Option<u32> {
     (1..=9).contains(&digits.len()).then(number)
 }
 
-/// A letter, a sign and a number, directly behind one another.
-fn word(line: &[u8], start: usize, letter: u8) -> Option<Scanned> {
+/// A letter, a sign and a number, directly behind one another; the number is worth something with `NUMBERS` only.
+#[inline]
+fn word<const NUMBERS: bool>(line: &[u8], start: usize, letter: u8) -> Option<Scanned> {
     let sign = line.get(start + 1).copied().filter(|byte| matches!(byte, b'-' | b'+'));
     let from = start + 1 + usize::from(sign.is_some());
     let (mut at, mut mantissa, mut point) = (from, 0u64, None);
     while let Some(&byte) = line.get(at) {
         let digit = byte.wrapping_sub(b'0');
         match digit {
+            0..=9 if !NUMBERS => {}
             0..=9 => mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit)),
             _ if byte == b'.' && point.is_none() => point = Some(at as u32),
             _ => break,

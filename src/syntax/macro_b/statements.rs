@@ -93,7 +93,7 @@ impl Builder<'_> {
         let target = self.variable()?;
         self.need(Lex::Equals)?;
         self.pass_space();
-        Ok(ItemKind::Assign { target, value: self.expression()?, by_sign: false })
+        Ok(ItemKind::Assign { target: Box::new(target), value: self.expression()?, by_sign: false })
     }
 
     fn conditional(&mut self, depth: usize) -> Result<ItemKind, SyntaxError> {
@@ -109,7 +109,7 @@ impl Builder<'_> {
         let then = self.take_if(Lex::Then).is_some();
         self.items(&mut body, depth + 1)?;
         body.shrink_to_fit();
-        Ok(ItemKind::If { condition, then, bare, body })
+        Ok(ItemKind::If { condition: Box::new(condition), then, bare, body })
     }
 
     /// Blanks and comments between the parts of a statement; a comment is kept as an item.
