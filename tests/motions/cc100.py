@@ -186,3 +186,15 @@ for slot in range(5):
 board.tool(0)
 board.shift = (0.0, 0.0, 0.0)
 board.rapid(450.0, 600.0, 0.0)
+
+# Polar words (facts/cc100.md 5): G20 names the pole, A is the angle, D the distance; under G91 both count from the tool.
+part = Motion("cc100", "polar", ["tests/motions/programs/cc100/polar.nc"],
+              "Five at 30 degrees from (10, 20), eight above it, eight beside it; then 4 along X and 3 against Y.",
+              start=(100.0, 100.0, 50.0))
+part.rapid(0.0, 0.0, 5.0)
+part.rapid(10 + 5 * cos(30), 20 + 5 * sin(30))
+part.feed(10.0, 28.0, f=1000.0)
+part.feed(2.0, 20.0)
+part.feed(6.0, 20.0)
+part.feed(6.0, 17.0)
+part.feed(1.0, 2.0)

@@ -303,3 +303,14 @@ part.feed(z=-0.25, f=20.0)
 for step in range(1, 300):
     x = 1.5 - 0.01 * step
     part.feed(x, sqrt(1 - x * x / 2.25))
+
+# A tap turns F times a minute and advances Q each turn: 400 * .05 are 20 inches a minute, in and out; the feed of 10
+# from before it is in force behind it.
+part = Motion("fadal", "tap", ["tests/motions/programs/fadal/tap.nc"], "Two tapped holes, 20 inches a minute; back to Z1. each time.",
+              unit=INCH, start=(0.0, 0.0, 50.0), offsets={1: (100.0, 50.0, -200.0)}, profile='units = "inch"')
+part.work(1)
+part.rapid(1.0, 1.0, 1.0)
+part.feed(2.0, f=10.0)
+for x in (3.0, 4.0):
+    part.hole(x, 1.0, r=0.1, bottom=-0.5, back=1.0, f=20.0, out="feed")
+part.feed(5.0, f=10.0)

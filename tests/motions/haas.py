@@ -169,3 +169,12 @@ part.rapid(0.0, 0.0, 0.0)
 part.arc(10.0, None, (0.0, 10.0), -1, z=-10.0, f=200.0, plane=(2, 0))
 part.arc(None, 10.0, (0.0, 0.0), +1, z=0.0, plane=(1, 2))
 part.arc(0.0, 0.0, (0.0, 10.0), +1, z=5.0)
+
+part = Milled("tap", "Two tapped holes at 500 * 1.25 = 625 mm a minute, in and out; G99 stays at R2., G98 goes back to Z20. That feed stays.",
+              metric=True)
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(z=20.0)
+part.hole(10.0, 0.0, r=2.0, bottom=-12.0, f=625.0, out="feed")
+part.hole(20.0, 0.0, r=2.0, bottom=-12.0, back=20.0, out="feed")
+part.feed(30.0)
