@@ -2,7 +2,8 @@
 //!
 //! Law: under open modal calls, a block that moves an axis and then calls the innermost one does what they make of it;
 //! inside that macro the ones outside it are open, so the macro is copied with their calls behind its own moves. The
-//! arguments are those of the block that opens it, so computed ones are kept in temporaries. A word whose value is
+//! arguments are those of the block that opens it, so those that are numbers are kept in temporaries, and one that may be
+//! vacant is a condition. A word whose value is
 //! vacant is not there: where that may be so of all axes, the call stands under the condition that one is. Side
 //! conditions: it is known at each move which modal calls are open; a callee that opens a level finds its locals
 //! anew each time, which is the same only while it reads none that an earlier run of it wrote.
@@ -51,9 +52,19 @@ fn is_modal(program: &Program) -> bool {
     stmts.any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff))
 }
 
+/// True for a value that a temporary can keep: those are never vacant.
+fn is_held(value: &Expr) -> bool {
+    value.constant().is_none() && !value.may_be_vacant()
+}
+
+/// True for a value that other moves may find changed.
+fn may_change(value: &Expr) -> bool {
+    !matches!(value, Expr::Vacant | Expr::Var(Var { class: Class::Temp, .. })) && value.constant().is_none()
+}
+
 /// Computes the arguments of modal calls where those are opened.
 fn hold_arguments(program: &mut Program) {
-    let computed = |call: &Call| call.arguments.iter().any(|argument| argument.value.constant().is_none());
+    let computed = |call: &Call| call.arguments.iter().any(|argument| is_held(&argument.value));
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
     if !stmts.any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call))) {
         return;
@@ -63,7 +74,7 @@ fn hold_arguments(program: &mut Program) {
         if let Part::Stmt(stmt) = &mut part
             && let StmtKind::ModalCall(call) = &mut stmt.kind
         {
-            for argument in call.arguments.iter_mut().filter(|a| a.value.constant().is_none()) {
+            for argument in call.arguments.iter_mut().filter(|a| is_held(&a.value)) {
                 temp += 1;
                 let var = Var { class: Class::Temp, number: temp };
                 let value = std::mem::replace(&mut argument.value, Expr::Var(var));
@@ -155,6 +166,10 @@ impl Expansion {
                 let site = stmt.site.clone();
                 match &stmt.kind {
                     StmtKind::ModalCall(call) if !self.native => {
+                        if call.level && call.arguments.iter().any(|a| may_change(&a.value)) {
+                            let why = "each move calls the macro anew: its arguments are computed and set again each time";
+                            context.add(index, Diagnostic::new(Code::Conditional, site.span, why));
+                        }
                         if let Some(local) = self.carries(call) {
                             let why = format!(
                                 "each move would call the macro anew, and it reads local variable {local} as an earlier run of it left it"

@@ -71,7 +71,11 @@ impl Programmed {
             StmtKind::ClearAll(class) => drop(written.classes.insert(*class)),
             StmtKind::Nc(nc) => {
                 written.join(summaries.by_nc(nc));
-                if !nc.ops().all(keeps_coordinates)
+                // A rotation takes the tool along only where it runs the cycle in force.
+                let cycle = modal.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff);
+                let turned = nc.has(Op::RotateOff) || (nc.has(Op::RotateOn) && !cycle);
+                if turned
+                    || !nc.ops().all(keeps_coordinates)
                     || modal.calls.as_ref().is_none_or(|calls| !calls.is_empty())
                 {
                     *self = NOWHERE;

@@ -96,6 +96,12 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
         Some(Op::ShiftCancel) => {
             let first_word = nc.items.iter().position(|item| matches!(item, NcItem::Word(..)));
             nc.items.insert(at.or(first_word).unwrap_or(0), NcItem::Op(Op::MachineOnce));
+            if state.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff) {
+                return Some((
+                    Code::NoEquivalent,
+                    "a drilling cycle with all zero shifts cancelled: the target's machine coordinates are for a move alone",
+                ));
+            }
             match (state.op(Group::Motion), state.op(Group::Distance)) {
                 (Some(Op::Rapid), Some(Op::Absolute)) => match state.op(Group::LengthComp) {
                     _ if nc.word(Role::Z).is_none() => None,
