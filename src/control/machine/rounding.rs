@@ -95,7 +95,7 @@ impl Machine {
         // A rotation puts the far end of a move off farther than its start.
         let words = command.words.iter().filter(|(role, _)| axis(*role).is_some());
         let far = words.map(|(_, value)| value.abs() * self.unit()).fold(0.0, f64::max);
-        let far = if incremental { reach + far } else { reach.max(far) };
+        let far = if incremental { self.reach() + far } else { far };
         trace.rounded = before.max(self.off_within(far)) + centre;
     }
 
@@ -140,11 +140,17 @@ impl Machine {
 
     /// How far the machine may be off in any axis.
     pub(super) fn off_by(&self) -> f64 {
-        self.off_within(self.position.iter().fold(0.0f64, |a, b| a.max(b.abs())))
+        self.off_within(0.0)
     }
 
-    /// How far it may be off within some distance of the origin, millimetres.
-    fn off_within(&self, reach: f64) -> f64 {
+    /// How far the machine stands from the zero of the program, along the axis where that is most, millimetres.
+    fn reach(&self) -> f64 {
+        let along = |axis: usize| (self.position[axis] - self.frame.shift(axis)).abs();
+        (0..3).map(along).fold(0.0, f64::max)
+    }
+
+    /// How far it may be off on a move that goes as `far` from the zero of the program, millimetres.
+    fn off_within(&self, far: f64) -> f64 {
         let Rounding { axes, frame, turn, .. } = &self.rounding;
         let mut off = axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
         if off > 0.0 && self.frame.is_shaped() {
@@ -154,7 +160,10 @@ impl Machine {
             off *= scale * std::f64::consts::SQRT_2;
         }
         if *turn > 0.0 {
-            off += turn.to_radians() * reach * std::f64::consts::SQRT_2;
+            let centre = self.frame.rotation.as_ref().map_or(0.0, |r| r.centre.0.abs().max(r.centre.1.abs()));
+            // An axis that no word names is turned back by the angle first, and then turned again.
+            let both = self.reach() + far.max(self.reach()) + 2.0 * centre;
+            off += turn.to_radians() * both * std::f64::consts::SQRT_2;
         }
         off + frame.iter().sum::<f64>()
     }

@@ -151,6 +151,10 @@ fn the_far_end_of_a_turned_move_is_off_by_what_the_angle_rounds() {
     };
     assert_eq!(across("200.").witness, None);
     assert_eq!(across("200.01").outcome, Outcome::Different);
+    // An axis that no word names: where it stands in turned coordinates hangs on the angle too.
+    let source = "O1\n#R9=COS(1)\nG90 G68 X0 Y0 R+R9\nG1 X-100. F100.\nG69\nM2\n";
+    let target = "O1\n#509=COS[1]\nG90G68X0.Y0.R#509\nG1X-100.F100.\nG69\nM2\n";
+    assert_eq!(run("fadal", source, "fanuc", target, &[("R9", 509)]).witness, None);
 }
 
 /// A place that is read back can be said again: 0.127 mm are 0.005 inch, a whole number of increments in both.
