@@ -2,6 +2,7 @@
 
 use super::{Bank, Place, Var};
 use crate::canon::{Func, Sys};
+use thin_vec::ThinVec;
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,13 +20,13 @@ pub enum Expr {
     /// What the variable with a computed number holds.
     Indirect(Bank, Box<Expr>),
     /// State of the machine, with its subscripts.
-    System(Sys, Vec<Expr>),
+    System(Sys, ThinVec<Expr>),
     /// `-a`.
     Negate(Box<Expr>),
     /// `a op b`.
     Binary(BinOp, Box<Expr>, Box<Expr>),
     /// A function.
-    Call(Func, Vec<Expr>),
+    Call(Func, ThinVec<Expr>),
     /// 1 where the condition holds, else 0.
     Truth(Box<Cond>),
 }

@@ -4,6 +4,7 @@ use super::{BlockId, Cond, Expr};
 use crate::canon::{Op, Role, Sys};
 use crate::syntax::ProgramName;
 use crate::text::Span;
+use smallvec::{SmallVec, smallvec};
 use thin_vec::ThinVec;
 
 /// A class of variables: who can see them and how long they last.
@@ -76,7 +77,7 @@ pub enum Place {
     /// The variable with a computed number.
     Indirect(Bank, Box<Expr>),
     /// State of the machine.
-    System(Sys, Vec<Expr>),
+    System(Sys, ThinVec<Expr>),
 }
 
 impl Place {
@@ -325,13 +326,13 @@ pub enum Callee {
 
 impl TermKind {
     /// The blocks that the terminator can go on at, callees aside.
-    pub fn successors(&self) -> Vec<BlockId> {
+    pub fn successors(&self) -> SmallVec<[BlockId; 2]> {
         match self {
-            TermKind::Jump(to) | TermKind::Call { next: to, .. } => vec![*to],
-            TermKind::Branch { yes, no, .. } => vec![*yes, *no],
+            TermKind::Jump(to) | TermKind::Call { next: to, .. } => smallvec![*to],
+            TermKind::Branch { yes, no, .. } => smallvec![*yes, *no],
             TermKind::Computed { targets, .. } => targets.iter().map(|(_, to)| *to).collect(),
             TermKind::Return { .. } | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {
-                Vec::new()
+                SmallVec::new()
             }
         }
     }

@@ -335,7 +335,7 @@ fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
                 Expr::Binary(BinOp::Add, zero, count) if *zero == Expr::Number(0.0) => *count,
                 count => count,
             };
-            Place::System(state, vec![count])
+            Place::System(state, [count].into())
         }
         _ => Place::Indirect(Bank::Numbered, Box::new(number)),
     };

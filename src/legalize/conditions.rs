@@ -184,7 +184,7 @@ fn can_alarm(e: &Expr) -> bool {
             // Their operands must fit a word.
             Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, ..) => true,
             Expr::Call(Func::Sin | Func::Cos, _) => false,
-            Expr::Call(function, _) => Expr::Call(*function, vec![Expr::Vacant]).may_alarm(),
+            Expr::Call(function, _) => Expr::Call(*function, [Expr::Vacant].into()).may_alarm(),
             Expr::Indirect(..) => true,
             _ => false,
         };

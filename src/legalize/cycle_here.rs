@@ -113,7 +113,7 @@ fn across(plane: Option<Op>) -> [(Role, f64); 2] {
 fn place(nc: &mut Nc, across: [(Role, f64); 2], distance: Option<Op>) -> Result<(), &'static str> {
     let words = match distance {
         Some(Op::Absolute) => across.map(|(role, axis)| {
-            NcItem::Word(role, Expr::System(Sys::WorkPosition, vec![Expr::Number(axis)]))
+            NcItem::Word(role, Expr::System(Sys::WorkPosition, [Expr::Number(axis)].into()))
         }),
         Some(Op::Incremental) => across.map(|(role, _)| NcItem::Word(role, Expr::Number(0.0))),
         _ => return Err("a cycle is run where the tool stands, and absolute or incremental is not known"),

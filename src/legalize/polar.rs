@@ -78,7 +78,7 @@ fn rectangular(nc: &mut Nc, distance: Option<Op>) -> Result<(), &'static str> {
         _ => return Err("a polar move where absolute or incremental is not known"),
     };
     let part = |function: Func, pole: Var| {
-        let turned = Expr::Call(function, vec![angle.clone()]);
+        let turned = Expr::Call(function, [angle.clone()].into());
         let part = Expr::Binary(BinOp::Mul, Box::new(length.clone()), Box::new(turned));
         if absolute { Expr::Binary(BinOp::Add, Box::new(Expr::Var(pole)), Box::new(part)) } else { part }
     };

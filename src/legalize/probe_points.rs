@@ -17,6 +17,7 @@ use crate::ir::{
 };
 use crate::text::Span;
 use std::collections::BTreeSet;
+use thin_vec::ThinVec;
 
 /// An axis and the number of a point.
 type Cell = (u32, u32);
@@ -93,7 +94,7 @@ fn read(module: &Module, points: &[u32]) -> BTreeSet<Cell> {
     cells
 }
 
-fn look_up(subscripts: Vec<Expr>, points: &[u32], rewriter: &mut Rewriter<'_>) -> Expr {
+fn look_up(subscripts: ThinVec<Expr>, points: &[u32], rewriter: &mut Rewriter<'_>) -> Expr {
     let [axis, point] = subscripts.as_slice() else { return Expr::System(Sys::ProbePoint, subscripts) };
     match (whole(axis), whole(point)) {
         (Some(axis), Some(point)) => Expr::Var(cell((axis, point))),
@@ -156,7 +157,7 @@ fn keep(program: &mut Program, cells: &BTreeSet<Cell>, summaries: &Summaries) ->
                 out.push(Stmt { kind: StmtKind::Sync, site: Site { span, ..site.clone() } });
             }
             for (axis, of) in own {
-                let value = Expr::System(Sys::SkipPosition, vec![Expr::Number(f64::from(axis))]);
+                let value = Expr::System(Sys::SkipPosition, [Expr::Number(f64::from(axis))].into());
                 let kind = StmtKind::Assign { target: Place::Var(cell((axis, of))), value };
                 out.push(Stmt { kind, site: site.clone() });
             }

@@ -12,6 +12,7 @@ use crate::ir::{BinOp, Callee, Expr, Module, Nc, NcItem, Place, Site, Stmt, Stmt
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
+use thin_vec::ThinVec;
 
 /// States that the target may hold in each other's stead, and by what the first is multiplied to give the second.
 const SCALED: &[(Sys, Sys, f64)] = &[
@@ -154,7 +155,7 @@ fn note(state: Sys, row: &crate::dialect::SystemVariable, span: Span, found: &mu
 
 fn read(
     state: Sys,
-    subscripts: Vec<Expr>,
+    subscripts: ThinVec<Expr>,
     (source, target): (&Control, &Control),
     span: Span,
     found: &mut Vec<(Span, Finding)>,
@@ -177,11 +178,11 @@ fn read(
     }
     match state {
         Sys::ModalMotionPlus1 if held(Sys::Modal, &[Expr::Number(1.0)], target).is_some() => {
-            binary(BinOp::Add, Expr::System(Sys::Modal, vec![Expr::Number(1.0)]), 1.0)
+            binary(BinOp::Add, Expr::System(Sys::Modal, [Expr::Number(1.0)].into()), 1.0)
         }
         Sys::ActiveTool if held(Sys::Address, &[Expr::Number(ADDRESS_T)], target).is_some() => {
             found.push((span, Finding::LastTool));
-            Expr::System(Sys::Address, vec![Expr::Number(ADDRESS_T)])
+            Expr::System(Sys::Address, [Expr::Number(ADDRESS_T)].into())
         }
         Sys::Pi => Expr::Number(std::f64::consts::PI),
         Sys::Euler => Expr::Number(std::f64::consts::E),
@@ -332,7 +333,7 @@ fn start_timer(module: &mut Module, timed: &BTreeSet<usize>, context: &mut Conte
             && let Some(block) = program.blocks.first_mut()
         {
             let kind = StmtKind::Assign {
-                target: Place::System(Sys::TimerMs, Vec::new()),
+                target: Place::System(Sys::TimerMs, ThinVec::new()),
                 value: Expr::Number(0.0),
             };
             block.stmts.insert(0, Stmt { kind, site: Site::default() });

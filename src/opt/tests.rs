@@ -27,12 +27,12 @@ fn folding_keeps_every_value() {
     let ops = [BinOp::Add, BinOp::Sub, BinOp::Mul, BinOp::Div, BinOp::Mod, BinOp::And, BinOp::Or, BinOp::Xor];
     for a in operands() {
         folds_alike(Expr::Negate(Box::new(a.clone())));
-        Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, vec![a.clone()])));
+        Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, [a.clone()].into())));
         for b in operands() {
             for op in ops {
                 folds_alike(Expr::Binary(op, Box::new(a.clone()), Box::new(b.clone())));
             }
-            Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, vec![a.clone(), b.clone()])));
+            Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, [a.clone(), b.clone()].into())));
             let cond = Cond::Compare(Relation::Equal, a.clone(), b.clone());
             folds_alike(Expr::Truth(Box::new(cond)));
         }

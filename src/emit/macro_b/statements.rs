@@ -6,6 +6,7 @@ use super::remarks::{is_writable, write_remark};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::Code;
 use crate::ir::{Block, Expr, Nc, NcItem, OutputPart, Place, Site, Stmt, StmtKind, TermKind, Var};
+use thin_vec::ThinVec;
 
 impl<'p> Emitter<'p> {
     /// Writes a statement on a line of its own.
@@ -95,7 +96,7 @@ impl<'p> Emitter<'p> {
     /// `#3000=1 (TEXT)`.
     fn message(&mut self, site: &'p Site, state: Sys, number: &Expr, text: &str) {
         self.begin(site, Kind::Alone, Some(text));
-        self.assign(&Place::System(state, Vec::new()), number);
+        self.assign(&Place::System(state, ThinVec::new()), number);
         let text = text.trim();
         let most = self
             .control

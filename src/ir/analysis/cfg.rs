@@ -2,12 +2,16 @@
 
 use crate::ir::{Block, BlockId, Callee, Module, Program, StmtKind, TermKind};
 use crate::syntax::Label;
+use smallvec::{SmallVec, smallvec};
+
+/// Most blocks have one way or two.
+type Ways = SmallVec<[BlockId; 2]>;
 
 /// Successors, predecessors and a reverse postorder.
 #[derive(Clone, Debug, Default)]
 pub struct Cfg {
-    succs: Vec<Vec<BlockId>>,
-    preds: Vec<Vec<BlockId>>,
+    succs: Vec<Ways>,
+    preds: Vec<Ways>,
     roots: Vec<BlockId>,
     order: Vec<BlockId>,
     place: Vec<Option<u32>>,
@@ -32,8 +36,8 @@ impl Cfg {
     pub fn whole(program: &Program, come_back: bool) -> Self {
         let count = program.blocks.len() as u32;
         let (returned, label) = (BlockId(count), BlockId(count + 1));
-        let mut behind = vec![BlockId(0)];
-        let mut succs: Vec<Vec<BlockId>> = Vec::with_capacity(program.blocks.len() + 2);
+        let mut behind: Ways = smallvec![BlockId(0)];
+        let mut succs: Vec<Ways> = Vec::with_capacity(program.blocks.len() + 2);
         for block in &program.blocks {
             succs.push(match &block.term.kind {
                 TermKind::Call { call, next } => match &call.callee {
@@ -42,13 +46,17 @@ impl Cfg {
                         // One that runs again begins where it returned.
                         behind.extend(call.count.is_some().then_some(*entry));
                         // One that runs no times, and the locals of a level, pass the body by.
-                        if call.count.is_some() || call.level { vec![*entry, *next] } else { vec![*entry] }
+                        if call.count.is_some() || call.level {
+                            smallvec![*entry, *next]
+                        } else {
+                            smallvec![*entry]
+                        }
                     }
-                    _ if come_back => vec![*next, label],
-                    _ => vec![*next],
+                    _ if come_back => smallvec![*next, label],
+                    _ => smallvec![*next],
                 },
-                TermKind::Return { to: None } => vec![returned],
-                TermKind::Return { to: Some(_) } => vec![returned, label],
+                TermKind::Return { to: None } => smallvec![returned],
+                TermKind::Return { to: Some(_) } => smallvec![returned, label],
                 kind => kind.successors(),
             });
         }
@@ -57,9 +65,9 @@ impl Cfg {
         Self::new(succs, program)
     }
 
-    fn new(mut succs: Vec<Vec<BlockId>>, program: &Program) -> Self {
+    fn new(mut succs: Vec<Ways>, program: &Program) -> Self {
         let count = succs.len();
-        let mut preds = vec![Vec::new(); count];
+        let mut preds = vec![Ways::new(); count];
         for (from, targets) in succs.iter_mut().enumerate() {
             targets.sort_unstable();
             targets.dedup();
@@ -101,12 +109,12 @@ impl Cfg {
 
     /// Where control can go from a block, each once, in the order of ids.
     pub fn succs(&self, id: BlockId) -> &[BlockId] {
-        self.succs.get(id.index()).map_or(&[], Vec::as_slice)
+        self.succs.get(id.index()).map_or(&[], Ways::as_slice)
     }
 
     /// Where control can come from.
     pub fn preds(&self, id: BlockId) -> &[BlockId] {
-        self.preds.get(id.index()).map_or(&[], Vec::as_slice)
+        self.preds.get(id.index()).map_or(&[], Ways::as_slice)
     }
 
     /// Where control enters: the entry first, then the blocks that calls enter.

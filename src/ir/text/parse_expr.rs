@@ -76,7 +76,7 @@ impl Parser<'_> {
             }
             _ => {
                 let function = Func::find(word).ok_or_else(|| self.unexpected_before("an expression"))?;
-                Ok(Expr::Call(function, self.list("(", ")", Self::expr)?))
+                Ok(Expr::Call(function, self.list("(", ")", Self::expr)?.into()))
             }
         }
     }
@@ -106,7 +106,7 @@ impl Parser<'_> {
                     Tok::Mark("[") => self.list("[", "]", Self::expr)?,
                     _ => Vec::new(),
                 };
-                return Ok(Some(Place::System(state, subscripts)));
+                return Ok(Some(Place::System(state, subscripts.into())));
             }
             Tok::Word(word) => {
                 let found = variable(word);

@@ -132,8 +132,8 @@ fn exprs() -> impl Strategy<Value = Expr> {
                 Box::new(a),
                 Box::new(b)
             )),
-            (prop::sample::select(Func::ALL), list.clone()).prop_map(|(f, a)| Expr::Call(f, a)),
-            (prop::sample::select(Sys::ALL), list).prop_map(|(s, a)| Expr::System(s, a)),
+            (prop::sample::select(Func::ALL), list.clone()).prop_map(|(f, a)| Expr::Call(f, a.into())),
+            (prop::sample::select(Sys::ALL), list).prop_map(|(s, a)| Expr::System(s, a.into())),
             (banks.clone(), inner.clone()).prop_map(|(b, a)| Expr::Indirect(b, Box::new(a))),
             (cond, 0..4).prop_map(|(cond, shape)| Expr::Truth(Box::new(match shape {
                 0 => cond,

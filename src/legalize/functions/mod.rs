@@ -15,6 +15,7 @@ use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{BinOp, Expr, Module};
+use thin_vec::ThinVec;
 
 /// What became of a function.
 enum Emulated {
@@ -66,7 +67,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 fn call(
     function: Func,
-    mut arguments: Vec<Expr>,
+    mut arguments: ThinVec<Expr>,
     position: Position,
     rewriter: &mut Rewriter<'_>,
     source: &Control,
@@ -82,7 +83,7 @@ fn call(
         (Func::RoundIncrement, None)
             if target.behaviour("round.in.address").is_some_and(|b| b.value == "increment") =>
         {
-            Emulated::Exact(Expr::Call(function, vec![first]))
+            Emulated::Exact(Expr::Call(function, [first].into()))
         }
         (Func::Atan, Some(second)) => trigonometry::atan2(first, second, rewriter, source, target),
         (Func::Asin | Func::Acos, None) => trigonometry::inverse(function, first, rewriter, source, target),
@@ -120,7 +121,7 @@ fn binary(op: BinOp, a: Expr, b: Expr) -> Expr {
 
 /// The function of one argument.
 fn apply(function: Func, a: Expr) -> Expr {
-    Expr::Call(function, vec![a])
+    Expr::Call(function, [a].into())
 }
 
 /// A constant.

@@ -75,7 +75,7 @@ pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, ta
         |control: &Control| control.behaviour("atan2.range").map(|b| b.value.clone()).unwrap_or_default();
     let wanted = range(source);
     if target.function(Func::Atan, 2).is_some() && wanted == range(target) && wanted.contains("..") {
-        return Emulated::Exact(Expr::Call(Func::Atan, vec![y, x]));
+        return Emulated::Exact(Expr::Call(Func::Atan, [y, x].into()));
     }
     if target.function(Func::Atan, 1).is_none() {
         return super::missing(Func::Atan.name(), target);

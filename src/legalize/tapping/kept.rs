@@ -122,7 +122,7 @@ impl Kept {
 
     /// The statement that reads the feed into a register before another one.
     pub fn reading(register: Var, stmt: &Stmt) -> Stmt {
-        let read = Expr::System(Sys::Address, vec![Expr::Number(f64::from(ADDRESS_F))]);
+        let read = Expr::System(Sys::Address, [Expr::Number(f64::from(ADDRESS_F))].into());
         let kind = StmtKind::Assign { target: Place::Var(register), value: read };
         Stmt { kind, site: Site { span: stmt.site.span, ..Site::default() } }
     }

@@ -99,7 +99,7 @@ impl Lowering<'_> {
             }
             ItemKind::Step { target, down } => {
                 if let Some(target) = self.variable(target) {
-                    let whole = Expr::Call(Func::Fix, vec![Expr::Var(target)]);
+                    let whole = Expr::Call(Func::Fix, [Expr::Var(target)].into());
                     let op = if *down { BinOp::Sub } else { BinOp::Add };
                     let value = Expr::Binary(op, Box::new(whole), Box::new(Expr::Number(1.0)));
                     self.assign(target, value, site);

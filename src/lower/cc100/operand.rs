@@ -8,6 +8,7 @@ use crate::ir::{Class, Expr, Nc, NcItem, Var};
 use crate::lower::common::constant;
 use crate::syntax::{Expr as Written, ExprKind, Index, Item, ItemKind, Word};
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 impl Lowering<'_> {
     /// The value of a word in its role.
@@ -120,7 +121,7 @@ impl Lowering<'_> {
         let compensates = nc.has(Op::RadiusLeft) || nc.has(Op::RadiusRight);
         if compensates && nc.word(Role::RadiusOffset).is_none() {
             if self.findings.is("radius.offset.active.tool", span) {
-                let tool = Expr::System(Sys::ActiveTool, Vec::new());
+                let tool = Expr::System(Sys::ActiveTool, ThinVec::new());
                 nc.items.push(NcItem::Word(Role::RadiusOffset, tool));
             } else {
                 self.findings.not_understood(span, "no source says whose radius is taken here");

@@ -6,6 +6,7 @@ use crate::dialect::Units;
 use crate::ir::{BinOp, Cond, Expr, Place, Relation, Site, StmtKind};
 use crate::syntax::{Cell, Row, Table, VarRef};
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 /// The row of a table that a transfer reaches.
 enum Store {
@@ -91,7 +92,7 @@ impl Lowering<'_> {
         if let (Store::Tool(number) | Store::Shift(number), Some(first)) = (store, subscripts.first_mut()) {
             *first = number.clone();
         }
-        Some(Place::System(state, subscripts))
+        Some(Place::System(state, subscripts.into()))
     }
 
     /// Lowers `TIM V1`.
@@ -101,7 +102,7 @@ impl Lowering<'_> {
             return self.findings.not_understood(site.span, "this control has no timer that can be read");
         };
         self.findings.rest_on(row, site.span);
-        self.assign(target, Expr::System(state, Vec::new()), site);
+        self.assign(target, Expr::System(state, ThinVec::new()), site);
         let source = self.load;
         self.set_register(source, Expr::Var(target), site);
     }
@@ -119,7 +120,7 @@ impl Lowering<'_> {
             return None;
         };
         self.findings.rest_on(row, span);
-        let active = Expr::System(Sys::Modal, vec![Expr::Number(f64::from(group))]);
+        let active = Expr::System(Sys::Modal, [Expr::Number(f64::from(group))].into());
         let differs = Cond::Compare(Relation::NotEqual, active, Expr::Number(f64::from(number)));
         Some(Expr::Truth(Box::new(differs)))
     }

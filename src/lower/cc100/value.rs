@@ -6,6 +6,7 @@ use crate::canon::Func;
 use crate::ir::{BinOp, Class, Expr, Var};
 use crate::lower::common::constant;
 use crate::syntax::{BinaryOp, Expr as Written, ExprKind, Index, VarRef};
+use thin_vec::ThinVec;
 
 impl Lowering<'_> {
     /// The variable that is written. Letters count from 101: VA.
@@ -67,7 +68,7 @@ impl Lowering<'_> {
                     let why = "no source says which of the angles of a tangent it yields";
                     self.findings.unconfirmed("behaviour:atan.range".into(), Some(why), written.span);
                 }
-                let arguments: Option<Vec<Expr>> = arguments.iter().map(|a| self.operand(a)).collect();
+                let arguments: Option<ThinVec<Expr>> = arguments.iter().map(|a| self.operand(a)).collect();
                 Some((Expr::Call(*function, arguments?), self.load))
             }
             _ => self.unknown(written, "an assignment has one operation on this control"),

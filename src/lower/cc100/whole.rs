@@ -53,7 +53,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
             let span = stmt.site.span;
             if let StmtKind::Assign { target: Place::Var(var), value: Expr::Binary(_, counted, _) } =
                 &mut stmt.kind
-                && **counted == Expr::Call(Func::Fix, vec![Expr::Var(*var)])
+                && **counted == Expr::Call(Func::Fix, [Expr::Var(*var)].into())
             {
                 if known & bit(*var) != 0 {
                     **counted = Expr::Var(*var);

@@ -7,6 +7,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, Expr};
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 /// How deep expressions may nest.
 const DEEPEST: u32 = 200;
@@ -43,7 +44,7 @@ impl<'b> Lowering<'b> {
                 Expr::Binary(op, Box::new(a), Box::new(b))
             }
             ExprKind::Call { function, arguments, .. } => {
-                let mut values = Vec::with_capacity(arguments.len());
+                let mut values = ThinVec::with_capacity(arguments.len());
                 for argument in arguments {
                     values.push(self.nested(argument, depth + 1)?);
                 }
@@ -52,7 +53,7 @@ impl<'b> Lowering<'b> {
         })
     }
 
-    fn function(&mut self, function: Func, mut values: Vec<Expr>, span: Span) -> Option<Expr> {
+    fn function(&mut self, function: Func, mut values: ThinVec<Expr>, span: Span) -> Option<Expr> {
         let Some(row) = self.control.function(function, values.len()) else {
             return self.refuse(
                 span,
@@ -65,7 +66,7 @@ impl<'b> Lowering<'b> {
                 let radians = self.radians(span)?;
                 let value = values.pop()?;
                 let angle = if radians { scale(value, 1f64.to_degrees()) } else { value };
-                Some(Expr::Call(function, vec![angle]))
+                Some(Expr::Call(function, [angle].into()))
             }
             Func::Atan => {
                 let radians = self.radians(span)?;

@@ -117,7 +117,7 @@ impl<'b> Lowering<'b> {
         let mut subscripts = constant(&first.fixed);
         subscripts.push(subscript);
         subscripts.extend(constant(&first.after));
-        Some(Place::System(first.state, subscripts))
+        Some(Place::System(first.state, subscripts.into()))
     }
 
     fn subscript(&mut self, index: &crate::syntax::Expr) -> Option<Expr> {

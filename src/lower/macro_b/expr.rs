@@ -139,7 +139,7 @@ impl<'a> Lowering<'a> {
         let cut = |e: Expr| match e.constant() {
             Some(value) => Expr::Number(value.trunc()),
             None if e.is_whole() => e,
-            None => Expr::Call(Func::Fix, vec![e]),
+            None => Expr::Call(Func::Fix, [e].into()),
         };
         if wide(op, &a, &b) && self.findings.behaviour("bits.width", span).is_none() {
             self.unknown_behaviour("bits.width", span);

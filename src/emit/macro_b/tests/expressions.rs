@@ -80,7 +80,7 @@ fn a_comparison_is_a_value_where_the_control_says_so() {
 
 #[test]
 fn state_stands_at_the_number_of_its_subscripts() {
-    let state = |sys, subscripts: &[Expr]| Expr::System(sys, subscripts.to_vec());
+    let state = |sys, subscripts: &[Expr]| Expr::System(sys, subscripts.into());
     for (expr, text) in [
         (state(Sys::WorkPosition, &[n(1.0)]), "#5041"),
         (state(Sys::EndPosition, &[n(2.0)]), "#5002"),

@@ -119,7 +119,7 @@ fn neg(a: Expr) -> Expr {
     Expr::Negate(Box::new(a))
 }
 
-fn call(function: Func, arguments: impl Into<Vec<Expr>>) -> Expr {
+fn call(function: Func, arguments: impl Into<thin_vec::ThinVec<Expr>>) -> Expr {
     Expr::Call(function, arguments.into())
 }
 

@@ -8,7 +8,7 @@ fn alarm(number: f64, text: &str) -> StmtKind {
 #[test]
 fn statements_have_the_syntax_of_the_manuals() {
     let write = |state, subscripts: &[Expr], value| StmtKind::Assign {
-        target: Place::System(state, subscripts.to_vec()),
+        target: Place::System(state, subscripts.into()),
         value,
     };
     let target = Place::Indirect(Bank::Numbered, Box::new(add(v(1), n(100.0))));
@@ -45,7 +45,7 @@ fn statements_have_the_syntax_of_the_manuals() {
 
 #[test]
 fn what_the_target_cannot_do_is_refused() {
-    let read_only = Place::System(Sys::WorkPosition, vec![n(1.0)]);
+    let read_only = Place::System(Sys::WorkPosition, [n(1.0)].into());
     for kind in [
         StmtKind::Sync,
         StmtKind::LimitLookahead(n(1.0)),
