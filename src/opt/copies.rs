@@ -69,6 +69,20 @@ impl Known<'_> {
     }
 
     fn step(&mut self, stmt: &Stmt, summaries: &Summaries) {
+        self.forget(stmt, summaries);
+        if stmt.site.skip.is_none()
+            && let StmtKind::Assign { target: Place::Var(copy), value } = &stmt.kind
+            && self.is_copy(stmt, *copy, value)
+        {
+            self.sources.insert(*copy, value.clone());
+        }
+    }
+
+    /// Forgets what a statement may change.
+    fn forget(&mut self, stmt: &Stmt, summaries: &Summaries) {
+        if self.sources.is_empty() {
+            return;
+        }
         let mut written = Vars::default();
         stmt.kind.target().iter().for_each(|place| written.write(place));
         match &stmt.kind {
@@ -84,12 +98,6 @@ impl Known<'_> {
             let stale = matches!(source, Expr::Var(var) if written.contains(*var));
             !written.contains(*copy) && !stale
         });
-        if stmt.site.skip.is_none()
-            && let StmtKind::Assign { target: Place::Var(copy), value } = &stmt.kind
-            && self.is_copy(stmt, *copy, value)
-        {
-            self.sources.insert(*copy, value.clone());
-        }
     }
 
     fn is_copy(&self, stmt: &Stmt, copy: Var, value: &Expr) -> bool {

@@ -48,6 +48,7 @@ impl<'p> Vacancy<'p> {
         let mut entry = self.universe.all();
         assigned.iter().filter_map(|var| self.universe.place(*var)).for_each(|at| entry.remove(at));
         let mut work = VecDeque::new();
+        let mut waiting = vec![false; cfg.len()];
         for root in cfg.roots() {
             // A body that a modal call enters is entered with anything.
             let called = *root != BlockId(0) && cfg.preds(*root).is_empty();
@@ -58,6 +59,7 @@ impl<'p> Vacancy<'p> {
             }
         }
         while let Some(id) = work.pop_front() {
+            waiting[id.index()] = false;
             let Some(mut row) = self.before.get(id.index()).cloned().flatten() else { continue };
             if let Some(block) = self.program.block(id) {
                 block.stmts.iter().for_each(|stmt| self.stmt(stmt, &mut row));
@@ -65,7 +67,7 @@ impl<'p> Vacancy<'p> {
             for to in cfg.succs(id) {
                 let mut row = row.clone();
                 self.edge(id, *to, &mut row);
-                if self.flow(*to, &row) {
+                if self.flow(*to, &row) && !std::mem::replace(&mut waiting[to.index()], true) {
                     work.push_back(*to);
                 }
             }

@@ -21,7 +21,8 @@ pub struct Tree {
 /// The place where a row of leaves makes no sense, or nests too deep.
 pub fn build(source: &[u8], row: &[Lexeme], rank: fn(BinaryOp) -> u8) -> Result<Tree, SyntaxError> {
     let mut builder = Builder { source, row, rank, at: 0, errors: Vec::new(), operators: 0 };
-    let mut items = Vec::new();
+    // A number and a statement are the most that usual blocks hold.
+    let mut items = Vec::with_capacity(2);
     builder.items(&mut items, 0)?;
     // Files are kept whole: room to spare in each block would be most of what they take.
     items.shrink_to_fit();
