@@ -120,7 +120,14 @@ impl<'m> Analysis<'m> {
                 true
             }
             Some(entry) if Rc::ptr_eq(entry, state) || *entry == *state => false,
-            Some(entry) => Rc::make_mut(entry).join(state),
+            Some(entry) => {
+                let mut joined = Modal::clone(entry);
+                let changed = joined.join(state);
+                if changed {
+                    *entry = if joined == **state { Rc::clone(state) } else { Rc::new(joined) };
+                }
+                changed
+            }
         };
         if changed {
             self.work.insert((program, to));
