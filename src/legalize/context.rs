@@ -59,6 +59,15 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// Adds findings to a program that gets few others: they take no more room than they need.
+    pub fn add_all(&mut self, program: usize, diagnostics: Vec<Diagnostic>) {
+        let origin = self.origins.get(program).copied().unwrap_or(program);
+        if let Some(findings) = self.findings.by_program.get_mut(origin) {
+            findings.reserve_exact(diagnostics.len());
+            findings.extend(diagnostics);
+        }
+    }
+
     /// Adds a finding unless the program has one about the same `fact` already: what
     /// a reviewer must check once is said once.
     pub fn add_once(&mut self, program: usize, fact: &str, diagnostic: Diagnostic) {

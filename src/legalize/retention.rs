@@ -42,8 +42,8 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
     let exposed = Exposed::of(module);
     for index in roots(module) {
         let span = module.programs[index].site.span;
-        for (_, what) in lives.iter().filter(|(var, _)| exposed.is_at_entry(index, *var)) {
-            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.clone()));
-        }
+        let shown = lives.iter().filter(|(var, _)| exposed.is_at_entry(index, *var));
+        let found = shown.map(|(_, what)| Diagnostic::new(Code::OtherRetention, span, what.clone()));
+        context.add_all(index, found.collect());
     }
 }

@@ -266,8 +266,8 @@ fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
     let facts = all.iter().filter(|finding| finding.code == Code::UnconfirmedFact);
     let told: BTreeSet<Arc<str>> = facts.map(|finding| finding.message.clone()).collect();
     let is_told = |d: &Diagnostic| d.code == Code::UnconfirmedFact && told.contains(&d.message);
+    all.reserve_exact(more.len());
     all.extend(more.into_iter().filter(|finding| !is_told(finding)));
-    all.shrink_to_fit();
 }
 
 /// Emits a program, and reads the text back: what the target's own grammar refuses is never written.
