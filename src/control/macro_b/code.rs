@@ -7,6 +7,7 @@ use crate::syntax::BinaryOp;
 use crate::text::Span;
 use std::cell::Cell;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// A program.
 pub struct Program<'c> {
@@ -144,7 +145,7 @@ pub struct System {
 pub struct Words<'c> {
     pub words: Vec<Word>,
     /// What they mean; absent where a code is computed.
-    pub meaning: Option<Meaning<'c>>,
+    pub meaning: Option<Rc<Meaning<'c>>>,
     /// The text that a stop among them shows.
     pub shown: Option<String>,
 }

@@ -27,7 +27,7 @@ impl<'c> Runner<'c> {
             Some(_) => None,
             None => Some(self.meaning_now(&words.words, &there, &values)),
         };
-        let Some(mut meaning) = fresh.as_ref().or(words.meaning.as_ref()) else { return Ok(Next::On) };
+        let Some(mut meaning) = fresh.as_ref().or(words.meaning.as_deref()) else { return Ok(Next::On) };
         let call = self.macro_call(meaning);
         // The words of its own block count in the unit that a code names.
         meaning

@@ -13,6 +13,10 @@ use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
 use crate::text::Span;
 use std::cell::Cell;
 use std::collections::HashMap;
+use std::rc::Rc;
+
+/// Of each word its letter, whether a comma stands before it, and whether its value is written.
+type Shape = Vec<(char, bool, bool)>;
 
 /// Prepares programs of a library.
 pub struct Compiler<'c, 'a> {
@@ -23,6 +27,8 @@ pub struct Compiler<'c, 'a> {
     pub program: u32,
     /// Where the branches of all programs stand.
     pub branches: &'a mut Vec<Place>,
+    /// What words without a code mean, by their letters.
+    pub plain: HashMap<Shape, Option<Rc<Meaning<'c>>>>,
 }
 
 /// What is gathered while a block is read.
@@ -278,6 +284,17 @@ impl<'c> Compiler<'c, '_> {
         self.branches.len() - 1
     }
 
+    /// What words mean. Without a code among them their letters say it, so that the many blocks of plain moves share
+    /// one.
+    fn meaning(&mut self, words: &[Word]) -> Option<Rc<Meaning<'c>>> {
+        if words.iter().any(|word| meaning::is_code(word.letter, word.comma)) {
+            return meaning::fixed(self.control, self.style, words).map(Rc::new);
+        }
+        let shape = words.iter().map(|word| (word.letter, word.comma, word.form.is_literal())).collect();
+        let found = self.plain.entry(shape);
+        found.or_insert_with(|| meaning::fixed(self.control, self.style, words).map(Rc::new)).clone()
+    }
+
     /// Puts the words gathered so far into the steps.
     fn flush(&mut self, gather: &mut Gather<'c>) {
         if gather.words.is_empty() {
@@ -285,10 +302,8 @@ impl<'c> Compiler<'c, '_> {
         }
         let mut words = std::mem::take(&mut gather.words);
         words.shrink_to_fit();
-        let mut meaning = meaning::fixed(self.control, self.style, &words);
-        if let Some(meaning) = &mut meaning {
-            gather.facts.append(&mut meaning.facts);
-        }
+        let meaning = self.meaning(&words);
+        gather.facts.extend(meaning.iter().flat_map(|meaning| meaning.facts.iter().cloned()));
         gather.steps.push(Step::Words(Words { words, meaning, shown: gather.shown.clone() }));
     }
 }

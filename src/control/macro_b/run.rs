@@ -130,7 +130,8 @@ impl<'c> Runner<'c> {
         let code = match (found, file) {
             (Some(found), Some(file)) => {
                 let (control, branches) = (self.session.control, &mut self.branches);
-                Compiler { control, style: self.style, file, program: number, branches }.program(found)
+                let plain = HashMap::new();
+                Compiler { control, style: self.style, file, program: number, branches, plain }.program(found)
             }
             _ => Program::empty(),
         };
