@@ -8,6 +8,7 @@
 //! conditions: it is known at each move which modal calls are open; a callee that opens a level finds its locals
 //! anew each time, which is the same only while it reads none that an earlier run of it wrote.
 //! Counter-example: a macro that counts in `#1`: under the modal call the count goes on.
+//! A drilling cycle that is defined without a position under a modal call is refused: it may be stored or run.
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
 use super::rewrite::{Part, highest_temp, rebuild, unless_skipped};
@@ -181,8 +182,12 @@ impl Expansion {
                     StmtKind::ModalCallOff if !self.native => leave(&mut builder, site),
                     StmtKind::Nc(written) => {
                         let nc = written;
-                        let here =
-                            nc.has(Op::CycleHere) && before.as_ref().is_none_or(|calls| !calls.is_empty());
+                        let open = before.as_ref().is_none_or(|calls| !calls.is_empty());
+                        let here = nc.has(Op::CycleHere) && open;
+                        if open && nc.ops().any(Op::is_cycle) && axes(nc).count() < 2 {
+                            let why = "a drilling cycle is defined without a position under a modal call: no source says whether the macro is called there";
+                            context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, why));
+                        }
                         let runs = here || (nc.moves() && !self.native);
                         let mut nc = nc.clone();
                         if here {

@@ -51,9 +51,16 @@ pub struct Through {
     pub differs: bool,
     /// Programs that call it and have no conversion to run.
     pub absent: BTreeSet<String>,
+    /// True where a run came through it.
+    pub entered: bool,
 }
 
 impl Through {
+    /// True where something calls the program, and no such run could show what it does then.
+    pub fn is_alone(&self) -> bool {
+        !self.differs && self.reached == 0 && (self.entered || !self.absent.is_empty())
+    }
+
     /// Why a difference that shows by itself is none as the library calls the program, in words; none where
     /// nothing says so.
     pub fn excuses(&self) -> Option<String> {
@@ -99,6 +106,7 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
                 }
                 continue;
             }
+            found.entered = true;
             let circumstances = on_target(&scenario, job.names, (job.source, job.target), false);
             let other = (job.target.execute)(&job.target.library, there, job.target.control, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
@@ -146,14 +154,14 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
         else {
             continue;
         };
-        shown.push(((moment.file.clone(), number(&moment.program)), witness.clone()));
+        shown.push(((moment.file.clone(), number(&moment.program)), (witness.clone(), program.run_alone)));
     }
     for certificate in &mut all {
         for program in certificate.programs.iter_mut().filter(|p| p.outcome != Outcome::Different) {
             let here = place(program);
-            if let Some((_, witness)) = shown.iter().find(|(there, _)| *there == here) {
+            if let Some((_, (witness, run_alone))) = shown.iter().find(|(there, _)| *there == here) {
                 program.outcome = Outcome::Different;
-                program.witness = Some(witness.clone());
+                (program.witness, program.run_alone) = (Some(witness.clone()), *run_alone);
             }
         }
         certificate.sum_up();

@@ -61,6 +61,8 @@ pub struct ProgramCertificate {
     pub reasons: Vec<Reason>,
     /// What its callers' runs gave it, which it was run in; empty where they gave nothing, or not all the same.
     pub given: Vec<String>,
+    /// True where it differs by itself, and no run of what calls it could show what it does then.
+    pub run_alone: bool,
     /// Scenarios that the source was tried in.
     pub scenarios_tried: usize,
     /// Scenarios in which both sides were compared.

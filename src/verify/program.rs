@@ -345,9 +345,11 @@ impl<'v, 'j> Verifier<'v, 'j> {
             (None, false) => Outcome::Undecided,
             (None, true) => Outcome::Same,
         };
+        let mut run_alone = false;
         if let Some(witness) = &self.witness {
-            let excuse = through(self.job, self.program, &self.shown, self.tolerance).excuses();
-            if let Some(excuse) = excuse {
+            let through = through(self.job, self.program, &self.shown, self.tolerance);
+            run_alone = through.is_alone();
+            if let Some(excuse) = through.excuses() {
                 let text = format!("by itself it differs ({}), but {excuse}", witness.what);
                 self.because(Why::NotByItself, &text);
                 outcome = Outcome::Undecided;
@@ -367,6 +369,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             outcome,
             reasons: reasons.collect(),
             given: self.given.modes.iter().map(Op::to_string).collect(),
+            run_alone,
             scenarios_tried: self.tried,
             scenarios_compared: self.compared,
             branches_covered,

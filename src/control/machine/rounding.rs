@@ -104,6 +104,11 @@ impl Machine {
         let off = self.most_off(command, |role| axis(role).is_some());
         let angle = command.word(Role::Angle).map_or(0.0, |angle| self.off(command, Role::Angle, angle));
         let there = self.rounding.axes.iter().fold(0.0f64, |most, axis| most.max(*axis));
+        if op == Op::RotateOff && self.rounding.turn > 0.0 {
+            // Where the rotation put the machine, it stays.
+            let turned = self.off_by() - self.rounding.frame.iter().sum::<f64>();
+            self.rounding.axes[..3].iter_mut().for_each(|kept| *kept = kept.max(turned));
+        }
         let [local, set, work, shape] = &mut self.rounding.frame;
         match op {
             Op::LocalShift => *local = off,

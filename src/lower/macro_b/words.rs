@@ -199,6 +199,14 @@ impl<'a> Lowering<'a> {
             let message = format!("{} stands twice in this block; the later one is taken", word.letter);
             self.findings.add(Diagnostic::new(Code::WordTwice, span, message));
         }
+        let other = match role {
+            Role::DwellMs => Some(Role::DwellS),
+            Role::DwellS => Some(Role::DwellMs),
+            _ => None,
+        };
+        if nc.items.iter().any(|item| matches!(item, NcItem::Word(own, _) if Some(*own) == other)) {
+            return self.findings.not_understood(span, "a dwell of two times: no source says which counts");
+        }
         if code.is_none()
             && let Some(op) = self.codes.letter(word.letter, word.comma).and_then(|row| row.op)
         {

@@ -104,6 +104,7 @@ fn callers_that_cannot_be_run_excuse_nothing() {
         let found = programs(("fanuc", &source), ("fanuc", &target), &[]);
         let called = found.iter().find(|program| program.program.as_deref() == Some("O0005")).unwrap();
         assert_eq!(called.outcome, wanted, "{:?}", called.reasons);
+        assert_eq!(called.run_alone, wanted == Different, "{:?}", called.reasons);
         called.reasons.iter().map(|reason| reason.text.as_str()).collect::<String>()
     };
     lost("O7\nG91\nM98P5\nM30\n", Different);

@@ -157,6 +157,18 @@ fn the_far_end_of_a_turned_move_is_off_by_what_the_angle_rounds() {
     assert_eq!(run("fadal", source, "fanuc", target, &[("R9", 509)]).witness, None);
 }
 
+/// A third of a degree is rounded by a 3000th of one: at 2000 mm that is 0.012 mm, also where the rotation has ended.
+#[test]
+fn where_a_rotation_put_the_machine_it_stays() {
+    let source = "O1\nG90 G0 X0 Y0\n#R9=1/3\nG68 X0 Y0 R+R9\nX2000. Y0\nG69\nM2\n";
+    let ends = |angle: &str| {
+        let target = format!("O1\nG90G0X0.Y0.\n#509=1/3\nG68X0.Y0.R{angle}\nX2000.Y0.\nG69\nM2\n");
+        run("fadal", source, "fanuc", &target, &[("R9", 509)])
+    };
+    assert_eq!(ends("#509").witness, None);
+    assert_eq!(ends("0.335").outcome, Outcome::Different);
+}
+
 /// A place that is read back can be said again: 0.127 mm are 0.005 inch, a whole number of increments in both.
 #[test]
 fn the_machine_stands_where_words_of_either_unit_can_say() {

@@ -107,9 +107,14 @@ fn judgement(
     if made.programs.iter().all(|program| program.outcome == library::Outcome::Refused) {
         return Judgement::Refused;
     }
+    let refused = made.programs.iter().any(|program| program.outcome == library::Outcome::Refused);
     let certificates = judge(&inputs, &mut made, source, target, EFFORT);
     let mut found = Judgement::Refused;
     for program in certificates.iter().flatten().flat_map(|certificate| &certificate.programs) {
+        // Run by itself, for its caller is refused: what that gives it is not known, and it is refused too.
+        if program.outcome == Outcome::Different && refused && program.run_alone {
+            continue;
+        }
         if let (Outcome::Different, Some(witness)) = (program.outcome, &program.witness) {
             let what = format!("to {}: differs: {}", target.name(), witness.what);
             let name = program.program.as_deref().unwrap_or("the program");
