@@ -8,12 +8,12 @@
 //! conditions: it is known at each move which modal calls are open; a callee that opens a level finds its locals
 //! anew each time, which is the same only while it reads none that an earlier run of it wrote.
 //! Counter-example: a macro that counts in `#1`: under the modal call the count goes on.
-//! A drilling cycle that is defined without a position under a modal call is refused: it may be stored or run.
+//! A drilling cycle under a modal call is refused: no source says which of the two runs first, or whether both do.
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
 use super::rewrite::{Part, highest_temp, rebuild, unless_skipped};
-use super::{Context, ModalFacts, carried};
-use crate::canon::Op;
+use super::{Context, Modal, ModalFacts, carried};
+use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
@@ -94,19 +94,27 @@ fn unsure_moves(
     given: &BTreeSet<Var>,
 ) -> BTreeSet<(BlockId, usize)> {
     let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
-    let kept = |e: &Expr| matches!(e, Expr::Var(var) if given.contains(var) && !carried::sets(program, *var));
+    let kept = |e: &Expr| matches!(unsigned(e), Expr::Var(var) if given.contains(var) && !carried::sets(program, *var));
     let mut found = BTreeSet::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         vacancy.forward(id, &mut |at, may| {
             if let Some(StmtKind::Nc(nc)) = block.stmts.get(at).map(|stmt| &stmt.kind)
                 && nc.moves()
-                && axes(nc).all(|value| value.may_be_vacant() && may(value) && !kept(value))
+                && axes(nc).map(unsigned).all(|value| value.may_be_vacant() && may(value) && !kept(value))
             {
                 found.insert((id, at));
             }
         });
     }
     found
+}
+
+/// A value without its sign: with a vacant variable behind it, the word is not there either.
+fn unsigned(value: &Expr) -> &Expr {
+    match value {
+        Expr::Negate(inner) => inner,
+        value => value,
+    }
 }
 
 /// The values of a block's axis words.
@@ -184,8 +192,10 @@ impl Expansion {
                         let nc = written;
                         let open = before.as_ref().is_none_or(|calls| !calls.is_empty());
                         let here = nc.has(Op::CycleHere) && open;
-                        if open && nc.ops().any(Op::is_cycle) && axes(nc).count() < 2 {
-                            let why = "a drilling cycle is defined without a position under a modal call: no source says whether the macro is called there";
+                        let drills = |state: &Modal| state.op(Group::Cycle).is_some_and(Op::is_cycle);
+                        let under = before.as_ref().is_some_and(|calls| !calls.is_empty());
+                        if under && (nc.ops().any(Op::is_cycle) || (nc.moves() && drills(&state))) {
+                            let why = "a drilling cycle under a modal call: no source says which of the two runs first, or whether both do";
                             context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, why));
                         }
                         let runs = here || (nc.moves() && !self.native);
@@ -229,8 +239,9 @@ impl Expansion {
                                 let behind = builder.fresh();
                                 unless_skipped(&mut builder, stmt.site.skip, behind);
                                 if !here && unsure.contains(&(id, at)) {
-                                    let vacant =
-                                        |e: &Expr| Cond::Compare(Relation::Equal, e.clone(), Expr::Vacant);
+                                    let vacant = |e: &Expr| {
+                                        Cond::Compare(Relation::Equal, unsigned(e).clone(), Expr::Vacant)
+                                    };
                                     let cond = match axes(written).map(vacant).collect::<Vec<_>>() {
                                         all if all.len() > 1 => Cond::And(all),
                                         one => one.into_iter().next().unwrap_or(Cond::And(Vec::new())),
@@ -250,6 +261,12 @@ impl Expansion {
                     }
                     kind => builder.push(kind.clone(), site),
                 }
+            }
+            if matches!(block.term.kind, TermKind::Call { .. })
+                && outer.is_some_and(|outer| !outer.is_empty())
+            {
+                let why = "a macro in a nested modal call calls another program, whose moves would call the outer macro";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, block.term.site.span, why));
             }
             builder.end(block.term.kind.clone(), block.term.site.clone());
         }

@@ -38,6 +38,11 @@ pub fn questions(module: &mut Module, registers: &Registers, context: &mut Conte
 /// The text printed right before, to which the cursor was left.
 fn take_question(out: &mut Vec<Stmt>, serial: bool) -> Option<String> {
     let at = out.iter().rposition(|stmt| stmt.kind != StmtKind::Remark)?;
+    // What was printed on the same line before it would be lost.
+    let before = out[..at].iter().rfind(|stmt| stmt.kind != StmtKind::Remark);
+    if before.is_some_and(|stmt| matches!(stmt.kind, StmtKind::Print { stay: true, .. })) {
+        return None;
+    }
     let StmtKind::Print { serial: on, parts, .. } = &out[at].kind else { return None };
     if *on && !serial {
         return None;

@@ -3,6 +3,8 @@
 //! Law: a block with a repeat of n does n times what it does once; so does a loop that runs the block and counts n
 //! down. Side conditions: no drilling cycle is in force (there the target repeats as well), and n is 1 or
 //! more, since what a repeat of none does is not the same everywhere.
+//! Words of a block that is repeated are computed once; under a modal call the macro may change what they are
+//! computed from, so such a block is refused.
 //! Counter-example: `X1. L3` under a cycle whose state is not known here, which is refused.
 
 use super::rewrite::{Part, highest_temp, rebuild};
@@ -80,6 +82,13 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         let mut refuse = |why: &str| context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
         if cycle.is_none() {
             refuse("whether a drilling cycle or the move is repeated here depends on what ran before");
+        }
+        let modal = state.calls.as_ref().is_none_or(|calls| !calls.is_empty());
+        let computed = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.constant().is_none());
+        if modal && nc.items.iter().any(computed) {
+            refuse(
+                "a repeated move with computed words under a modal call, whose macro may change them between",
+            );
         }
         if stmt.site.skip.is_some() {
             refuse("a repeated move under block skip");

@@ -1,7 +1,7 @@
 //! Colours temporaries: two that are never alive together share a register.
 //!
 //! Temporaries are numbered anew, library-wide: a colour is a number, and a program uses the lowest it
-//! can. A temporary that is alive across a call must not share with any of the callee's, so each such one
+//! can. A temporary that is alive across a call, or a move where a modal call may be open, must not share with any of the callee's, so each such one
 //! gets a number that no other has.
 
 use super::rewrite::highest_temp;
@@ -12,7 +12,9 @@ type Live = BTreeSet<u32>;
 
 /// Gives temporaries their colours.
 pub fn run(module: &mut Module) {
-    let plans: Vec<Plan> = module.programs.iter().map(Plan::of).collect();
+    let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
+    let plans: Vec<Plan> = module.programs.iter().map(|program| Plan::of(program, modal)).collect();
     let shared = plans.iter().flat_map(|plan| plan.colours.values()).max().copied().unwrap_or(0);
     let mut lone = shared;
     for (program, plan) in module.programs.iter_mut().zip(&plans) {
@@ -36,7 +38,8 @@ struct Plan {
 }
 
 impl Plan {
-    fn of(program: &Program) -> Self {
+    /// Of a program; in a library with modal calls every move may be a call.
+    fn of(program: &Program, modal: bool) -> Self {
         if highest_temp(program) == 0 {
             return Self { colours: BTreeMap::new(), across: BTreeSet::new() };
         }
@@ -48,7 +51,8 @@ impl Plan {
             if matches!(block.term.kind, TermKind::Call { .. }) {
                 across.extend(now.iter().copied());
             }
-            backward(block, &mut now, &mut |defined, now| {
+            let mut moved = |now: &Live| across.extend(now.iter().copied().filter(|_| modal));
+            backward(block, &mut now, &mut moved, &mut |defined, now| {
                 let row = apart.entry(defined).or_default();
                 row.extend(now.iter().filter(|other| **other != defined));
                 let others: Vec<u32> = now.iter().copied().filter(|other| *other != defined).collect();
@@ -93,7 +97,7 @@ fn live_out(program: &Program) -> Vec<Live> {
             .copied()
             .collect();
         let mut now = out.clone();
-        backward(block, &mut now, &mut |_, _| {});
+        backward(block, &mut now, &mut |_| {}, &mut |_, _| {});
         live_out[at] = out;
         if now != live_in[at] {
             live_in[at] = now;
@@ -103,10 +107,19 @@ fn live_out(program: &Program) -> Vec<Live> {
     live_out
 }
 
-/// Walks a block from its end; `define` is told each definition and what is alive behind it.
-fn backward(block: &Block, live: &mut Live, define: &mut dyn FnMut(u32, &Live)) {
+/// Walks a block from its end; `define` is told each definition and what is alive behind it, `moved` what is alive
+/// behind each move.
+fn backward(
+    block: &Block,
+    live: &mut Live,
+    moved: &mut dyn FnMut(&Live),
+    define: &mut dyn FnMut(u32, &Live),
+) {
     block.term.kind.exprs(&mut |e| read(e, live));
     for stmt in block.stmts.iter().rev() {
+        if matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis()) {
+            moved(live);
+        }
         if let StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } = &stmt.kind
             && let Place::Var(Var { class: Class::Temp, number }) = target
         {

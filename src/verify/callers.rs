@@ -97,7 +97,12 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
     let callers = || all.iter().filter(|caller| **caller != program && is_root(caller));
     let runs = (RUNS / callers().count().max(1)).max(FEWEST);
     for caller in callers() {
-        let Some(there) = job.names.program(job.source, *caller, job.target) else { continue };
+        let Some(there) = job.names.program(job.source, *caller, job.target) else {
+            if scenarios(job, *caller, FEWEST).any(|(_, run)| enters(job, &run, program)) {
+                found.absent.insert(name(job, *caller));
+            }
+            continue;
+        };
         for (at, (scenario, run)) in scenarios(job, *caller, runs).enumerate() {
             if !enters(job, &run, program) {
                 // One that never comes through it in its first runs is none of its callers.
@@ -251,7 +256,7 @@ impl Given {
 
     /// The modes that are not those of power-on, the unit left out.
     pub fn unlike_power_on(&self) -> Vec<Op> {
-        let usual = [Op::Absolute, Op::PlaneXy, Op::FeedPerMinute];
+        let usual = [Op::Rapid, Op::Absolute, Op::PlaneXy, Op::FeedPerMinute];
         let other = |op: &&Op| op.group() != Group::Units && !usual.contains(op);
         self.modes.iter().filter(other).copied().collect()
     }

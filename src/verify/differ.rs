@@ -76,10 +76,10 @@ pub fn differ(
         (ToolChange { tool }, ToolChange { tool: other })
         | (ToolReady { tool }, ToolReady { tool: other }) => (tool != other).then_some("it is another tool"),
         (ToolLength { value, .. }, ToolLength { value: other, .. }) => {
-            differs(*value, *other).then_some("another tool length is in force")
+            written(*value, *other).then_some("another tool length is in force")
         }
         (CutterRadius { side, value, .. }, CutterRadius { side: other_side, value: other, .. }) => {
-            (side != other_side || differs(*value, *other)).then_some("another cutter radius is in force")
+            (side != other_side || written(*value, *other)).then_some("another cutter radius is in force")
         }
         (WorkOffset { number }, WorkOffset { number: other }) => {
             (number != other).then_some("another work offset is in force at the return")

@@ -2,6 +2,7 @@
 
 use super::compare::is_cut;
 use super::names::Side as Library;
+use super::paths::apart;
 use crate::canon::{Group, Op};
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Side, Spindle};
@@ -53,6 +54,9 @@ fn initial() -> Vec<Happening> {
         Happening::Coolant { state: Op::CoolantOff },
     ]
 }
+
+/// A move that is no longer goes nowhere, millimetres: turning a place there and back leaves so much.
+const NOWHERE: f64 = 1e-9;
 
 /// The observable events of a run: calls and variables left out, moves that go nowhere and waits of no
 /// time left out, and of the settings between two actions only those that changed, in one order.
@@ -154,7 +158,7 @@ pub fn returns(what: &Happening) -> bool {
 
 fn is_observable(what: &Happening) -> bool {
     match what {
-        Happening::Rapid { from, to } | Happening::Feed { from, to, .. } => from != to,
+        Happening::Rapid { from, to } | Happening::Feed { from, to, .. } => apart(from, to) > NOWHERE,
         Happening::Dwell { seconds } => *seconds > 0.0,
         Happening::Variable { .. }
         | Happening::Enter { .. }

@@ -132,18 +132,12 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let mut alone = Self { given: Given::default(), ..Self::new(self.job, self.program) };
         alone.search(there);
         let Some(witness) = alone.witness else { return };
-        match unit {
-            Some(inch) => {
-                let unit = if inch { "inches" } else { "millimetres" };
-                let text = format!(
-                    "in {unit}, as its callers run it, it does the same; in the other unit not: {}",
-                    witness.what
-                );
-                self.because(Why::NotByItself, &text);
-            }
-            // Whether its callers excuse that is looked at as for any other difference.
-            None => (self.witness, self.shown) = (Some(witness), alone.shown),
-        }
+        let unit = unit.map(|inch| if inch { "inches" } else { "millimetres" });
+        let modes = modes.iter().map(Op::to_string);
+        let given = unit.map(str::to_owned).into_iter().chain(modes).collect::<Vec<_>>().join(", ");
+        let text =
+            format!("in {given}, as its callers run it, it does the same; otherwise not: {}", witness.what);
+        self.because(Why::NotByItself, &text);
     }
 
     /// Tries the source in scenario after scenario, and compares in those that reach anything new.

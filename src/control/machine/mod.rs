@@ -37,7 +37,7 @@ use rules::Rules;
 use std::collections::{BTreeMap, HashMap};
 
 /// The groups of modes that a called program finds as its caller left them.
-pub const GIVEN: [Group; 4] = [Group::Units, Group::Distance, Group::Plane, Group::FeedMode];
+pub const GIVEN: [Group; 5] = [Group::Units, Group::Motion, Group::Distance, Group::Plane, Group::FeedMode];
 
 /// Millimetres of an inch.
 pub const INCH: f64 = 25.4;
@@ -151,6 +151,7 @@ impl Machine {
     /// Starts in a mode that a caller gives.
     fn start_in(&mut self, op: Op) {
         match op {
+            Op::Rapid | Op::Linear | Op::ArcCw | Op::ArcCcw => self.motion = op,
             Op::Absolute => self.incremental = false,
             Op::Incremental => self.incremental = true,
             Op::PlaneXy => self.plane = Plane::Xy,

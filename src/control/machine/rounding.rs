@@ -97,6 +97,17 @@ impl Machine {
         let far = words.map(|(_, value)| value.abs() * self.unit()).fold(0.0, f64::max);
         let far = if incremental { self.reach() + far } else { far };
         trace.rounded = before.max(self.off_within(far)) + centre;
+        if self.rounding.turn > 0.0 {
+            // An axis that no word names was turned back and forth where the move began.
+            let named = |at: usize| {
+                let mut axes = command.words.iter().filter_map(|(role, _)| axis(*role));
+                axes.any(|axis| self.own_axis(axis).0 == at)
+            };
+            let off = self.off_within(far) - self.rounding.frame.iter().sum::<f64>();
+            (0..3).filter(|at| !named(*at)).collect::<Vec<_>>().into_iter().for_each(|at| {
+                self.rounding.axes[at] = self.rounding.axes[at].max(off);
+            });
+        }
     }
 
     /// Takes in the words of a block that sets the frame of coordinates.

@@ -4,7 +4,7 @@ use super::is_tap;
 use crate::canon::{Group, Role, Sys};
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
-use crate::ir::{BlockId, Class, Expr, Module, Place, Program, Site, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{BlockId, Class, Expr, Module, Place, Site, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::ModalFacts;
 use crate::legalize::modal::Modal;
 use crate::legalize::rewrite::highest_temp;
@@ -40,6 +40,8 @@ pub enum Does {
 /// The feed at the start of every block of a library.
 pub struct Kept {
     readable: bool,
+    /// True where a program may call another or return in the middle of a tap.
+    open: bool,
     entries: Vec<Vec<Option<Feed>>>,
     /// What holds the feed, in those programs that need it.
     registers: Vec<Option<Var>>,
@@ -49,15 +51,10 @@ impl Kept {
     /// Follows the feed through a library.
     pub fn of(module: &Module, facts: &ModalFacts, target: &Control) -> Self {
         let readable = target.system_address(Sys::Address, &[ADDRESS_F]).is_some();
-        let modal_calls = module
-            .programs
-            .iter()
-            .flat_map(|program| program.blocks.iter().flat_map(|block| &block.stmts))
-            .any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
-        let mut kept = Self { readable, entries: Vec::new(), registers: Vec::new() };
+        let mut kept = Self { readable, open: false, entries: Vec::new(), registers: Vec::new() };
         // Programs find and leave the feed as it was, unless one calls or returns in the middle of a tap.
-        let open = modal_calls || kept.flow(module, facts, Feed::Same);
-        if open {
+        if kept.flow(module, facts, Feed::Same) {
+            kept.open = true;
             kept.flow(module, facts, Feed::Lost);
         }
         for (index, program) in module.programs.iter().enumerate() {
@@ -90,7 +87,12 @@ impl Kept {
                     continue;
                 }
                 *entry = Some(joined);
-                let out = self.through(program, id, facts.at(index, id), joined);
+                let mut out = joined;
+                let mut modal = facts.at(index, id);
+                for stmt in program.blocks.get(id.index()).into_iter().flat_map(|block| &block.stmts) {
+                    self.step(stmt, &mut modal, &mut out);
+                    open |= out != Feed::Same && calls_by_moving(stmt, &modal);
+                }
                 let kind = program.blocks.get(id.index()).map(|block| &block.term.kind);
                 let calls = matches!(kind, Some(TermKind::Call { .. }));
                 let ends = matches!(kind, Some(TermKind::End { .. }));
@@ -100,13 +102,6 @@ impl Kept {
             }
         }
         open
-    }
-
-    fn through(&self, program: &Program, id: BlockId, mut modal: Modal, mut feed: Feed) -> Feed {
-        for stmt in program.blocks.get(id.index()).into_iter().flat_map(|block| &block.stmts) {
-            self.step(stmt, &mut modal, &mut feed);
-        }
-        feed
     }
 
     /// The feed at the start of a block.
@@ -143,7 +138,6 @@ impl Kept {
             }
         } else if nc.word(Role::Feed).is_some() {
             *feed = if skipped && *feed != Feed::Same { Feed::Lost } else { Feed::Same };
-            return Does::Nothing;
         } else if *feed != Feed::Same
             && was.is_none_or(is_tap)
             && modal.op(Group::Cycle).is_some_and(|op| !is_tap(op))
@@ -157,9 +151,15 @@ impl Kept {
                 *feed = Feed::Same;
             }
         }
-        if other && *feed == Feed::Held {
+        if (other && *feed == Feed::Held) || self.open && calls_by_moving(stmt, modal) {
             *feed = Feed::Lost;
         }
         does
     }
+}
+
+/// True for a block that moves where a modal call may be open.
+fn calls_by_moving(stmt: &Stmt, modal: &Modal) -> bool {
+    let open = modal.calls.as_ref().is_none_or(|calls| !calls.is_empty());
+    open && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis())
 }

@@ -214,9 +214,8 @@ impl<'b> Lowering<'b> {
 
     fn note_modes(&mut self) {
         if let (true, Some(span)) = (self.spelled_out, self.reads_motion) {
-            let message =
-                "reads the motion mode, which the conversion writes as G1 where an arc mode moves straight";
-            self.findings.add(Diagnostic::new(Code::ModalAssumed, span, message));
+            let message = "reads the motion mode, which is written as G1 where an arc mode moves straight: write G1 there";
+            self.findings.not_understood(span, message);
         }
     }
 

@@ -79,6 +79,10 @@ fn what_no_caller_shows_is_excused_only_where_they_come_by() {
     // The caller is in G91 already.
     let (outcome, excuse) = &library(CALLED, "O5\nG0X5.", "O5\nG91G0X5.")[3];
     assert_eq!(*outcome, Undecided, "{excuse}");
+    assert!(excuse.contains("in distance.incremental, as its callers run it, it does the same"), "{excuse}");
+    // The caller gives that number.
+    let (outcome, excuse) = &library("O1\nG65P2A5.\nM30\nO2\nG0X#1\nM99\n", "X#1", "X5.")[1];
+    assert_eq!(*outcome, Undecided, "{excuse}");
     assert!(excuse.contains("O0001") && excuse.contains("is not shown"), "{excuse}");
     // It is in G91, and the fault shows there only: G90 stays the same by itself.
     let found = library(CALLED, "O5\nG0X5.", "O5\nG90G0X5.");
@@ -99,21 +103,21 @@ fn callers_that_cannot_be_run_excuse_nothing() {
     assert_eq!(library(alone, "O5\nG0", "O5\nG91G0")[1].0, Different);
     // Its one caller has no conversion.
     let lost = |callers: &str, wanted: Outcome| {
-        let source = format!("{callers}O5\nG0X5.\nM99\n");
-        let target = source.replace("O7\nG91\nM98P5\nM30\n", "").replace("O5\nG0", "O5\nG91G0");
+        let source = format!("{callers}O5\nG0X#1\nM99\n");
+        let target = source.replace("O7\nG65P5A5.\nM30\n", "").replace("X#1", "X5.");
         let found = programs(("fanuc", &source), ("fanuc", &target), &[]);
         let called = found.iter().find(|program| program.program.as_deref() == Some("O0005")).unwrap();
         assert_eq!(called.outcome, wanted, "{:?}", called.reasons);
         assert_eq!(called.run_alone, wanted == Different, "{:?}", called.reasons);
         called.reasons.iter().map(|reason| reason.text.as_str()).collect::<String>()
     };
-    lost("O7\nG91\nM98P5\nM30\n", Different);
+    lost("O7\nG65P5A5.\nM30\n", Different);
     // One of two is there, and the other is named.
-    let text = lost("O7\nG91\nM98P5\nM30\nO1\nG91\nM98P5\nM30\n", Undecided);
+    let text = lost("O7\nG65P5A5.\nM30\nO1\nG65P5A5.\nM30\n", Undecided);
     assert!(text.contains("O0007, which calls it too, could not be run"), "{text}");
     // A caller that goes on for ever on the target shows nothing.
-    let source = "O1\nG91\nM98P5\nM30\nO5\nG0X5.\nM99\n";
-    let target = "O1\nG91\nM98P5\nN1X1.\nX-1.\nGOTO1\nO5\nG91G0X5.\nM99\n";
+    let source = "O1\nG65P5A5.\nM30\nO5\nG0X#1\nM99\n";
+    let target = "O1\nG65P5A5.\nN1X1.\nX-1.\nGOTO1\nO5\nG0X5.\nM99\n";
     let found = programs(("fanuc", source), ("fanuc", target), &[]);
     assert_eq!(found[1].outcome, Different, "{:?}", found[1].reasons);
     // An alarm of the program's own counts as any end.
@@ -130,13 +134,13 @@ fn called_programs_begin_as_their_callers_let_them() {
         found[at].given.join(" ")
     };
     let one = "O1\nG20G91G18G1X1.F9.\nM98P2\nM30\nO2\nG1X5.\nM99\n";
-    assert_eq!(given(one, 1), "units.inch distance.incremental plane.zx feed.per.minute");
+    assert_eq!(given(one, 1), "units.inch motion.linear distance.incremental plane.zx feed.per.minute");
     // Two callers agree in the plane alone.
     let two = format!("{one}O3\nG21G90G18G95G1X1.F9.\nM98P2\nM30\n");
-    assert_eq!(given(&two, 1), "plane.zx");
+    assert_eq!(given(&two, 1), "motion.linear plane.zx");
     // By way of another program, which nothing but its caller puts into G91.
     let way = "O1\nG21G91\nM98P2\nM30\nO2\nM98P3\nM99\nO3\nG0X5.\nM99\n";
-    assert_eq!(given(way, 2), "units.metric distance.incremental plane.xy feed.per.minute");
+    assert_eq!(given(way, 2), "units.metric motion.rapid distance.incremental plane.xy feed.per.minute");
     // The first runs never get there.
     let rare = "O1\nG21G91\nIF[#101NE#102]GOTO9\nIF[#101LT6]GOTO9\nIF[#101GT49]GOTO9\nM98P2\nN9M30\nO2\nG0X5.\nM99\n";
     let found = given(rare, 1);
