@@ -193,7 +193,7 @@ impl Expansion {
                         let open = before.as_ref().is_none_or(|calls| !calls.is_empty());
                         let here = nc.has(Op::CycleHere) && open;
                         let drills = |state: &Modal| state.op(Group::Cycle).is_some_and(Op::is_cycle);
-                        let under = before.as_ref().is_some_and(|calls| !calls.is_empty());
+                        let under = before.as_ref().map_or(is_modal(program), |calls| !calls.is_empty());
                         if under && (nc.ops().any(Op::is_cycle) || (nc.moves() && drills(&state))) {
                             let why = "a drilling cycle under a modal call: no source says which of the two runs first, or whether both do";
                             context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, why));

@@ -217,6 +217,13 @@ impl<'r> Pairs<'_, 'r> {
             self.found.substituted.insert(text);
             return None;
         }
+        // A size of the tool was rounded where it was written, which another block did.
+        let allowed = match **a {
+            Happening::ToolLength { .. } | Happening::CutterRadius { .. } => {
+                allowed.max(self.tolerance.rounded)
+            }
+            _ => allowed,
+        };
         let mut largest = self.found.largest;
         let paths = match source.event.rounded.max(target.event.rounded) {
             // What the words of an arc rounded moves its middle farther than its ends.

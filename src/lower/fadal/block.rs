@@ -117,6 +117,13 @@ impl<'b> Lowering<'b> {
             let message = format!("the table has no meaning for {} here", word.letter);
             return self.refuse(item.span, message);
         };
+        if self.hangs_on_cycle(word, role, reading.codes) {
+            let message = format!(
+                "what {} means hangs on the drilling cycle, and which is in force differs",
+                word.letter
+            );
+            return self.conflict(item.span, &message);
+        }
         if reading.codes.has(Op::WriteVariable) && word.letter == 'P' {
             return Some(());
         }

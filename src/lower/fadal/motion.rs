@@ -2,9 +2,10 @@
 
 use super::program::Lowering;
 use super::words::{Codes, thousandths};
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::CodeMeaning;
+use crate::syntax::Word;
 use crate::text::Span;
 
 /// What a block's words show of its kind.
@@ -31,6 +32,17 @@ impl<'b> Lowering<'b> {
         let cycles = self.state.cycle.list().iter().filter(|code| **code != 0);
         let cycle = cycles.filter_map(|code| codes.modal(*code)).next();
         cycle.or_else(|| self.modes(codes).iter().copied().find(|row| is_arc(row.op)))
+    }
+
+    /// True where the letter of a block without a motion code means something else in another cycle that may be in
+    /// force, or in none.
+    pub fn hangs_on_cycle(&self, word: &Word, role: Role, codes: &Codes<'b, 'b>) -> bool {
+        let cycles = self.state.cycle.list();
+        if cycles.len() < 2 || codes.motion().is_some() || codes.takes_axes() {
+            return false;
+        }
+        let row = |code: &u32| if *code == 0 { None } else { codes.modal(*code) };
+        cycles.iter().any(|code| codes.role(word.letter, word.comma, row(code)) != Ok(Some(role)))
     }
 
     /// True where a drilling cycle may be active before the block.
@@ -148,7 +160,7 @@ impl<'b> Lowering<'b> {
         self.refuse(span, "the centre or radius of an arc in a block that is none")
     }
 
-    fn conflict<T>(&mut self, span: Span, message: &str) -> Option<T> {
+    pub fn conflict<T>(&mut self, span: Span, message: &str) -> Option<T> {
         let help = "write the motion code in the block";
         self.findings.add(Diagnostic::new(Code::ModalConflict, span, message).with_help(help));
         None

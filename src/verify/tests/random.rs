@@ -200,3 +200,15 @@ fn what_is_read_back_behind_a_polar_move_hangs_on_rounding() {
     assert!(found.reasons.iter().any(|reason| reason.text.contains("word.rounds.to.increment")));
     assert_eq!(with("10.001").outcome, Outcome::Different);
 }
+
+/// A diameter that a word rounds to .001 mm is a radius of half of that; 0.003 mm are more than any increment.
+#[test]
+fn a_tool_size_may_be_off_by_what_its_word_rounds() {
+    let program = |write: &str| {
+        format!("O1\nG21 G90 G0 X0. Y0.\n{write}\nG41 D3 G1 X5. Y5. F100.\nG40 G1 X0. Y0.\nM30\n")
+    };
+    let source = program("G10 L12 P3 R10.003");
+    let found = |target: &str| run("haas", &source, "fanuc", &program(target), &[]);
+    assert_eq!(found("#1=10.003/2\nG10 L12 P3 R#1").witness, None);
+    assert_eq!(found("#1=10.009/2\nG10 L12 P3 R#1").outcome, Outcome::Different);
+}
