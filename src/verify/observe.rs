@@ -168,3 +168,20 @@ fn is_observable(what: &Happening) -> bool {
         _ => true,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::trace::Position;
+
+    #[test]
+    fn what_turning_there_and_back_leaves_is_no_move() {
+        let to = |x: f64| {
+            let mut to = Position::default();
+            to.0[0] = x;
+            is_observable(&Happening::Rapid { from: Position::default(), to })
+        };
+        assert!(!to(0.0) && !to(3e-13));
+        assert!(to(1e-6));
+    }
+}
