@@ -85,6 +85,7 @@ questions! {
     "round.places.default" &["unknown", "0", "1", "2", "3", "4", "5"], "places that the rounding function keeps by default";
     "fix.toward.zero" YES, "FIX (INT) goes toward zero for negative numbers";
     "word.rounds.to.increment" YES, "a computed value is rounded to the least increment of its address";
+    "scale.bare" &["units", "unknown"], "what a scale factor without a decimal point counts";
     "integer.word.rounds" YES, "a computed value in a whole-number word is rounded to the nearest";
     "word.bare.expression" &["value", "increments", "unknown"], "what a computed value without a point counts in a word";
     "sign.before.variable" YES, "a variable in a word needs a sign before it, which multiplies";

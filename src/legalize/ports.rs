@@ -41,7 +41,8 @@ fn shut(program: &Program) -> Option<Span> {
     let mut open = false;
     for stmt in statements(program) {
         match stmt.kind {
-            StmtKind::OpenPort => open = true,
+            // A block that may be skipped opens nothing for certain.
+            StmtKind::OpenPort => open |= stmt.site.skip.is_none(),
             StmtKind::ClosePort => open = false,
             StmtKind::Output(_) if !open => return Some(stmt.site.span),
             _ => {}

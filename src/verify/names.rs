@@ -17,7 +17,7 @@ pub struct Side<'a> {
     pub files: &'a [LoadedFile<'a>],
     /// Their programs.
     pub library: Library<'a>,
-    /// The units that callers run its programs in, where anybody asked.
+    /// What callers give its programs, where anybody asked.
     pub(super) given: OnceLock<BTreeMap<ProgramRef, Given>>,
 }
 

@@ -40,6 +40,22 @@ def root(x):
     return math.sqrt(x)
 
 
+class Words:
+    """The words of one block, read from left to right."""
+
+    def __init__(self, pattern, text, machine):
+        self.words, self.at, self.machine = pattern.findall(text), 0, machine
+
+    def peek(self):
+        return self.words[self.at] if self.at < len(self.words) else None
+
+    def take(self, wanted=None):
+        word = self.peek()
+        assert wanted is None or word == wanted, (self.words, wanted)
+        self.at += 1
+        return word
+
+
 class Moves:
     """Straight moves, absolute or incremental, in millimetres."""
 

@@ -8,7 +8,7 @@ import math
 import random
 import re
 
-from common import STEPS, Alarm, Edge, Moves, apart, nearest, root, whole
+from common import STEPS, Alarm, Edge, Moves, Words, apart, nearest, root, whole
 
 WORD = re.compile(r"AND|OR|<=|>=|<>|[A-Z]+(?=\()|[VR]\d+|\d*\.\d*|\d+|[-+*/=<>()]")
 FUNCTION = {
@@ -22,20 +22,11 @@ FUNCTION = {
 }
 
 
-class Expression:
+class Expression(Words):
     """From left to right: brackets and functions, minus, * and /, + and -, comparisons, AND and OR."""
 
     def __init__(self, text, machine):
-        self.words, self.at, self.machine = WORD.findall(text), 0, machine
-
-    def peek(self):
-        return self.words[self.at] if self.at < len(self.words) else None
-
-    def take(self, wanted=None):
-        word = self.peek()
-        assert wanted is None or word == wanted, (self.words, wanted)
-        self.at += 1
-        return word
+        super().__init__(WORD, text, machine)
 
     def condition(self):
         holds = self.comparison()

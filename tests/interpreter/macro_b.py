@@ -8,7 +8,7 @@ import math
 import random
 import re
 
-from common import STEPS, Alarm, Edge, Moves, apart, nearest, root, whole
+from common import STEPS, Alarm, Edge, Moves, Words, apart, nearest, root, whole
 
 WORD = re.compile(
     r"#|\[|\]|ROUND|WHILE|GOTO|THEN|ATAN|SQRT|END|DO|IF|SIN|COS|ABS|FIX|FUP|MOD|EQ|NE|GT|LT|GE|LE"
@@ -44,20 +44,11 @@ def function(name, x):
     return whole(x, math.trunc)  # FIX
 
 
-class Line:
+class Line(Words):
     """The words of one block, read from left to right."""
 
     def __init__(self, text, machine):
-        self.words, self.at, self.machine = WORD.findall(text), 0, machine
-
-    def peek(self):
-        return self.words[self.at] if self.at < len(self.words) else None
-
-    def take(self, wanted=None):
-        word = self.peek()
-        assert wanted is None or word == wanted, (self.words, wanted)
-        self.at += 1
-        return word
+        super().__init__(WORD, text, machine)
 
     def sum(self):
         value = self.product()

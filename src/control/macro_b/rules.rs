@@ -26,6 +26,7 @@ pub struct Rules {
     pub bracket_copies_vacancy: Answer<bool>,
     pub word_rounds: bool,
     pub integer_word_rounds: Answer<bool>,
+    pub scale_bare: Answer<bool>,
     pub round_in_address: bool,
     pub goto_forward: Answer<bool>,
     pub return_jumps_here: Answer<bool>,
@@ -74,6 +75,7 @@ impl Rules {
             vacant_bracket: Answer::new(control, "bracket.vacant.word", bracket, VacantBracket::Dropped),
             bracket_copies_vacancy: yes(control, "bracket.copies.vacancy", true),
             word_rounds: control.is("word.rounds.to.increment"),
+            scale_bare: Answer::new(control, "scale.bare", word("units", "unknown"), true),
             integer_word_rounds: yes(control, "integer.word.rounds", true),
             round_in_address: control
                 .behaviour("round.in.address")

@@ -100,7 +100,7 @@ impl<'c> Runner<'c> {
             _ => (self.rules.bare_length, self.increment_of(role)),
         };
         if role.is_scale() {
-            self.session.trace.doubt("numbers");
+            self.rules.scale_bare.ask(&mut self.session.trace);
         }
         let Some(increment) = increment else { return Ok(value) };
         if self.rules.numbers_unsure || bare == BareLength::Unknown {

@@ -27,8 +27,8 @@ impl<'a> Lowering<'a> {
             return self.whole_word(role, letter, number, point, value, code);
         }
         let counted = role.is_length() || role.is_angle();
-        if role.is_scale() && !point && number != 0.0 {
-            // In thousandths or in hundred-thousandths by a parameter of its own: B-63682EN/01 p. 117.
+        let bare = role.is_scale() && !point && number != 0.0;
+        if bare && self.findings.behaviour("scale.bare", value.span).is_none() {
             let message = "what a scale factor without a decimal point counts is set at the control: write it with its point";
             self.findings.not_understood(value.span, message);
             return None;
