@@ -2,6 +2,7 @@
 
 use super::machine::Left;
 use super::trace::{Event, Place, Program};
+use crate::canon::Op;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,6 +21,9 @@ pub struct Run {
     pub steps: u64,
     /// Which branching blocks went which way.
     pub branches: Branches,
+    /// The modes in force at its end, however it ended: [`super::machine::GIVEN`].
+    #[serde(skip)]
+    pub modes: Vec<Op>,
     /// What was in force at its end; none where it did not end by itself.
     #[serde(skip)]
     pub left: Option<Left>,

@@ -116,10 +116,15 @@ impl<'r, 'f> Session<'r, 'f> {
         };
         let file = found.map_or(0, |section| section.file);
         let number = self.programs.len() as u32;
-        let modes = GIVEN.iter().filter_map(|group| self.machine.modal(*group)).collect();
+        let modes = self.modes();
         self.programs.push(Program { file, name, modes });
         self.numbers.insert(section, number);
         number
+    }
+
+    /// What is in force now of what a called program finds as its caller left it.
+    fn modes(&self) -> Vec<Op> {
+        GIVEN.iter().filter_map(|group| self.machine.modal(*group)).collect()
     }
 
     /// The name of the first program that ran: `O1234`, or nothing.
@@ -221,6 +226,7 @@ impl<'r, 'f> Session<'r, 'f> {
     /// The finished run.
     pub fn finish(mut self, halt: Halt, variables: BTreeMap<String, f64>) -> Run {
         let at = self.trace.at;
+        let modes = self.modes();
         let left = matches!(halt, Halt::Ended(_)).then(|| self.machine.left());
         let end = match halt {
             Halt::Ended(by) => {
@@ -242,6 +248,7 @@ impl<'r, 'f> Session<'r, 'f> {
             end,
             steps: self.steps,
             branches: self.branches,
+            modes,
             left,
         }
     }

@@ -137,8 +137,11 @@ fn apply(conversion: &mut Conversion, at: usize, span: Span, found: &ProgramCert
                 };
                 format!("{}: {} against {}", witness.what, block(&witness.source), block(&witness.target))
             });
-            let alone =
-                if found.run_alone { "; it was run by itself, as what calls it could not be" } else { "" };
+            let alone = if found.run_alone {
+                "; it was run by itself, as no run of what calls it comes to this"
+            } else {
+                ""
+            };
             let what = what + alone;
             program.diagnostics.push(Diagnostic::new(Code::VerifiedDifferent, span, what));
             program.outcome = Outcome::Refused;

@@ -6,16 +6,16 @@
 //! callers give, not that they never give anything else.
 
 use super::compare::{Tolerance, compare, is_cut};
+use super::given::Given;
 use super::inputs::{calls, inputs};
 use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
 use super::stops::stops_by_itself;
 use super::{Certificate, Outcome, ProgramCertificate};
-use crate::canon::{Group, Op};
 use crate::control::{ProgramRef, Run, Scenario, trace};
 use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// A block of a library: its file and place.
 pub type Spot = (usize, Span);
@@ -34,9 +34,8 @@ pub struct Shown {
 /// Runs of all callers together, and the fewest of each.
 const RUNS: usize = 240;
 const FEWEST: usize = 12;
-/// Runs in which a program shows what it calls, and the most where that is not all which its text calls.
-const LOOKS: usize = 3;
-const MORE_LOOKS: usize = 24;
+/// Runs in which a program shows what it calls.
+pub(super) const LOOKS: usize = 3;
 
 /// What the runs that come through a program show of it.
 #[derive(Debug, Default)]
@@ -57,8 +56,9 @@ pub struct Through {
 
 impl Through {
     /// True where something calls the program, and no such run could show what it does then.
-    pub fn is_alone(&self) -> bool {
-        !self.differs && self.reached == 0 && (self.entered || !self.absent.is_empty())
+    pub fn is_alone(&self, given: &Given) -> bool {
+        let called = self.entered || given.never_come_to || !self.absent.is_empty();
+        called && !self.differs && self.reached == 0
     }
 
     /// Why a difference that shows by itself is none as the library calls the program, in words; none where
@@ -174,7 +174,7 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
 }
 
 /// Whether a program is one that no other enters, as far as a few runs show.
-fn roots(job: &Job<'_>, all: &[ProgramRef]) -> impl Fn(&ProgramRef) -> bool + use<> {
+pub(super) fn roots(job: &Job<'_>, all: &[ProgramRef]) -> impl Fn(&ProgramRef) -> bool + use<> {
     let mut entered = BTreeSet::new();
     for caller in all {
         let called =
@@ -195,7 +195,7 @@ fn scenarios<'j>(
 }
 
 /// The same, begun as its own callers let it begin.
-fn scenarios_in<'j>(
+pub(super) fn scenarios_in<'j>(
     job: &'j Job<'_>,
     program: ProgramRef,
     runs: usize,
@@ -223,99 +223,12 @@ fn enters(job: &Job<'_>, run: &Run, program: ProgramRef) -> bool {
 }
 
 /// A program as a run came to it first.
-fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r trace::Program> {
+pub(super) fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r trace::Program> {
     let name = match job.source.name(program)? {
         ProgramName::Number(number) => format!("O{number}"),
         ProgramName::Name(name) => name.clone(),
     };
     run.programs.iter().find(|other| other.file == program.file && other.name == name)
-}
-
-/// What the callers of a program give it, as far as their runs show.
-#[derive(Clone, Debug, Default)]
-pub struct Given {
-    /// What is in force at its start whoever calls it: of each group of [`GIVEN`] at the most one.
-    pub modes: Vec<Op>,
-    /// True once a run came to it.
-    met: bool,
-}
-
-impl Given {
-    /// Takes in what another run gives.
-    fn add(&mut self, modes: &[Op]) {
-        if !std::mem::replace(&mut self.met, true) {
-            self.modes = modes.to_vec();
-        }
-        self.modes.retain(|op| modes.contains(op));
-    }
-
-    /// The unit, true for inch; none where callers come in both.
-    pub fn inch(&self) -> Option<bool> {
-        self.modes.iter().find(|op| op.group() == Group::Units).map(|op| *op == Op::Inch)
-    }
-
-    /// The modes that are not those of power-on, the unit left out.
-    pub fn unlike_power_on(&self) -> Vec<Op> {
-        let usual = [Op::Rapid, Op::Absolute, Op::PlaneXy, Op::FeedPerMinute];
-        let other = |op: &&Op| op.group() != Group::Units && !usual.contains(op);
-        self.modes.iter().filter(other).copied().collect()
-    }
-
-    /// Lets a scenario start so.
-    pub fn start(&self, scenario: &mut Scenario) {
-        scenario.inch = self.inch().or(scenario.inch);
-        scenario.modes = self.unlike_power_on();
-    }
-}
-
-/// By program, what its callers' runs give it when they come to it first.
-///
-/// Programs that none enters give first; then, in what they are given themselves, those that these enter give to what
-/// was not come to yet.
-pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
-    let all = job.source.programs();
-    let is_root = roots(job, &all);
-    let mut found: BTreeMap<ProgramRef, Given> = BTreeMap::new();
-    let mut callers: Vec<ProgramRef> = all.iter().filter(|program| is_root(program)).copied().collect();
-    let mut gone: BTreeSet<ProgramRef> = callers.iter().copied().collect();
-    while !callers.is_empty() {
-        let mut came: BTreeMap<ProgramRef, Given> = BTreeMap::new();
-        for caller in &callers {
-            for (to, modes) in gives(job, &all, *caller, found.get(caller)) {
-                if !found.contains_key(&to) {
-                    came.entry(to).or_default().add(&modes);
-                }
-            }
-        }
-        callers = came.keys().filter(|program| gone.insert(**program)).copied().collect();
-        found.extend(came);
-    }
-    found
-}
-
-/// The programs that runs of a caller come to, and what they find there; more runs where some that its text calls are
-/// not among them.
-fn gives(
-    job: &Job<'_>,
-    all: &[ProgramRef],
-    caller: ProgramRef,
-    given: Option<&Given>,
-) -> Vec<(ProgramRef, Vec<Op>)> {
-    let text = || job.source.text(caller).iter().flat_map(|block| calls(job.source, &block.items));
-    let mut wanted: BTreeSet<ProgramRef> = text().filter(|to| *to != caller).collect();
-    let mut out = Vec::new();
-    for (at, (_, run)) in scenarios_in(job, caller, MORE_LOOKS, given).enumerate() {
-        if at >= LOOKS && wanted.is_empty() {
-            break;
-        }
-        for to in all.iter().filter(|program| **program != caller) {
-            if let Some(entered) = entry(job, &run, *to) {
-                wanted.remove(to);
-                out.push((*to, entered.modes.clone()));
-            }
-        }
-    }
-    out
 }
 
 /// True where something happened in a block, or none is asked for.

@@ -61,6 +61,9 @@ pub struct ProgramCertificate {
     pub reasons: Vec<Reason>,
     /// What its callers' runs gave it, which it was run in; empty where they gave nothing, or not all the same.
     pub given: Vec<String>,
+    /// True where the library calls it and no run of its callers came to it: `given` is then what was in force where
+    /// those runs ended.
+    pub never_come_to: bool,
     /// True where it differs by itself, and no run of what calls it could show what it does then.
     pub run_alone: bool,
     /// Scenarios that the source was tried in.

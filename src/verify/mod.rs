@@ -18,6 +18,7 @@ mod certificate;
 mod compare;
 mod constants;
 mod differ;
+mod given;
 mod inputs;
 mod left;
 mod names;

@@ -1,6 +1,6 @@
 //! The two sides, and what is called what on each.
 
-use super::callers::Given;
+use super::given::Given;
 use crate::control::{Execute, Library, LoadedFile, ProgramRef};
 use crate::dialect::{Control, VariableClass};
 use crate::syntax::{Block, ProgramName};

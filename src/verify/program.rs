@@ -1,9 +1,12 @@
 //! The verification of one program.
 
+mod elsewhere;
+
 use super::branches::Coverage;
-use super::callers::{Given, Shown, given, implicate, through, ways};
+use super::callers::{Shown, implicate, through, ways};
 use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Tolerance, compare, is_cut};
+use super::given::{Given, given};
 use super::inputs::{inputs, is_called};
 use super::names::{Names, Side};
 use super::questions::unconfirmed;
@@ -114,30 +117,11 @@ impl<'v, 'j> Verifier<'v, 'j> {
         match there {
             Some(there) => {
                 self.search(there);
-                self.alone(there);
+                self.elsewhere(there);
             }
             None => self.because(Why::NoTarget, "the target has no such program"),
         }
         self.certificate(there)
-    }
-
-    /// Looks at what the program does as after power-on in the machine's own unit, where its callers run it otherwise.
-    fn alone(&mut self, there: ProgramRef) {
-        let own = unit(self.job.source, self.job.target).unwrap_or(false);
-        let unit = self.given.inch().filter(|given| *given != own);
-        let modes = self.given.unlike_power_on();
-        if self.witness.is_some() || (unit.is_none() && modes.is_empty()) {
-            return;
-        }
-        let mut alone = Self { given: Given::default(), ..Self::new(self.job, self.program) };
-        alone.search(there);
-        let Some(witness) = alone.witness else { return };
-        let unit = unit.map(|inch| if inch { "inches" } else { "millimetres" });
-        let modes = modes.iter().map(Op::to_string);
-        let given = unit.map(str::to_owned).into_iter().chain(modes).collect::<Vec<_>>().join(", ");
-        let text =
-            format!("in {given}, as its callers run it, it does the same; otherwise not: {}", witness.what);
-        self.because(Why::NotByItself, &text);
     }
 
     /// Tries the source in scenario after scenario, and compares in those that reach anything new.
@@ -342,7 +326,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let mut run_alone = false;
         if let Some(witness) = &self.witness {
             let through = through(self.job, self.program, &self.shown, self.tolerance);
-            run_alone = through.is_alone();
+            run_alone = through.is_alone(&self.given);
             if let Some(excuse) = through.excuses() {
                 let text = format!("by itself it differs ({}), but {excuse}", witness.what);
                 self.because(Why::NotByItself, &text);
@@ -363,6 +347,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             outcome,
             reasons: reasons.collect(),
             given: self.given.modes.iter().map(Op::to_string).collect(),
+            never_come_to: self.given.never_come_to,
             run_alone,
             scenarios_tried: self.tried,
             scenarios_compared: self.compared,

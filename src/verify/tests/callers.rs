@@ -161,3 +161,55 @@ fn units_are_handed_on() {
     assert!(found.iter().all(|program| program.outcome != Outcome::Different), "{found:#?}");
     assert_eq!(found[2].given[0], "units.inch");
 }
+
+/// The caller stops before it comes to O2, which it calls in inches: there a count is 0.0001, in millimetres 0.001.
+#[test]
+fn programs_that_no_run_comes_to_are_in_the_unit_of_their_library() {
+    let library = |words: &str| format!("O1\nG20G90G0X1.\n#3000=1(STOP)\nM98P2\nM30\nO2\nG0Y{words}\nM99\n");
+    let tried = |source: &str, target: &str| programs(("haas", source), ("haas", target), &[]);
+    let judged = |words: &str| tried(&library("13"), &library(words)).remove(1);
+    let right = judged("0.0013");
+    assert_eq!((right.outcome, right.never_come_to), (Outcome::Undecided, true), "{right:#?}");
+    let excuse = |program: &ProgramCertificate| {
+        program.reasons.iter().find(|reason| reason.why == Why::NotByItself).map(|reason| reason.text.clone())
+    };
+    let text = excuse(&right).unwrap();
+    assert!(text.contains("in inches, in which the runs of its callers end"), "{text}");
+    let wrong = judged("0.013");
+    assert_eq!((wrong.outcome, wrong.run_alone), (Outcome::Different, true), "{wrong:#?}");
+    let same = judged("13");
+    assert_eq!((excuse(&same), same.witness), (None, None));
+    // What it calls itself is in that unit as well.
+    let way = |words: &str| library("1.\nM98P3") + &format!("O3\nG0Z{words}\nM99\n");
+    assert_eq!(tried(&way("13"), &way("0.0013"))[2].outcome, Outcome::Undecided);
+    assert_eq!(tried(&way("13"), &way("0.013"))[2].outcome, Outcome::Different);
+}
+
+/// What no run shows of the modes is a guess: a difference counts that shows in those of power-on too.
+#[test]
+fn modes_of_runs_that_do_not_come_to_a_program_decide_nothing() {
+    let library = |words: &str| format!("O1\nG21G91\n#3000=1(STOP)\nG90\nM98P2\nM30\nO2\n{words}\nM99\n");
+    let judged = |words: &str| {
+        let found = programs(("haas", &library("G0X5.")), ("haas", &library(words)), &[]).remove(1);
+        (found.outcome, found.reasons.iter().map(|reason| reason.text.clone()).collect::<String>())
+    };
+    let (outcome, text) = judged("G90G0X5.");
+    assert_eq!(outcome, Outcome::Undecided);
+    assert!(text.contains("as after power-on it does the same, in distance.incremental not"), "{text}");
+    assert_eq!(judged("G91G0X5.").0, Outcome::Undecided);
+    assert_eq!(judged("G0X6.").0, Outcome::Different);
+}
+
+/// O2 is called in millimetres and in inches: it is run in both.
+#[test]
+fn programs_that_are_called_in_both_units_are_run_in_both() {
+    let library = |words: &str| {
+        format!(
+            "O1\nG21G90G0X1.\nG65P2A1.\nM30\nO3\nG20G90G0X1.\nG65P2A1.\nM30\nO2\nIF[#1NE7]GOTO9\nG0Y{words}\nN9M99\n"
+        )
+    };
+    for words in ["0.013", "0.0013"] {
+        let found = programs(("haas", &library("13")), ("haas", &library(words)), &[]);
+        assert_eq!(found[2].outcome, Outcome::Different, "{words}: {found:#?}");
+    }
+}
