@@ -277,6 +277,7 @@ fn haas_tables_are_those_of_the_class() {
         ("G52", Op::LocalShift),
         ("G77", Op::CycleBackBore),
         ("G87", Op::CycleBoreManual),
+        ("G88", Op::CycleBoreManual),
         ("G93", Op::FeedInverse),
         ("G100", Op::MirrorOff),
         ("G101", Op::MirrorOn),

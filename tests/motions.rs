@@ -20,6 +20,9 @@ struct Expectation {
     /// The program's file, then those that it calls.
     run: Vec<String>,
     ends: String,
+    /// True where the list says what the spindle does and where the program waits for the operator.
+    #[serde(default)]
+    turns: bool,
     profile: String,
     scenario: String,
     moves: String,
@@ -56,7 +59,7 @@ fn expected(line: &str) -> Move {
 }
 
 /// The move of a line of a trace; none for other events, and for a way of no length.
-fn traced(event: &Value) -> Option<Move> {
+fn traced(event: &Value, turns: bool) -> Option<Move> {
     let number = |key: &str| event[key].as_f64().unwrap_or(f64::NAN);
     let place = |key: &str| ["x", "y", "z"].map(|axis| event[key][axis].as_f64().unwrap_or(f64::NAN));
     let kind = event["event"].as_str()?;
@@ -64,6 +67,8 @@ fn traced(event: &Value) -> Option<Move> {
         "rapid" | "feed" | "arc" | "thread" | "probe" => place("to").to_vec(),
         "hole" => place("at").to_vec(),
         "dwell" => vec![number("seconds")],
+        "spindle" if turns => vec![number("speed")],
+        "stop" if turns => Vec::new(),
         _ => return None,
     };
     let still = place("from").iter().zip(place("to")).all(|(a, b)| (a - b).abs() <= NEAR);
@@ -82,7 +87,7 @@ fn traced(event: &Value) -> Option<Move> {
         "hole" => numbers.push(number("bottom")),
         _ => {}
     }
-    let mode = event["mode"].as_str().unwrap_or_default().to_owned();
+    let mode = event["mode"].as_str().or(event["direction"].as_str()).unwrap_or_default().to_owned();
     Some(Move { kind: kind.to_owned(), numbers, mode })
 }
 
@@ -108,7 +113,7 @@ fn moves(expectation: &Expectation) -> (Vec<Move>, String) {
     let events: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let end = events.last().and_then(|result| result["end"].as_str()).unwrap_or_default().to_owned();
     assert!(!end.is_empty(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
-    (events.iter().filter_map(traced).collect(), end)
+    (events.iter().filter_map(|event| traced(event, expectation.turns)).collect(), end)
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {

@@ -75,6 +75,7 @@ pub fn read<'c>(
             _ => {}
         }
     }
+    read.command.without_dwell = lasting.cycle.is_some_and(|row| !row.takes(Role::CycleDwell));
     for word in words.iter().filter(|word| !matches!(word.letter, 'G' | 'M')) {
         value(control, *word, increment, lasting, &mut read, trace);
     }

@@ -1,6 +1,7 @@
 //! How a row of `codes` spells its code: a head and the words that must stand beside it.
 
 use super::CodeMeaning;
+use crate::canon::Role;
 
 /// The letter and number of a code, the number in thousandths so that `G54.1` is exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -79,5 +80,10 @@ impl CodeMeaning {
                 Some(Beside { letter, thousandths })
             })
             .collect()
+    }
+
+    /// True where a word beside the code has the role.
+    pub fn takes(&self, role: Role) -> bool {
+        self.words.values().any(|found| *found == role)
     }
 }

@@ -198,3 +198,15 @@ part.feed(2.0, 20.0)
 part.feed(6.0, 20.0)
 part.feed(6.0, 17.0)
 part.feed(1.0, 2.0)
+
+# G81: V1 is taken for the retract plane and V2 for the depth, and G0 drills under it (seed 004:1586-1590). There is no
+# code for the return plane: the tool goes back to where it came from.
+part = Motion("cc100", "drill", ["tests/motions/programs/cc100/drill.nc"],
+              "Holes from Z5 to -10, by G0 and by places alone, then one from Z8 to -4; back to Z30 each time, and none after G80.",
+              start=(100.0, 100.0, 50.0))
+part.rapid(10.0, 20.0, 30.0)
+part.set_feed(500.0)
+for x, y in ((20.0, 20.0), (30.0, 25.0), (40.0, 35.0)):
+    part.hole(x, y, r=5.0, bottom=-10.0, back=30.0)
+part.hole(0.0, 0.0, r=8.0, bottom=-4.0, back=30.0)
+part.rapid(50.0, 50.0)

@@ -314,3 +314,42 @@ part.feed(2.0, f=10.0)
 for x in (3.0, 4.0):
     part.hole(x, 1.0, r=0.1, bottom=-0.5, back=1.0, f=20.0, out="feed")
 part.feed(5.0, f=10.0)
+
+# Left: the spindle turns counter-clockwise, and clockwise on the way out. 300 * .1 are 30 inches a minute.
+part = Motion("fadal", "left-tap", ["tests/motions/programs/fadal/left-tap.nc"],
+              "G74 at 20 inches a minute with M4, G84.1 at 30 with M3; back to Z1. (G98) or to the plane R0 (G99). The feed of 10 is in\n"
+              "force behind them, for F is their speed.",
+              unit=INCH, start=(0.0, 0.0, 50.0), offsets={1: (100.0, 50.0, -200.0)}, profile='units = "inch"', turns=True)
+part.spindle("counter_clockwise")
+part.work(1)
+part.rapid(1.0, 1.0, 1.0)
+part.feed(2.0, f=10.0)
+part.spindle("counter_clockwise", 400.0)
+part.tap(3.0, 1.0, r=0.1, bottom=-0.5, back=1.0, f=20.0)
+part.tap(4.0, 1.0, r=0.1, bottom=-0.5)
+part.spindle("clockwise")
+part.rapid(z=1.0)
+part.spindle("clockwise", 300.0)
+part.tap(5.0, 1.0, r=0.2, bottom=-0.25, f=30.0)
+part.tap(6.0, 1.0, r=0.2, bottom=-0.25, back=1.0)
+part.feed(7.0, f=10.0)
+
+part = Motion("fadal", "bores", ["tests/motions/programs/fadal/bores.nc"],
+              "G76 goes aside by I and J at the bottom (facts/fadal.md 6) and comes back over the hole where the cycle ends; G86's spindle\n"
+              "turns again there. Each back to Z1. (G98) and to the plane R0 (G99). P are milliseconds, for G82 and G89 only.",
+              unit=INCH, start=(0.0, 0.0, 50.0), offsets={1: (100.0, 50.0, -200.0)}, profile='units = "inch"', turns=True)
+part.spindle("clockwise", 800.0)
+part.work(1)
+part.rapid(0.0, 0.0, 1.0)
+part.set_feed(5.0)
+for y, back in ((1.0, 1.0), (2.0, None)):
+    part.bore_finely(1.0, y, r=0.1, bottom=-0.5, by=(0.02, -0.03), back=back)
+for y, back in ((1.0, 1.0), (2.0, None)):
+    part.bore_and_stop(2.0, y, r=0.1, bottom=-0.5, back=back)
+for y, bottom, back in ((1.0, -0.5, 1.0), (2.0, -0.25, None)):
+    part.hole(3.0, y, r=0.1, bottom=bottom, out="feed", back=back)
+for y, back in ((1.0, 1.0), (2.0, None)):
+    part.hole(4.0, y, r=0.1, bottom=-0.25, dwell=0.25, out="feed", back=back)
+part.hole(5.0, 1.0, r=0.1, bottom=-0.25, dwell=0.5, back=1.0)
+part.hole(6.0, 1.0, r=0.1, bottom=-0.25, back=1.0)
+part.feed(7.0)

@@ -185,3 +185,56 @@ part.feed(None, least(end[0] - least((2 - end[1]) * tan(30))), 2.0)
 part.dwell(1.0)
 part.feed(None, 1.0, 0.5, f=20.0)
 part.rapid(None, None, 0.0)
+
+# Drilling cycles: the initial level is where the tool stood when the cycle began; under G91 R counts from there and
+# Z from R. A dwell lasts for the cycles that take one. Taps come out with the spindle turned back.
+MILL = dict(profile='units = "metric"', start=(1.0, 2.0, 50.0), offsets={1: (30.0, 40.0, -200.0)}, tools={1: 50.0}, turns=True)
+part = Motion("fanuc", "taps", ["tests/motions/programs/fanuc/taps.nc"],
+              "G74 with M04, at R3. (G99) and back to Z20. (G98); G84 twice by K2 under G91 from R20-16 to 4-14; a tap by G84.2;\n"
+              "G82 dwells .7 s, G81 and G83 take no P, G89 takes the .7 of before. Q5. from R4.: -1, -6, -8.", **MILL)
+part.spindle("counter_clockwise", 400.0)
+part.work(1)
+part.rapid(0.0, 0.0)
+part.tool(1)
+part.rapid(z=20.0)
+part.tap(10.0, 5.0, r=3.0, bottom=-12.0, f=500.0, dwell=0.3)
+part.tap(20.0, 5.0, r=3.0, bottom=-12.0, dwell=0.3, back=20.0)
+part.spindle("clockwise")
+for x in (30.0, 40.0):
+    part.tap(x, 5.0, r=20.0 - 16.0, bottom=4.0 - 14.0, f=300.0)
+part.tap(50.0, 5.0, r=4.0, bottom=-6.0, f=250.0, dwell=0.1, back=20.0)
+part.hole(60.0, 5.0, r=4.0, bottom=-2.0, dwell=0.7, back=20.0)
+part.hole(70.0, 5.0, r=4.0, bottom=-2.0, back=20.0)
+part.hole(80.0, 5.0, r=4.0, bottom=-2.0, f=100.0, dwell=0.7, out="feed", back=20.0)
+part.peck(90.0, 5.0, r=4.0, bottom=-8.0, steps=[5, 5, 5], back=20.0)
+part.feed(95.0)
+
+part = Motion("fanuc", "bores", ["tests/motions/programs/fanuc/bores.nc"],
+              "Each bore back to the initial level (G98) and to R2. (G99). G76: the tool goes aside by Q at the bottom and comes back over\n"
+              "the hole where the cycle ends; which way is a parameter, taken for +X, and the sign of Q does not count (B-63324EN/03\n"
+              "p. 295). G86: the spindle turns again there too. G87: aside, through to R-25., up to Z-20.; G80 left the tool at R2., so\n"
+              "that is its initial level. Then three by K3 and two by L2 under G91.", **MILL)
+part.spindle("clockwise", 600.0)
+part.work(1)
+part.rapid(0.0, 0.0)
+part.tool(1)
+part.rapid(z=30.0)
+part.set_feed(60.0)
+for y, back in ((5.0, 30.0), (15.0, None)):
+    part.bore_finely(10.0, y, r=2.0, bottom=-8.0, by=(0.5, 0.0), dwell=0.2, back=back)
+for y, back in ((5.0, 30.0), (15.0, None)):
+    part.bore_and_stop(20.0, y, r=2.0, bottom=-8.0, back=back)
+for y, bottom, back in ((5.0, -8.0, 30.0), (15.0, -4.0, None)):
+    part.hole(30.0, y, r=2.0, bottom=bottom, out="feed", back=back)
+for y, back in ((5.0, 30.0), (15.0, None)):
+    part.bore_by_hand(40.0, y, r=2.0, bottom=-4.0, dwell=0.1, back=back)
+for y, back in ((5.0, 30.0), (15.0, None)):
+    part.hole(50.0, y, r=2.0, bottom=-4.0, dwell=0.25, out="feed", back=back)
+for y in (5.0, 15.0):
+    part.bore_back(60.0, y, r=-25.0, bottom=-20.0, by=(1.0, 0.0), dwell=0.05, f=40.0, back=2.0)
+part.rapid(z=30.0)
+for x in (50.0, 40.0, 30.0):
+    part.hole(x, 15.0, r=30.0 - 28.0, bottom=2.0 - 5.0, out="feed", back=30.0)
+for x in (20.0, 10.0):
+    part.hole(x, 15.0, r=2.0, bottom=2.0 - 4.0, out="feed")
+part.rapid(z=60.0)

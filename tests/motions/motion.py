@@ -37,7 +37,8 @@ class Motion:
     """
 
     def __init__(self, control, name, run, about, *, unit=1.0, start=(0, 0, 0), home=(0, 0, 0), offsets=None,
-                 tools=None, profile="", scenario="", tables="", ends="ended"):
+                 tools=None, profile="", scenario="", tables="", ends="ended",
+                 turns=False):
         self.control, self.name, self.run, self.about = control, name, run, about
         self.unit, self.start, self.home = unit, start, home
         self.offsets, self.tools = offsets or {}, tools or {}
@@ -45,6 +46,8 @@ class Motion:
         self.now = list(map(float, start))
         self.shift, self.length = (0.0, 0.0, 0.0), 0.0
         self.speed, self.mode = 0.0, "per_minute"
+        # Whether the list says what the spindle does and where the program waits for the operator.
+        self.turns, self.turning, self.rpm = turns, "stopped", 0.0
         self.lines = []
         ALL.append(self)
 
@@ -181,6 +184,96 @@ class Motion:
         if back is not None:
             self.rapid(z=back)
 
+    # Cycles that stop, turn back or orient the spindle.
+
+    def spindle(self, direction, rpm=None):
+        self.turning, self.rpm = direction, self.rpm if rpm is None else rpm
+        self.lines.append(f"spindle {number(self.rpm)} {direction}")
+
+    def stop(self):
+        self.lines.append("stop")
+
+    def tap(self, x=None, y=None, *, r, bottom, back=None, f=None, dwell=0.0):
+        """A tapped hole: out with the spindle turned back, and turned as before at the plane r."""
+        before = self.turning
+        if f is not None:
+            self.set_feed(f)
+        self.rapid(x, y)
+        self.over(r, bottom)
+        self.feed(z=bottom)
+        if dwell:
+            self.dwell(dwell)
+        self.spindle("clockwise" if before == "counter_clockwise" else "counter_clockwise")
+        self.feed(z=r)
+        self.spindle(before)
+        if back is not None:
+            self.rapid(z=back)
+
+    def bore_and_stop(self, x=None, y=None, *, r, bottom, back=None):
+        """A bored hole: the spindle stands on the way out, up to the plane that the cycle ends at."""
+        before = self.turning
+        self.rapid(x, y)
+        self.over(r, bottom)
+        self.feed(z=bottom)
+        self.spindle("stopped")
+        self.rapid(z=r)
+        if back is not None:
+            self.rapid(z=back)
+        self.spindle(before)
+
+    def bore_by_hand(self, x=None, y=None, *, r, bottom, back=None, dwell=0.0):
+        """A bored hole: the spindle stops and the operator takes the tool out; the list says where the cycle goes on."""
+        before = self.turning
+        self.rapid(x, y)
+        self.over(r, bottom)
+        self.feed(z=bottom)
+        if dwell:
+            self.dwell(dwell)
+        self.spindle("stopped")
+        self.stop()
+        self.rapid(z=r)
+        self.spindle(before)
+        if back is not None:
+            self.rapid(z=back)
+
+    def bore_finely(self, x=None, y=None, *, r, bottom, by, back=None, dwell=0.0):
+        """A bored hole: the spindle stops where the tip points off the wall, the tool goes aside by so much, out to
+        the plane that the cycle ends at, and back over the hole."""
+        before = self.turning
+        self.rapid(x, y)
+        self.over(r, bottom)
+        self.feed(z=bottom)
+        if dwell:
+            self.dwell(dwell)
+        self.spindle("oriented")
+        self.by(*by)
+        self.rapid(z=r)
+        if back is not None:
+            self.rapid(z=back)
+        self.by(-by[0], -by[1])
+        self.spindle(before)
+
+    def bore_back(self, x=None, y=None, *, r, bottom, by, back, f=None, dwell=0.0):
+        """A hole bored from below: aside, through to r, into the middle, up to the bottom, aside, and out."""
+        before = self.turning
+        if f is not None:
+            self.set_feed(f)
+        self.rapid(x, y)
+        self.spindle("oriented")
+        self.by(*by)
+        self.rapid(z=r)
+        self.by(-by[0], -by[1])
+        self.spindle(before)
+        self.over(r, bottom)
+        self.feed(z=bottom)
+        if dwell:
+            self.dwell(dwell)
+        self.spindle("oriented")
+        self.by(*by)
+        self.rapid(z=back)
+        self.by(-by[0], -by[1])
+        self.spindle(before)
+
     def over(self, r, bottom):
         """The tool goes down to the plane r over a hole."""
         self.rapid(z=r)
@@ -202,8 +295,9 @@ class Motion:
         scenario += [self.tables] if self.tables else []
         about = "\n".join("# " + line for line in self.about.strip().splitlines())
         run = ", ".join(f'"{path}"' for path in self.run)
+        turns = "turns = true\n" if self.turns else ""
         return (
-            f"{about}\n\ncontrol = \"{self.control}\"\nrun = [{run}]\nends = \"{self.ends}\"\n"
+            f"{about}\n\ncontrol = \"{self.control}\"\nrun = [{run}]\nends = \"{self.ends}\"\n{turns}"
             f"profile = '''\ndialect = \"{self.control}\"\n{self.profile.strip()}\n'''\n"
             f"scenario = '''\n" + "\n".join(scenario) + "\n'''\n"
             "moves = '''\n" + "\n".join(self.lines) + "\n'''\n"

@@ -17,6 +17,8 @@ pub struct Command {
     pub own_code: Option<String>,
     /// By how much the control rounded words to their least increment, where it did.
     pub rounded: SmallVec<[(Role, f64); 2]>,
+    /// True where the code of the drilling cycle in force takes no dwell.
+    pub without_dwell: bool,
 }
 
 impl Command {
@@ -26,6 +28,7 @@ impl Command {
         self.words.clear();
         self.own_code = None;
         self.rounded.clear();
+        self.without_dwell = false;
     }
 
     /// True where it says nothing.

@@ -18,6 +18,7 @@ pub(super) struct Cycle {
     z: Option<(f64, bool)>,
     pub peck: Option<f64>,
     pub dwell: f64,
+    without_dwell: bool,
     pub first_peck: Option<f64>,
     pub less: f64,
     pub least: f64,
@@ -114,12 +115,17 @@ fn across(command: &Command, along: usize) -> Command {
         words: words.collect(),
         rounded: command.rounded.clone(),
         own_code: None,
+        without_dwell: command.without_dwell,
     }
 }
 
 /// Drills at the present place.
 fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
-    let Some(cycle) = machine.cycle.clone() else { return Ok(()) };
+    let Some(mut cycle) = machine.cycle.clone() else { return Ok(()) };
+    if cycle.without_dwell {
+        // The dwell that an earlier cycle was given is none of this one.
+        cycle.dwell = 0.0;
+    }
     let frozen = machine.rules.planes_frozen.peek();
     if cycle.mixes(machine.incremental) {
         machine.rules.planes_frozen.ask(trace);
@@ -156,6 +162,7 @@ impl Cycle {
             z: None,
             peck: None,
             dwell: 0.0,
+            without_dwell: false,
             first_peck: None,
             less: 0.0,
             least: 0.0,
@@ -175,6 +182,7 @@ impl Cycle {
         }
         self.peck = length(Role::CycleQ).or(self.peck);
         self.dwell = command.word(Role::CycleDwell).map_or(self.dwell, |ms| ms / 1000.0);
+        self.without_dwell = command.without_dwell;
         self.first_peck = length(Role::PeckFirst).or(self.first_peck);
         self.less = length(Role::PeckLess).unwrap_or(self.less);
         self.least = length(Role::PeckLeast).unwrap_or(self.least);

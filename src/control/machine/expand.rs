@@ -7,22 +7,17 @@ use crate::canon::Op;
 use crate::control::scenario::Axes;
 use crate::control::trace::{FeedMode, Happening, Position, Spindle, Trace};
 
-/// Drills where the machine stands over the hole.
+/// Drills where the machine stands over the hole, and leaves it as the return plane says.
 pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
     // The bottom may count from the retract plane, and that from the initial one.
     trace.rounded += 2.0 * machine.rounding.cycle;
     let mut driver = Driver::new(machine, planes, trace);
-    driver.rapid(planes.r);
-    let at = Position(driver.machine.position);
-    let bottom = driver.place(planes.bottom)[driver.along];
-    driver.trace.push(Happening::Hole { cycle: cycle.op, at, bottom });
-    driver.drill(cycle);
-    if driver.machine.return_to_r {
-        let along = driver.along;
-        driver.machine.round_at_r(along);
-    } else {
-        driver.rapid(planes.initial);
+    if cycle.op == Op::CycleBackBore {
+        return driver.bore_back(cycle);
     }
+    driver.rapid(planes.r);
+    driver.tell(cycle);
+    driver.drill(cycle);
 }
 
 struct Driver<'a> {
@@ -38,61 +33,82 @@ impl<'a> Driver<'a> {
         Self { machine, trace, planes, along }
     }
 
+    /// Says where the hole is: the tool stands at the plane that cutting starts from.
+    fn tell(&mut self, cycle: &Cycle) {
+        let at = Position(self.machine.position);
+        let bottom = self.place(self.planes.bottom)[self.along];
+        self.trace.push(Happening::Hole { cycle: cycle.op, at, bottom });
+    }
+
+    /// From the retract plane into the hole, out of it, and on to the initial plane where that is asked for.
     fn drill(&mut self, cycle: &Cycle) {
         let Planes { r, bottom, .. } = self.planes;
+        let before = self.machine.spindle;
         match cycle.op {
             Op::CyclePeck | Op::CycleChipBreak => self.peck(cycle),
             Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid | Op::CycleTapByLead => self.tap(cycle),
-            // A dwell that an earlier cycle was given is none of a cycle that takes no such word.
             Op::CycleBore | Op::CycleBoreDwell => {
                 self.feed(bottom);
-                if cycle.op == Op::CycleBoreDwell {
-                    self.dwell(cycle.dwell);
-                }
+                self.dwell(cycle.dwell);
                 self.feed(r);
             }
-            Op::CycleBoreStop | Op::CycleBoreManual => {
+            Op::CycleBoreStop => {
                 self.feed(bottom);
-                if cycle.op == Op::CycleBoreManual {
-                    self.dwell(cycle.dwell);
-                }
-                let before = self.machine.spindle;
                 self.turn(Spindle::Stopped);
-                if cycle.op == Op::CycleBoreManual {
-                    self.trace.push(Happening::Stop);
-                }
+                self.rapid(r);
+            }
+            Op::CycleBoreManual => {
+                self.feed(bottom);
+                self.dwell(cycle.dwell);
+                self.turn(Spindle::Stopped);
+                self.trace.push(Happening::Stop);
                 self.rapid(r);
                 self.turn(before);
             }
             Op::CycleFineBore => {
                 self.feed(bottom);
                 self.dwell(cycle.dwell);
-                let before = self.machine.spindle;
                 self.turn(Spindle::Oriented);
                 self.shift(cycle, 1.0);
                 self.rapid(r);
-                self.shift(cycle, -1.0);
-                self.turn(before);
-            }
-            Op::CycleBackBore => {
-                self.trace.doubt("machine:cycle.back.bore");
-                let before = self.machine.spindle;
-                self.turn(Spindle::Oriented);
-                self.shift(cycle, 1.0);
-                self.rapid(r);
-                self.shift(cycle, -1.0);
-                self.turn(before);
-                self.feed(bottom);
-                self.dwell(cycle.dwell);
             }
             _ => {
                 self.feed(bottom);
-                if cycle.op == Op::CycleDrillDwell {
-                    self.dwell(cycle.dwell);
-                }
+                self.dwell(cycle.dwell);
                 self.rapid(r);
             }
         }
+        if self.machine.return_to_r {
+            self.machine.round_at_r(self.along);
+        } else {
+            self.rapid(self.planes.initial);
+        }
+        // The tool stays off the wall, and a stopped spindle stopped, up to the plane that the cycle ends at.
+        if cycle.op == Op::CycleFineBore {
+            self.shift(cycle, -1.0);
+        }
+        if matches!(cycle.op, Op::CycleFineBore | Op::CycleBoreStop) {
+            self.turn(before);
+        }
+    }
+
+    /// Through a hole beside its middle, and up into the part from below; always back to the initial plane.
+    fn bore_back(&mut self, cycle: &Cycle) {
+        self.trace.doubt("machine:cycle.back.bore");
+        let before = self.machine.spindle;
+        self.turn(Spindle::Oriented);
+        self.shift(cycle, 1.0);
+        self.rapid(self.planes.r);
+        self.shift(cycle, -1.0);
+        self.turn(before);
+        self.tell(cycle);
+        self.feed(self.planes.bottom);
+        self.dwell(cycle.dwell);
+        self.turn(Spindle::Oriented);
+        self.shift(cycle, 1.0);
+        self.rapid(self.planes.initial);
+        self.shift(cycle, -1.0);
+        self.turn(before);
     }
 
     /// In steps: out of the hole each time, or back a little to break the chip.
@@ -147,11 +163,11 @@ impl<'a> Driver<'a> {
     /// Moves the tool off the wall by the cycle's shift, or back.
     fn shift(&mut self, cycle: &Cycle, sign: f64) {
         let (first, second, _) = axes_of(self.machine.plane);
-        let (mut dx, dy) = cycle.shift;
-        if (dx, dy) == (0.0, 0.0) {
-            // Which way Q shifts is a parameter of the machine.
+        let (mut dx, mut dy) = cycle.shift;
+        if let Some(by) = cycle.peck {
+            // Which way Q shifts is a parameter of the machine, and its sign is ignored.
             self.trace.doubt("machine:cycle.shift.direction");
-            dx = cycle.peck.unwrap_or(0.0);
+            (dx, dy) = (by.abs(), 0.0);
         }
         let mut to = self.machine.position;
         to[first] += sign * dx;

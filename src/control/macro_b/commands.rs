@@ -122,6 +122,7 @@ impl<'c> Runner<'c> {
                 self.cycle = Some(row);
             }
         }
+        command.without_dwell = self.cycle.is_some_and(|row| !row.takes(Role::CycleDwell));
         let last = call.map_or(usize::MAX, |call| if call.alias.is_some() { 0 } else { call.word });
         let flow = meaning.codes.iter().any(|code| code.row.is_some_and(|row| row.op.is_flow()));
         for (at, word) in words.words.iter().enumerate().take(last) {
