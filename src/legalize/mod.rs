@@ -24,6 +24,7 @@ mod conditions;
 mod constants;
 mod context;
 mod cycle_here;
+mod cycle_words;
 mod dwell;
 mod emptied;
 mod exposed;
@@ -192,6 +193,11 @@ pub const PASSES: &[Pass] = &[
         name: "cycle-here",
         concerns: |c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere),
         run: Rewrites(cycle_here::run),
+    },
+    Pass {
+        name: "cycle-words",
+        concerns: |c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)),
+        run: Rewrites(cycle_words::run),
     },
     Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Rewrites(substitutes::run) },
     Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Rewrites(machine_codes::run) },

@@ -22,6 +22,8 @@ pub(super) struct Cycle {
     pub first_peck: Option<f64>,
     pub less: f64,
     pub least: f64,
+    /// How far over the last depth a peck begins to feed, where the cycle says it.
+    pub clear: Option<f64>,
     pub shift: (f64, f64),
     /// By how much a tap advances each turn, where the cycle is given that in place of a feed.
     pub lead: Option<f64>,
@@ -166,6 +168,7 @@ impl Cycle {
             first_peck: None,
             less: 0.0,
             least: 0.0,
+            clear: None,
             shift: (0.0, 0.0),
             lead: None,
         }
@@ -186,6 +189,7 @@ impl Cycle {
         self.first_peck = length(Role::PeckFirst).or(self.first_peck);
         self.less = length(Role::PeckLess).unwrap_or(self.less);
         self.least = length(Role::PeckLeast).unwrap_or(self.least);
+        self.clear = length(Role::PeckClear).or(self.clear);
         self.lead = length(Role::Lead).or(self.lead);
         self.shift =
             (length(Role::CycleI).unwrap_or(self.shift.0), length(Role::CycleJ).unwrap_or(self.shift.1));

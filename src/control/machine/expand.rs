@@ -116,7 +116,7 @@ impl<'a> Driver<'a> {
         let Planes { r, bottom, .. } = self.planes;
         let (whole, down) = ((bottom - r).abs(), (bottom - r).signum());
         let mut step = cycle.first_peck.or(cycle.peck).unwrap_or(whole).abs();
-        let clearance = self.machine.peck_clearance;
+        let clearance = cycle.clear.map_or(self.machine.peck_clearance, f64::abs);
         let mut depth = 0.0;
         while depth < whole && !self.trace.is_full() {
             if depth > 0.0 {
