@@ -32,6 +32,23 @@ impl Control {
         let what = format!("rests on the unconfirmed fact '{fact}' of the {side}, {title}: {note}");
         Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(to_confirm(fact, side)).with_fact(fact)
     }
+
+    /// What to do about a fact of this control: to state the setting that it hangs on where there is one and nobody
+    /// stated it, or else to confirm it.
+    pub fn to_settle(&self, fact: &str, side: Side) -> String {
+        let name = fact.strip_prefix("behaviour:");
+        let open = name.and_then(|name| self.behaviour(name)).is_some_and(|row| row.value == "setting");
+        let mut settings = self.dialect().settings.iter().filter(|_| open);
+        match settings.find(|row| row.sets.values().any(|sets| sets.contains_key(fact))) {
+            Some(row) => {
+                format!(
+                    "check it on the machine, then state '{}' in the machine profile of the {side}",
+                    row.name
+                )
+            }
+            None => to_confirm(fact, side),
+        }
+    }
 }
 
 /// What to do about a fact that nothing confirms.

@@ -6,6 +6,7 @@
 
 use super::{Context, ModalFacts, Setting};
 use crate::canon::{Group, Op, Sys};
+use crate::dialect::Side;
 use crate::ir::{BlockId, Module, Place, StmtKind};
 
 /// Reports writes to offsets that may be in force.
@@ -37,12 +38,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     };
                     if !other {
                         let what = "the work offset may be selected while it is written: whether it counts at once or when it is selected again is not known of both controls";
-                        context.unconfirmed(
-                            index,
-                            stmt.site.span,
-                            "behaviour:offset.active.immediately",
-                            what,
-                        );
+                        let side = if answer(context.target).is_none() { Side::Target } else { Side::Source };
+                        let fact = format!("behaviour:{FACT}");
+                        context.unconfirmed(index, side, stmt.site.span, &fact, what);
                     }
                 }
                 state.step(stmt);

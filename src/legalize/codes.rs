@@ -2,7 +2,8 @@
 //!
 //! Law: a number means the same on both controls where both tables give it the same operation with the same fixed
 //! operands. Every number that the value may be is looked up; where that set is not known, the code is a
-//! condition that a reviewer must accept within a family of controls, and an error across families. A computed code
+//! condition that a reviewer must accept within a family of controls, and an error across families. So is a code that
+//! the program may have found in force, which only one that runs before it can have put there. A computed code
 //! is a whole number: where both controls round it, what they round it to is looked up.
 //! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
 
@@ -27,7 +28,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     if let NcItem::Code(letter, value) = item {
                         let mut numbers = numbers(value, program, &summaries, id, at, context.source);
                         if rounds && value.constant().is_none() {
-                            numbers.iter_mut().flatten().for_each(|number| *number = number.round());
+                            numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
                         }
                         let finding = check(*letter, numbers, context.source, context.target);
                         found.extend(finding.map(|finding| (index, stmt.site.span, finding)));
@@ -40,6 +41,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let (code, what) = match finding {
             Finding::Other(code) => {
                 (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
+            }
+            Finding::Read(code) => {
+                let same = context.same_family();
+                let what = format!(
+                    "puts in force again what was read: {code} is not known to mean the same on the target, and must not be in force where it is read"
+                );
+                (if same { Code::Conditional } else { Code::NoEquivalent }, what)
             }
             Finding::Any(letter) => {
                 let same = context.same_family();
@@ -56,30 +64,41 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 enum Finding {
     /// This code has another meaning, or none.
     Other(String),
+    /// So has this one, which stands for what was in force where the program read it.
+    Read(String),
     /// Any code of the letter.
     Any(char),
 }
 
+/// A number that a code may be.
+pub(super) struct Number {
+    /// The number.
+    pub number: f64,
+    /// True where it stands for what was in force where the program read it.
+    read: bool,
+}
+
 /// The numbers that a code may be; none where that is not known.
-fn numbers(
+pub(super) fn numbers(
     value: &Expr,
     program: &Program,
     summaries: &Summaries,
     id: BlockId,
     at: usize,
     source: &Control,
-) -> Option<Vec<f64>> {
+) -> Option<Vec<Number>> {
     if let Some(number) = value.constant() {
-        return Some(vec![number]);
+        return Some(vec![Number { number, read: false }]);
     }
     let Expr::Var(var) = value else { return None };
     let mut numbers = Vec::new();
     for constant in values_at(program, summaries, *var, id, at)? {
         match constant {
-            Constant::Number(number) => numbers.push(number),
+            Constant::Number(number) => numbers.push(Number { number, read: false }),
             Constant::Vacant => {}
             Constant::State(Sys::Modal, subscripts) => {
-                numbers.extend(codes_of_group(*subscripts.first()?, source)?);
+                let codes = codes_of_group(*subscripts.first()?, source)?.into_iter();
+                numbers.extend(codes.map(|number| Number { number, read: true }));
             }
             Constant::State(..) => return None,
         }
@@ -107,7 +126,7 @@ pub(super) fn renumbered(group: f64, source: &Control, target: &Control) -> Opti
     Some(row.code.split(' ').next()?.to_owned())
 }
 
-fn check(letter: char, numbers: Option<Vec<f64>>, source: &Control, target: &Control) -> Option<Finding> {
+fn check(letter: char, numbers: Option<Vec<Number>>, source: &Control, target: &Control) -> Option<Finding> {
     let Some(numbers) = numbers else { return Some(Finding::Any(letter)) };
     let same = |number: f64| {
         let (here, there) = (source.code(letter, number, &[]), target.code(letter, number, &[]));
@@ -118,8 +137,8 @@ fn check(letter: char, numbers: Option<Vec<f64>>, source: &Control, target: &Con
             here.op == there.op && here.fixed == there.fixed && !unnamed(here.op)
         })
     };
-    numbers
-        .into_iter()
-        .find(|number| !same(*number))
-        .map(|number| Finding::Other(format!("{letter}{number}")))
+    // What a program names itself weighs more than what it may find in force.
+    let other = numbers.into_iter().filter(|n| !same(n.number)).min_by_key(|n| n.read)?;
+    let code = format!("{letter}{}", other.number);
+    Some(if other.read { Finding::Read(code) } else { Finding::Other(code) })
 }

@@ -77,9 +77,18 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Adds, once a program, that it rests on an unconfirmed fact.
-    pub fn unconfirmed(&mut self, program: usize, span: Span, fact: &str, what: impl Into<Arc<str>>) {
-        self.add_once(program, fact, Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(fact));
+    /// Adds, once a program, that it rests on an unconfirmed fact of one of the controls.
+    pub fn unconfirmed(
+        &mut self,
+        program: usize,
+        side: Side,
+        span: Span,
+        fact: &str,
+        what: impl Into<Arc<str>>,
+    ) {
+        let control = if side == Side::Source { self.source } else { self.target };
+        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(fact);
+        self.add_once(program, fact, finding.with_help(control.to_settle(fact, side)));
     }
 
     /// Says, once a program, that it rests on how the source behaves, where no maker's text confirms that.

@@ -7,6 +7,7 @@
 use super::Context;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Side;
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -39,7 +40,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         if let (Some((_, span)), false) = (asked, known) {
             let what =
                 "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
-            context.unconfirmed(index, *span, "behaviour:dwell.expression", what);
+            context.unconfirmed(index, Side::Target, *span, "behaviour:dwell.expression", what);
         }
     }
 }

@@ -56,13 +56,13 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
         found.words = [0; WORDS];
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
-        for (id, block) in program.ids().zip(&program.blocks) {
-            found.home = program.site.span;
+        for (at, id) in program.ids().enumerate() {
+            let blocks = program.blocks.get(at..).unwrap_or_default();
             if side == Side::Target {
-                found.block(block);
+                found.block(blocks);
             }
             if let Some(vacancy) = &vacancy {
-                found.vacant(id, block, vacancy);
+                found.vacant(id, blocks, vacancy);
             }
         }
         for finding in found.all.drain(..) {
@@ -180,13 +180,18 @@ impl<'c> Found<'c> {
         }
     }
 
-    /// The place of a statement, or of the next one that has any.
-    fn span(&self, block: &Block, at: usize) -> Span {
-        let spans = block.stmts.iter().skip(at).map(|stmt| stmt.site.span).chain([block.term.site.span]);
+    /// The place of a statement of the first of `blocks`, or of the next one that has any: what an emulation puts
+    /// before a statement has none, and may end a block.
+    fn span(&self, blocks: &[Block], at: usize) -> Span {
+        let spans = blocks.iter().enumerate().flat_map(|(number, block)| {
+            let stmts = block.stmts.iter().skip(if number == 0 { at } else { 0 });
+            stmts.map(|stmt| stmt.site.span).chain([block.term.site.span])
+        });
         spans.into_iter().find(|span| !span.is_empty()).unwrap_or(self.home)
     }
 
-    fn block(&mut self, block: &Block) {
+    fn block(&mut self, blocks: &[Block]) {
+        let Some(block) = blocks.first() else { return };
         for (at, stmt) in block.stmts.iter().enumerate() {
             if let StmtKind::Nc(nc) = &stmt.kind
                 && stmt.site.skip.is_none()
@@ -194,7 +199,7 @@ impl<'c> Found<'c> {
             {
                 continue;
             }
-            let span = self.span(block, at);
+            let span = self.span(blocks, at);
             stmt.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
             if stmt.site.skip.is_some_and(|level| level > 1) {
                 self.behaviour("skip.levels", span);
@@ -220,7 +225,7 @@ impl<'c> Found<'c> {
                 _ => {}
             }
         }
-        let span = self.span(block, block.stmts.len());
+        let span = self.span(blocks, block.stmts.len());
         block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
         match &block.term.kind {
             TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour("skip.levels", span),
@@ -327,19 +332,20 @@ impl<'c> Found<'c> {
     }
 
     /// Facts that matter only where a variable may be vacant.
-    fn vacant(&mut self, id: BlockId, block: &Block, vacancy: &Vacancy<'_>) {
+    fn vacant(&mut self, id: BlockId, blocks: &[Block], vacancy: &Vacancy<'_>) {
+        let Some(block) = blocks.first() else { return };
         vacancy.forward(id, &mut |at, may| match block.stmts.get(at) {
             Some(stmt) => {
                 let mut arithmetic = false;
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| arithmetic |= computes_with(e, may)));
                 if arithmetic {
-                    let span = self.span(block, at);
+                    let span = self.span(blocks, at);
                     self.behaviour("vacant.arithmetic.zero", span);
                 }
             }
             None => {
                 if let TermKind::Branch { cond, .. } = &block.term.kind {
-                    let span = self.span(block, at);
+                    let span = self.span(blocks, at);
                     self.condition(cond, span, may);
                 }
             }

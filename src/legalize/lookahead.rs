@@ -9,6 +9,7 @@ use super::Context;
 use super::emptied::drop_emptied;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Side;
 use crate::ir::{Expr, Module, Nc, Site, Stmt, StmtKind};
 use std::collections::BTreeMap;
 
@@ -42,7 +43,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                                 .behaviour("system.read.waits")
                                 .is_some_and(|b| b.value == "true" && b.origin.confirmed)
                         {
-                            context.unconfirmed(index, span, "behaviour:system.read.waits", what);
+                            context.unconfirmed(
+                                index,
+                                Side::Target,
+                                span,
+                                "behaviour:system.read.waits",
+                                what,
+                            );
                         }
                         out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
                     }

@@ -8,7 +8,7 @@ use super::census::{Census, Thing};
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::matters;
+use crate::dialect::{Side, matters};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
 
@@ -127,8 +127,9 @@ fn arc(nc: &Nc, index: usize, span: Span, context: &mut Context<'_>) {
         let confirmed =
             |control: &crate::dialect::Control| control.profile().confirm.iter().any(|fact| fact == name);
         if !confirmed(context.source) || !confirmed(context.target) {
+            let side = if confirmed(context.target) { Side::Source } else { Side::Target };
             let what = format!("rests on '{name}': {}", matters::meaning(name).unwrap_or_default());
-            context.unconfirmed(index, span, name, what);
+            context.unconfirmed(index, side, span, name, what);
         }
     }
 }

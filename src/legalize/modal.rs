@@ -35,6 +35,8 @@ pub struct Modal {
     feed: Feed,
     /// The open modal calls, innermost last; absent where paths disagree.
     pub calls: Option<Vec<Call>>,
+    /// True where nothing in the library leaves another unit than the one that is named.
+    pub one_unit: bool,
 }
 
 impl Modal {
@@ -45,12 +47,16 @@ impl Modal {
             may_be_cancelled: false,
             feed: Feed::Unknown,
             calls: Some(Vec::new()),
+            one_unit: false,
         }
     }
 
-    /// Nothing known but the modal calls that are open.
-    pub(super) fn unknown_under(calls: Option<Vec<Call>>) -> Self {
-        Self { calls, ..Self::unknown() }
+    /// Nothing known but the modal calls that are open, and the unit where nothing leaves another.
+    pub(super) fn unknown_under(state: &Self) -> Self {
+        let mut unknown = state.clone();
+        unknown.may_be_cancelled = false;
+        unknown.forget();
+        unknown
     }
 
     /// Puts an operation in force from the start.
@@ -123,7 +129,11 @@ impl Modal {
     }
 
     fn forget(&mut self) {
+        let unit = self.of(Group::Units);
         self.settings = [Setting::Unknown; Group::ALL.len()];
+        if self.one_unit {
+            self.settings[Group::Units as usize] = unit;
+        }
         self.feed = Feed::Unknown;
     }
 
@@ -153,6 +163,7 @@ impl Modal {
             return true;
         }
         let mut changed = false;
+        self.one_unit |= other.one_unit;
         for (mine, theirs) in self.settings.iter_mut().zip(&other.settings) {
             if *mine != *theirs && *mine != Setting::Unknown {
                 *mine = Setting::Unknown;

@@ -144,7 +144,7 @@ impl<'m> Analysis<'m> {
                 && !(self.copies && nested)
             {
                 // It runs behind moves yet to come, under the modal calls outside its own.
-                let inside = Modal::unknown_under(state.calls.clone());
+                let inside = Modal::unknown_under(&state);
                 self.call(index, id, call, &Rc::new(inside));
             }
             Rc::make_mut(&mut state).step(stmt);
@@ -167,7 +167,7 @@ impl<'m> Analysis<'m> {
         let routine = match (&call.callee, self.program_of(&call.callee)) {
             (Callee::Block(entry), _) => (index, *entry),
             (_, Some(program)) => (program, BlockId(0)),
-            _ => return Rc::new(Modal::unknown_under(state.calls.clone())),
+            _ => return Rc::new(Modal::unknown_under(state)),
         };
         if self.callers.entry(routine).or_default().insert((index, id)) {
             // Its returns may have been looked at before anybody was known to call it.

@@ -7,7 +7,7 @@
 use super::{Context, Position, Rewriter, rewrite_program};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row};
+use crate::dialect::{Control, Row, Side};
 use crate::ir::{BinOp, Callee, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
 use crate::syntax::ProgramName;
 use crate::text::Span;
@@ -72,6 +72,8 @@ enum Finding {
     ReadOnly(Sys),
     Table(Sys),
     TargetTable,
+    /// What the tables hold as far as it is stated, which a block that writes them rests on.
+    TablesHold,
 }
 
 impl Finding {
@@ -87,15 +89,16 @@ impl Finding {
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
             }
             Finding::Unconfirmed(state, fact, note) => {
-                let what = format!("where {title} keeps '{state}' is not confirmed{note}");
-                context.unconfirmed(index, span, &fact, what);
+                let note = format!("'{state}' is taken to be kept there{note}");
+                let finding = context.target.unconfirmed(Side::Target, &fact, Some(&note), span);
+                context.add_once(index, &fact, finding);
             }
             Finding::Table(state) => {
                 let what = match state {
                     Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
                     state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
                 };
-                context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
+                context.unconfirmed(index, Side::Source, span, "behaviour:radius.offset.table", what);
             }
             Finding::Renumbered(code) => {
                 let what = format!(
@@ -105,7 +108,16 @@ impl Finding {
             }
             Finding::TargetTable => {
                 let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
-                context.unconfirmed(index, span, "behaviour:radius.offset.table", what);
+                context.unconfirmed(index, Side::Target, span, "behaviour:radius.offset.table", what);
+            }
+            Finding::TablesHold => {
+                let name = "radius.offset.table";
+                if holds_radii(context.source).is_some() {
+                    context.rests_on_source(index, span, name);
+                }
+                if holds_radii(context.target).is_some() {
+                    context.rests_on_target(index, span, name);
+                }
             }
             Finding::Wiring => {
                 let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
@@ -194,6 +206,15 @@ fn read(
     }
 }
 
+/// True where a control's cutter table holds radii; none where that is a setting which nobody stated.
+fn holds_radii(control: &Control) -> Option<bool> {
+    match control.behaviour("radius.offset.table")?.value.as_str() {
+        "radius" => Some(true),
+        "diameter" => Some(false),
+        _ => None,
+    }
+}
+
 /// By what a state is multiplied to give the other, where that hangs on what the cutter table of either
 /// control holds. Factors are those of a table of diameters.
 fn settled(
@@ -203,14 +224,9 @@ fn settled(
     span: Span,
     found: &mut Vec<(Span, Finding)>,
 ) -> f64 {
-    let radii = |control: &Control| match control.behaviour("radius.offset.table")?.value.as_str() {
-        "radius" => Some(true),
-        "diameter" => Some(false),
-        _ => None,
-    };
     let either = |state| matches!(state, Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear);
-    let ours = if either(state) { radii(source) } else { Some(false) };
-    let theirs = if either(other) { radii(target) } else { Some(false) };
+    let ours = if either(state) { holds_radii(source) } else { Some(false) };
+    let theirs = if either(other) { holds_radii(target) } else { Some(false) };
     match (ours, theirs) {
         (Some(true), Some(false)) => 2.0 * factor,
         (Some(false), Some(true)) => 0.5 * factor,
@@ -267,15 +283,15 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
     found.push((span, Finding::Missing(*state)));
 }
 
-/// By what a number of the source's cutter table is multiplied to be one of the target's; none where neither is
-/// known to hold radii. A source that does not say is taken to hold diameters.
+/// By what a number of the source's cutter table is multiplied to be one of the target's; none where nobody stated
+/// what either holds. Where one of them is stated, the other is taken to hold diameters.
 pub(super) fn table_factor(source: &Control, target: &Control) -> Option<f64> {
-    let table = |control: &Control| control.behaviour("radius.offset.table").map(|row| row.value.clone());
-    Some(match (table(source).as_deref(), table(target).as_deref()) {
-        (Some("radius"), Some("diameter")) => 2.0,
-        (Some("radius"), Some("radius")) | (Some("diameter"), Some("diameter")) => 1.0,
-        (_, Some("radius")) => 0.5,
-        _ => return None,
+    let (ours, theirs) = (holds_radii(source), holds_radii(target));
+    ours.or(theirs)?;
+    Some(match (ours.unwrap_or(false), theirs.unwrap_or(false)) {
+        (true, false) => 2.0,
+        (false, true) => 0.5,
+        _ => 1.0,
     })
 }
 
@@ -291,14 +307,14 @@ fn write_radius(
     span: Span,
     found: &mut Vec<(Span, Finding)>,
 ) {
-    let stated = |control: &Control| control.behaviour("radius.offset.table").map(|row| row.value.clone());
-    let factor = table_factor(source, target);
-    match (stated(source).as_deref(), factor) {
-        (_, None) => return found.push((span, Finding::Table(Sys::DiameterOrRadius))),
-        (Some("radius" | "diameter"), _) => {}
-        _ => found.push((span, Finding::Table(Sys::RadiusGeometry))),
+    match (holds_radii(source), holds_radii(target)) {
+        (None, None) => return found.push((span, Finding::Table(Sys::DiameterOrRadius))),
+        (None, Some(_)) => found.push((span, Finding::Table(Sys::RadiusGeometry))),
+        (Some(_), None) => found.push((span, Finding::TargetTable)),
+        (Some(_), Some(_)) => {}
     }
-    let factor = factor.unwrap_or(1.0);
+    found.push((span, Finding::TablesHold));
+    let factor = table_factor(source, target).unwrap_or(1.0);
     for item in &mut nc.items {
         if let NcItem::Word(Role::OffsetValue, value) = item {
             *value = scaled(std::mem::replace(value, Expr::Vacant), factor);

@@ -7,16 +7,20 @@
 //! review diagnostic. Two controls of one family that are set alike need nothing.
 
 use super::census::{Census, Thing};
+use super::codes::numbers;
 use super::emptied::drop_emptied;
 use super::exposed::roots;
 use super::{Context, ModalFacts, calls_of, reachable};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Units;
+use crate::dialect::{Control, Units};
+use crate::ir::analysis::Summaries;
 use crate::ir::{
     BlockId, Call, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
 };
 use crate::syntax::ProgramName;
+use crate::text::Span;
+use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
@@ -38,11 +42,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if same_family && ours.is_some() && ours == theirs {
         return;
     }
-    let open = open(module, &ModalFacts::of(module, &context.entry));
+    let one_unit = leaves_one_unit(module, context.source);
+    let mut entry = context.entry.clone();
+    entry.one_unit = one_unit;
+    let facts = ModalFacts::of(module, &entry);
+    let open = open(module, &facts);
     for root in mains(module).into_iter().filter(|&root| open[root]) {
         let Some(units) = ours.or(checked[root]) else {
-            let what = "the program does not name its unit: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)";
-            let span = module.programs[root].site.span;
+            let lost = lost(module, &facts, root);
+            let (span, why) =
+                lost.unwrap_or((module.programs[root].site.span, "the program does not name its unit"));
+            let what = format!(
+                "{why}: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)"
+            );
             context.add_once(root, "units", Diagnostic::new(Code::Conditional, span, what));
             continue;
         };
@@ -82,6 +94,79 @@ fn take_checks(program: &mut Program) -> Option<Units> {
         (false, true) => Some(Units::Metric),
         _ => None,
     }
+}
+
+/// True where the library names one unit alone: then nothing that it calls or computes leaves another.
+fn leaves_one_unit(module: &Module, source: &Control) -> bool {
+    let summaries = LazyCell::new(|| Summaries::of(module));
+    let names: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    let mut named = BTreeSet::new();
+    let mut names_unit = |op: Op| {
+        op.group() == Group::Units && {
+            named.insert(op);
+            named.len() > 1
+        }
+    };
+    let unit = |number| source.code('G', number, &[]).is_some_and(|row| row.op.group() == Group::Units);
+    for program in &module.programs {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                for item in &nc.items {
+                    let other = match item {
+                        NcItem::Op(op) => names_unit(*op),
+                        NcItem::Code('G', value) => numbers(value, program, &summaries, id, at, source)
+                            .is_none_or(|all| all.iter().any(|n| unit(n.number))),
+                        _ => false,
+                    };
+                    if other {
+                        return false;
+                    }
+                }
+            }
+            let known = |call: &Call| match &call.callee {
+                Callee::Block(_) => true,
+                Callee::Program(name) => names.contains(name),
+                _ => false,
+            };
+            if !calls_of(block).all(known) {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+/// Where a program that named its unit no longer knows it, and why.
+fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'static str)> {
+    let program = &module.programs[root];
+    for id in with_subroutines(program) {
+        let Some(block) = program.block(id) else { continue };
+        let mut state = facts.at(root, id);
+        for stmt in &block.stmts {
+            let before = state.op(Group::Units);
+            state.step(stmt);
+            if before.is_some() && state.op(Group::Units).is_none() {
+                let computed = match &stmt.kind {
+                    StmtKind::Nc(nc) => nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _))),
+                    _ => false,
+                };
+                let why = if computed {
+                    "the code that is computed here may select another unit"
+                } else {
+                    "the modal call that runs here may leave another unit"
+                };
+                return Some((stmt.site.span, why));
+            }
+        }
+        if let TermKind::Call { next, .. } = &block.term.kind
+            && state.op(Group::Units).is_some()
+            && facts.at(root, *next).op(Group::Units).is_none()
+        {
+            return Some((block.term.site.span, "what is called here may leave another unit"));
+        }
+    }
+    None
 }
 
 /// Which programs come to a length while no unit is named, themselves or in what they call then.

@@ -38,6 +38,21 @@ fn json_has_the_keys_of_the_contract() {
     }
 }
 
+/// What rests on a computation that became several blocks stands at its block, and what the machine has to settle says
+/// where it is written down.
+#[test]
+fn findings_stand_at_their_blocks_and_say_what_settles_them() {
+    let shop = Shop::with(&[("in/a.nc", "O1\nG20\n#1=FUP[#500]\nG10L12P5R.25\nM30\n")]);
+    let run = shop.run("convert in --from fanuc --to haas --out out --format json");
+    let json: Value = serde_json::from_str(&run.out).unwrap();
+    let all = json["programs"][0]["diagnostics"].as_array().unwrap();
+    let of = |text: &str| all.iter().find(|d| d["message"].as_str().unwrap().contains(text)).unwrap();
+    assert_eq!(of("'behaviour:fix.toward.zero' of the target")["line"], 3);
+    let table = of("target's cutter table");
+    assert_eq!(table["line"], 4);
+    assert!(table["help"].as_str().unwrap().contains("'setting.40'"), "{table}");
+}
+
 /// What SARIF 2.1.0 requires, and what code hosts need to show a result beside its line.
 #[test]
 fn sarif_is_complete() {

@@ -162,6 +162,7 @@ impl<'b> Lowering<'b> {
         let mut subs: Vec<u32> = known.iter().map(|number| parts(*number).0).collect();
         if values.is_any() {
             subs = self.shape.numbers.keys().copied().collect();
+            self.say_open(&subs, span)?;
         }
         subs.sort_unstable();
         subs.dedup();
@@ -169,6 +170,23 @@ impl<'b> Lowering<'b> {
             self.callee(*number, span)?;
         }
         self.choose(value, &subs, values.is_any())
+    }
+
+    /// Says that nothing bounds which of the subroutines is called; refuses where the program has none.
+    fn say_open(&mut self, subs: &[u32], span: Span) -> Option<()> {
+        if subs.is_empty() {
+            return self.refuse(
+                span,
+                "which subroutine is called is known only when the program runs, and the program has none of its own",
+            );
+        }
+        let names: Vec<String> = subs.iter().map(|sub| format!("L{sub}01 to L{sub}99")).collect();
+        let message = format!(
+            "which subroutine is called is known only when the program runs: it must be one of {}; the target stops at any other number with an alarm",
+            names.join(", ")
+        );
+        self.once(Code::Conditional, "open", span, message);
+        Some(())
     }
 
     /// Calls the subroutine that a computed number names, out of those that it can be.

@@ -115,7 +115,8 @@ impl<'a> Lowering<'a> {
                 None => self.findings.not_understood(span, "a condition needs IF before it"),
             }
         }
-        if jump {
+        // One macro statement behind THEN is what every control of the family takes.
+        if jump || (then && !words) {
             return;
         }
         match (self.findings.behaviour("then.words", span), words) {

@@ -69,8 +69,9 @@ pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control, fam
         let site = program_site(parsed, &piece);
         let program = builder.finish(piece.name, file, site);
         if signed && let Some(span) = vacancy::signed_word(&program, !control.is("m99.p.jumps.here")) {
-            let note = "that a word is dropped whose variable has a sign before it and is vacant is in no source; it is taken for 0";
-            findings.unconfirmed("behaviour:vacant.word.dropped".into(), Some(note), span);
+            let note =
+                "no source says that a word is dropped whose variable is vacant and has a sign before it";
+            findings.unconfirmed("behaviour:bracket.vacant.word".into(), Some(note), span);
         }
         programs.push((program, findings.take_list()));
     }

@@ -1,9 +1,8 @@
 //! Where a signed variable in a word may be vacant.
 //!
-//! `X#1` is dropped when #1 is vacant. That `X-#1` is dropped too, no source says; the
-//! common form makes it a word with the value 0. The two differ only where the variable
-//! may be vacant there, so that is what is looked for: forward over the blocks, with
-//! what assignments and tests make sure of.
+//! `X#1` is dropped when #1 is vacant. That `X-#1` is dropped too, no source says. It
+//! matters only where the variable may be vacant there, so that is what is looked for:
+//! forward over the blocks, with what assignments and tests make sure of.
 
 use crate::ir::{
     BlockId, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, StmtKind, TermKind, Var,

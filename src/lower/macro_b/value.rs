@@ -126,8 +126,13 @@ impl<'a> Lowering<'a> {
         let question = match (&value.kind, lowered) {
             (ExprKind::Variable(_), read) if read.may_be_vacant() => "vacant.word.dropped",
             (ExprKind::Group(_), read) if read.may_be_vacant() => "bracket.vacant.word",
-            // What a sign leaves of a vacant variable is told as little.
-            (ExprKind::Negate(_), Expr::Negate(read)) if read.may_be_vacant() => "bracket.vacant.word",
+            // What a sign leaves of a vacant variable is told as little. Of one whose number is written, what stands
+            // before it says whether it may be vacant.
+            (ExprKind::Negate(_), Expr::Negate(read))
+                if read.may_be_vacant() && !matches!(**read, Expr::Var(_)) =>
+            {
+                "bracket.vacant.word"
+            }
             _ => return,
         };
         match self.findings.behaviour(question, value.span) {

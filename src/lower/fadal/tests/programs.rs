@@ -27,9 +27,13 @@ fn a_computed_call_is_chosen_from_what_its_variable_may_hold() {
     assert!(two.contains("call block1 times tmp.1 - 100 -> "), "{two}");
     assert!(two.contains("call block2 times tmp.1 - 200 -> "), "{two}");
     assert!(!two.contains("alarm"), "{two}");
-    // Nothing known: any of the program's subroutines, or an alarm.
-    let any = program("O1\nL100\nG1 X1.\nM17\nM30\n#R2=V1\nL+R2\nM2\n");
+    // Nothing known: any of the program's subroutines, or an alarm, and the reviewer is told.
+    let open = "O1\nL100\nG1 X1.\nM17\nM30\n#R2=V1\nL+R2\nM2\n";
+    let any = program(open);
     assert!(any.contains("alarm 1 \"NO SUCH SUBROUTINE\""), "{any}");
+    assert_eq!(found(open, ""), ["Conditional"]);
+    // Of no subroutine of the program it can be none but one of the control's own.
+    assert_eq!(found("O1\n#R2=V1\nL+R2\nM2\n", ""), ["NotUnderstood"]);
 }
 
 #[test]

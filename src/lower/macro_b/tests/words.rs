@@ -131,8 +131,9 @@ fn a_fact_is_said_once_a_program() {
 
 #[test]
 fn signed_variables_that_may_be_vacant() {
-    const FACT: &str = "behaviour:vacant.word.dropped";
+    const FACT: &str = "behaviour:bracket.vacant.word";
     rests_on("fanuc", "G0X-#1", FACT);
+    rests_on("fanuc", "#1=2.\nG0X-#[#1]", FACT);
     rests_on("fanuc", "#1=#2\nG0X-#1", FACT);
     assert_eq!(told("fanuc", "#1=2.\nG0X-#1", FACT), 0);
     assert_eq!(told("fanuc", "#2=3.\n#1=#2\nG0X-#1", FACT), 0);
