@@ -66,12 +66,20 @@ pub struct Stop {
     pub program_number: Option<f64>,
     /// What is the matter, or the program's own message.
     pub text: String,
+    /// The limit that calls nest deeper than, as the tables name it, and how many levels it allows.
+    #[serde(skip)]
+    pub nesting: Option<(&'static str, u32)>,
 }
 
 impl Stop {
     /// An alarm of the control itself.
     pub fn alarm(number: &str, text: impl Into<String>) -> Self {
-        Self { number: number.into(), program_number: None, text: text.into() }
+        Self { number: number.into(), program_number: None, text: text.into(), nesting: None }
+    }
+
+    /// Calls that nest deeper than a limit of the control.
+    pub fn too_deep(number: &str, limit: &'static str, most: u32) -> Self {
+        Self { nesting: Some((limit, most)), ..Self::alarm(number, "calls nest too deep") }
     }
 
     /// An alarm that the sources do not name.

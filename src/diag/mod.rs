@@ -31,7 +31,7 @@ pub struct Diagnostic {
     pub message: Arc<str>,
     /// What to do about it here, where that is more than the catalogue says.
     pub help: Option<Arc<str>>,
-    /// The unconfirmed fact that it reports, as machine profiles confirm it.
+    /// The unconfirmed fact that it reports, as machine profiles confirm it, or the limit that it is about.
     pub fact: Option<Arc<str>>,
 }
 
@@ -48,7 +48,7 @@ impl Diagnostic {
         self
     }
 
-    /// Names the unconfirmed fact that it reports.
+    /// Names the unconfirmed fact or the limit that it reports.
     #[must_use]
     pub fn with_fact(mut self, fact: impl Into<Arc<str>>) -> Self {
         self.fact = Some(fact.into());

@@ -161,6 +161,9 @@ impl Expansion {
     ) -> Program {
         let unsure =
             if self.native { BTreeSet::new() } else { unsure_moves(program, &self.summaries, given) };
+        // A part of a program cannot be called from another one.
+        let entered = self.facts.at(index, BlockId(0)).calls.unwrap_or_default();
+        let elsewhere = |call: &Call| matches!(call.callee, Callee::Block(_)) && entered.contains(call);
         let mut builder = Builder::over(program.blocks.len());
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = self.facts.at(index, id);
@@ -233,6 +236,11 @@ impl Expansion {
                                     });
                                     builder.push(StmtKind::ModalCall(Box::new(again)), site);
                                 }
+                            }
+                            Some(calls) if runs && calls.last().is_some_and(elsewhere) => {
+                                let why =
+                                    "the modal call in force here runs a part of the program that opened it";
+                                context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                             }
                             Some(calls) if runs && !calls.is_empty() => {
                                 let call = self.innermost(calls, index, span, context);

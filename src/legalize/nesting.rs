@@ -1,17 +1,19 @@
 //! Calls that nest deeper than the target takes.
 //!
 //! Law: where calls from a program cannot nest deeper than the target's limits, both controls reach the same
-//! programs. Where they may, the target can stop with an alarm that the source does not raise; so may it where
-//! programs call each other in a circle. Side condition: a modal call counts where it is set, not in the programs that are
-//! called under it, and a computed call counts for nothing; `link` reports those.
+//! programs. Where a chain of calls outside of circles is longer, the target stops with an alarm that the source does not
+//! raise: it is refused. Where programs call each other in a circle, or a call is computed, how deep they nest is for
+//! data to decide: then the limit is a condition. Side condition: a call that leaves the library counts as one level;
+//! `link` reports those.
 
-use super::{Context, calls_of, reachable, span_of};
+mod routines;
+
+use super::Context;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Limit, Side, to_confirm};
-use crate::ir::{BlockId, Callee, Module};
-use crate::syntax::ProgramName;
+use crate::dialect::{Limit, Side, to_confirm};
+use crate::ir::Module;
 use crate::text::Span;
-use std::collections::BTreeMap;
+use routines::{Edge, Routines};
 
 /// The limits, and which calls count for each: those that open a level of locals or those that do not.
 const LIMITS: [(&str, [bool; 2]); 3] =
@@ -19,119 +21,66 @@ const LIMITS: [(&str, [bool; 2]); 3] =
 
 /// Reports programs whose calls may nest too deep.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let (source, target) = (context.source, context.target);
-    let limits = LIMITS.iter().filter_map(|(name, counted)| {
+    let target = context.target;
+    let known = |name: &str| context.source.limit_row(name).filter(|row| row.origin.confirmed)?.max;
+    // A source that takes no more stops first.
+    let here: Vec<Option<u32>> = LIMITS.iter().map(|(name, _)| known(name)).collect();
+    let limits = LIMITS.iter().zip(&here).filter_map(|((name, counted), here)| {
         let row = target.limit_row(name)?;
         let most = row.max?;
-        // A source that takes no more stops first.
-        let here = source.limit_row(name).filter(|row| row.origin.confirmed).and_then(|row| row.max);
         here.is_none_or(|here| here > most).then_some((row, most, counted))
     });
-    let limits: Vec<(&Limit, u32, &[bool; 2])> = limits.collect();
-    if limits.is_empty() {
-        return;
-    }
-    let routines = Routines::of(module);
-    for (row, most, counted) in limits {
-        let depths = routines.depths(most + 1, counted);
-        for (program, routine) in routines.mains.iter().enumerate() {
-            if depths[*routine] > most {
-                let deepest = |edge: &&Edge| depths[edge.to] + u32::from(counted[usize::from(edge.level)]);
-                let span =
-                    routines.calls[*routine].iter().max_by_key(deepest).map_or(Span::default(), |e| e.span);
-                report(program, span, (row, most), target, context);
+    let mut limits: Vec<(&Limit, u32, &[bool; 2])> = limits.collect();
+    let Some(highest) = limits.iter().map(|(_, most, _)| *most).max() else { return };
+    limits.sort_by_key(|(_, most, _)| *most);
+    let routines = Routines::of(module, highest);
+    // How deep the source nests calls of each kind before it stops itself; none where it has no limit.
+    let own = |at: usize| here[at].map(|most: u32| routines.depths(most, &LIMITS[at].1));
+    let (macros, subprograms) = (own(1), own(2));
+    let stops_at = |at: usize| Some(macros.as_ref()?[at] + subprograms.as_ref()?[at]);
+    for sure in [true, false] {
+        for (row, most, counted) in &limits {
+            let depths = if sure { routines.longest(counted) } else { routines.depths(most + 1, counted) };
+            for (program, routine) in routines.mains.iter().enumerate() {
+                if depths[*routine] > *most && stops_at(*routine).is_none_or(|stops| stops > *most) {
+                    let below = |edge: &&Edge| depths[edge.to] + u32::from(counted[usize::from(edge.level)]);
+                    let deepest = routines.calls[*routine].iter().max_by_key(below);
+                    let span = deepest.map_or(Span::default(), |edge| edge.span);
+                    let sure = sure.then_some(depths[*routine]);
+                    report(program, span, (row, *most), sure, context);
+                }
             }
         }
     }
 }
 
-fn report(index: usize, span: Span, (row, most): (&Limit, u32), target: &Control, context: &mut Context<'_>) {
-    let title = &target.dialect().title;
+/// Reports a program; `deep` where its calls surely nest so deep.
+fn report(
+    index: usize,
+    span: Span,
+    (row, most): (&Limit, u32),
+    deep: Option<u32>,
+    context: &mut Context<'_>,
+) {
+    let title = &context.target.dialect().title;
     let kind = match row.name.as_str() {
         "call.macro" => "macro calls",
         "call.subprogram" => "subprogram calls",
         _ => "calls",
     };
-    let what = format!(
-        "{kind} may nest deeper from here than the {most} levels of {title}: it would stop with an alarm"
-    );
+    let how = match deep {
+        Some(deep) => format!("{kind} nest {deep} deep from here, more than"),
+        None => format!("{kind} may nest deeper from here than"),
+    };
+    let what = format!("{how} the {most} levels of {title}: it would stop with an alarm");
     let fact = format!("limit:{}", row.name);
-    if row.origin.confirmed {
-        context.add_once(index, "nesting", Diagnostic::new(Code::Conditional, span, what));
-    } else {
-        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(&*fact);
-        let finding = finding.with_help(to_confirm(&fact, Side::Target));
-        context.add_once(index, "nesting", finding);
-    }
-}
-
-/// What can be called, and what each calls.
-struct Routines {
-    calls: Vec<Vec<Edge>>,
-    /// Who calls each.
-    callers: Vec<Vec<usize>>,
-    /// The routine that each program begins with.
-    mains: Vec<usize>,
-}
-
-struct Edge {
-    to: usize,
-    level: bool,
-    span: Span,
-}
-
-impl Routines {
-    fn of(module: &Module) -> Self {
-        let named: BTreeMap<&ProgramName, usize> =
-            module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at))).collect();
-        let mut found: BTreeMap<(usize, BlockId), usize> = BTreeMap::new();
-        let mut order = Vec::new();
-        let mut place = |routine: (usize, BlockId), order: &mut Vec<(usize, BlockId)>| {
-            *found.entry(routine).or_insert_with(|| {
-                order.push(routine);
-                order.len() - 1
-            })
-        };
-        let first = BlockId(0);
-        let mains = (0..module.programs.len()).map(|at| place((at, first), &mut order)).collect();
-        let mut routines = Self { calls: Vec::new(), callers: Vec::new(), mains };
-        while let Some(&(at, entry)) = order.get(routines.calls.len()) {
-            let mut edges = Vec::new();
-            let program = &module.programs[at];
-            for block in reachable(program, entry).into_iter().filter_map(|id| program.block(id)) {
-                for call in calls_of(block) {
-                    let to = match &call.callee {
-                        Callee::Program(name) => named.get(name).map(|at| (*at, first)),
-                        Callee::Block(id) => Some((at, *id)),
-                        Callee::Computed(_) | Callee::Cycle(_) => None,
-                    };
-                    if let Some(to) = to {
-                        let span = span_of(block, call);
-                        edges.push(Edge { to: place(to, &mut order), level: call.level, span });
-                    }
-                }
-            }
-            routines.calls.push(edges);
+    let finding = match (row.origin.confirmed, deep) {
+        (false, _) => {
+            Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(to_confirm(&fact, Side::Target))
         }
-        routines.callers = vec![Vec::new(); routines.calls.len()];
-        for (from, edges) in routines.calls.iter().enumerate() {
-            edges.iter().for_each(|edge| routines.callers[edge.to].push(from));
-        }
-        routines
-    }
-
-    /// How deep calls nest from each routine, up to `most`: that is where circles end.
-    fn depths(&self, most: u32, counted: &[bool; 2]) -> Vec<u32> {
-        let mut depths = vec![0; self.calls.len()];
-        let mut work: Vec<usize> = (0..self.calls.len()).collect();
-        while let Some(at) = work.pop() {
-            let below = |edge: &Edge| depths[edge.to] + u32::from(counted[usize::from(edge.level)]);
-            let deep = self.calls[at].iter().map(below).max().unwrap_or(0).min(most);
-            if deep > depths[at] {
-                depths[at] = deep;
-                work.extend(&self.callers[at]);
-            }
-        }
-        depths
-    }
+        (true, None) => Diagnostic::new(Code::Conditional, span, what),
+        (true, Some(_)) => Diagnostic::new(Code::NoEquivalent, span, what)
+            .with_help("let a program that stands higher in the chain make one of the calls"),
+    };
+    context.add_once(index, "nesting", finding.with_fact(&*fact));
 }

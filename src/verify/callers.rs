@@ -10,7 +10,7 @@ use super::given::Given;
 use super::inputs::{calls, inputs};
 use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
-use super::stops::stops_by_itself;
+use super::stops::{nests_too_deep, stops_by_itself};
 use super::{Certificate, Outcome, ProgramCertificate};
 use crate::control::{ProgramRef, Run, Scenario, trace};
 use crate::syntax::ProgramName;
@@ -117,8 +117,10 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
             let cut = is_cut(&run) || is_cut(&other);
             match compared.difference.or(compared.hair) {
-                // Where the source's control stops the run, the program says nothing.
-                Some(difference) if stops_by_itself(&run, &difference) => {}
+                // Where a control stops the run, nothing is shown.
+                Some(difference)
+                    if stops_by_itself(&run, &difference)
+                        || nests_too_deep(&run, &other, &difference).is_some() => {}
                 Some(_) => {
                     found.differs = true;
                     return found;

@@ -115,6 +115,8 @@ pub enum Why {
     SourceAlarms,
     /// The target cannot do what the source does, and does something else or nothing in its place.
     Substituted,
+    /// The run breaks a condition that the conversion reported.
+    Condition,
     /// It does the same as its library calls it, but something else where it is run by itself.
     NotByItself,
     /// A branch went one way only.

@@ -12,7 +12,7 @@ use super::names::{Names, Side};
 use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
 use super::scenarios::{Proposals, asked, on_target, unit};
-use super::stops::{off_its_circle, stops_by_itself};
+use super::stops::{nests_too_deep, off_its_circle, stops_by_itself};
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
 use crate::control::trace::{Event, Happening};
@@ -27,7 +27,7 @@ pub struct Job<'j> {
     pub target: &'j Side<'j>,
     /// What is called what.
     pub names: &'j Names,
-    /// The unconfirmed facts that the conversion has reported, by the names of files: a person looks at them
+    /// The unconfirmed facts and limits that the conversion has reported, by the names of files: a person looks at them
     /// whatever is found here.
     pub reported: &'j BTreeMap<String, BTreeSet<String>>,
     /// How much may be done.
@@ -36,6 +36,9 @@ pub struct Job<'j> {
 
 /// Significant digits that the second run of the target keeps: three fewer than a double has.
 const FEWER_DIGITS: u32 = 13;
+
+/// How the facts begin that limit how deep calls nest.
+const NESTING: &str = "limit:call.";
 
 /// Ways not gone that a reason names.
 const NAMED: usize = 3;
@@ -230,6 +233,15 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 let text = format!("the source stops with an alarm of the control ({})", text.trim());
                 self.because(Why::SourceAlarms, &text);
             }
+            Some(difference)
+                if self.limits_nesting() && nests_too_deep(run, &other, &difference).is_some() =>
+            {
+                let (_, most) = nests_too_deep(run, &other, &difference).unwrap_or_default();
+                let text = format!(
+                    "calls nest deeper than the {most} levels of the target, which stops with an alarm there"
+                );
+                self.because(Why::Condition, &text);
+            }
             Some(difference) if off_its_circle(&difference).is_some() => {
                 let off = off_its_circle(&difference).unwrap_or_default();
                 let text = format!(
@@ -274,6 +286,13 @@ impl<'v, 'j> Verifier<'v, 'j> {
             }
             None => {}
         }
+    }
+
+    /// True where the conversion reported that calls may nest deeper than the target takes.
+    fn limits_nesting(&self) -> bool {
+        let file = self.job.source.files.get(self.program.file);
+        let facts = file.and_then(|file| self.job.reported.get(file.name));
+        facts.is_some_and(|facts| facts.iter().any(|fact| fact.starts_with(NESTING)))
     }
 
     /// The target's run with fewer digits.

@@ -1,7 +1,8 @@
-//! Where the source's control stops a program, so that the program says nothing of what the target should do.
+//! Where a control stops a program: the source's, so that the program says nothing of what the target should do, or the
+//! target's, where a condition of the conversion is broken.
 
 use super::compare::Difference;
-use crate::control::trace::Happening;
+use crate::control::trace::{Event, Happening};
 use crate::control::{End, Run};
 
 /// How far the end of an arc may lie off its circle, millimetres, to be an arc at all.
@@ -23,6 +24,30 @@ pub fn off_its_circle(difference: &Difference<'_>) -> Option<f64> {
         Happening::Arc { off, .. } => Some(off.abs()).filter(|off| *off > MOST_OFF),
         _ => None,
     }
+}
+
+/// The limit of the target that calls of the source nest deeper than, and how many levels that allows, where the target's
+/// alarm about it is what differs.
+pub fn nests_too_deep(run: &Run, other: &Run, difference: &Difference<'_>) -> Option<(&'static str, u32)> {
+    let End::Alarm { stop, .. } = &other.end else { return None };
+    let (limit, most) = stop.nesting?;
+    let is = |event: Option<&Event>, other: &Event| event.is_some_and(|event| std::ptr::eq(event, other));
+    if !is(difference.target, other.events.last()?) {
+        return None;
+    }
+    let (mut depth, mut deepest) = (0, 0);
+    for event in &run.events {
+        match event.what {
+            Happening::Enter { .. } => depth += 1,
+            Happening::Leave => depth -= 1,
+            _ => {}
+        }
+        deepest = deepest.max(depth);
+        if is(difference.source, event) {
+            break;
+        }
+    }
+    (deepest > i64::from(most)).then_some((limit, most))
 }
 
 /// True where the difference lies at the alarm that ended the source, not before it.

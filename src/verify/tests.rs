@@ -2,13 +2,13 @@
 
 mod callers;
 mod ends;
+mod nesting;
 mod random;
 
 use super::{Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
 use crate::control::LoadedFile;
 use crate::dialect::{Control, registry};
 use crate::syntax::parse_file;
-use std::collections::BTreeMap;
 
 /// Verifies a pair of single programs, registers by their own names or by `variables`.
 fn run(from: &str, source: &str, to: &str, target: &str, variables: &[(&str, u32)]) -> ProgramCertificate {
@@ -28,7 +28,17 @@ fn programs(
 }
 
 /// Verifies a pair of files, with what a conversion tells of its names.
-fn named((from, source): (&str, &str), (to, target): (&str, &str), names: Names) -> Vec<ProgramCertificate> {
+fn named(source: (&str, &str), target: (&str, &str), names: Names) -> Vec<ProgramCertificate> {
+    reported(source, target, names, &[])
+}
+
+/// The same, with the facts and limits that a conversion reported.
+fn reported(
+    (from, source): (&str, &str),
+    (to, target): (&str, &str),
+    names: Names,
+    facts: &[&str],
+) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());
     let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
     let parsed: Vec<_> = [source, target]
@@ -41,7 +51,8 @@ fn named((from, source): (&str, &str), (to, target): (&str, &str), names: Names)
     let theirs = [LoadedFile { name: "cycle2.nc", parsed: &parsed[1] }];
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
-    let reported = BTreeMap::new();
+    let facts = facts.iter().map(|fact| (*fact).to_owned()).collect();
+    let reported = [("cycle1.nc".to_owned(), facts)].into();
     let effort = Effort::default();
     let job = Job { source: &source, target: &target, names: &names, reported: &reported, effort };
     verify(&job, &[]).programs

@@ -197,15 +197,15 @@ impl<'c> Runner<'c> {
         let control = self.session.control;
         for (name, count) in counts {
             if let (Some(row), Some(count)) = (control.limit_row(name), count)
-                && row.max.is_some_and(|max| count > max as usize)
+                && let Some(most) = row.max.filter(|most| count > *most as usize)
             {
                 self.session.trace.rest_on(row);
-                return Err(Halt::Alarm(Stop::alarm(self.style.alarms.too_deep, "calls nest too deep")));
+                return Err(Stop::too_deep(self.style.alarms.too_deep, name, most).into());
             }
         }
         if depth > DEEPEST {
             self.session.trace.doubt("limit:call.all");
-            return Err(Halt::Alarm(Stop::alarm(self.style.alarms.too_deep, "calls nest too deep")));
+            return Err(Stop::alarm(self.style.alarms.too_deep, "calls nest too deep").into());
         }
         Ok(())
     }

@@ -247,7 +247,7 @@ impl<'c> Runner<'c> {
             return Ok(());
         }
         let number = format!("{}", self.rules.alarm_offset + value);
-        Err(Halt::Alarm(Stop { number, program_number: Some(value), text: text.into() }))
+        Err(Halt::Alarm(Stop { program_number: Some(value), ..Stop::alarm(&number, text) }))
     }
 
     /// An operator who reads the name of a variable in a message enters the next answer into it.

@@ -146,7 +146,7 @@ impl Runner<'_> {
                 self.session.trace.push(Happening::Message { text: String::new() });
                 return Ok(());
             }
-            return Err(Halt::Alarm(Stop { number, program_number: Some(value), text: String::new() }));
+            return Err(Halt::Alarm(Stop { program_number: Some(value), ..Stop::alarm(&number, "") }));
         }
         self.session.machine.write(system.state, &system.subscripts, value, &mut self.session.trace)?;
         Ok(())
