@@ -4,15 +4,19 @@ use crate::syntax::{Token, TokenKind};
 use crate::text::Span;
 use smallvec::SmallVec;
 
-/// Kinds of leaves; one for each leaf rule of `grammar/macro_b.pest`.
+/// Kinds of leaves, and of what the grammar yields as one and [`push`] cuts into them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lex {
     Space,
     Comment,
-    /// A letter, perhaps a sign, and a number; cut into these by [`push`].
+    /// `X-1.5`, `X#100`, `N10`: cut by [`push`].
     PlainWord,
-    /// `#` and digits; cut into these by [`push`].
+    /// `#100`: cut by [`push`].
     Numbered,
+    /// `#100=`: cut by [`push`].
+    PlainTarget,
+    /// `#1+2*#3`: cut by [`push`].
+    Operands,
     Letter,
     Number,
     Integer,
@@ -77,10 +81,10 @@ impl Lex {
                 return None;
             }
             Self::Letter | Self::PlainWord => "a word",
-            Self::Number | Self::Integer => "a number",
+            Self::Number | Self::Integer | Self::Operands => "a number",
             Self::Bit => "a bit number",
             Self::Sign => "a sign",
-            Self::Hash | Self::Numbered => "a variable",
+            Self::Hash | Self::Numbered | Self::PlainTarget => "a variable",
             Self::Open => "`[`",
             Self::Close => "`]`",
             Self::Equals => "`=`",
@@ -115,28 +119,93 @@ pub struct Lexeme {
 /// The leaves of one block.
 pub type Row = SmallVec<[Lexeme; 32]>;
 
-/// Adds a leaf of a grammar, whose text is `text`, to a row; the two that are written
-/// together are cut.
-pub fn push(row: &mut Row, kind: Lex, span: Span, text: &[u8]) {
-    let mut from = span.start;
-    let mut cut = |kind, to| {
-        row.push(Lexeme { kind, span: Span::new(from, to) });
-        from = to;
-    };
+/// Adds to a row what a grammar read as one: a leaf, or several that are written together, and the blanks behind it.
+pub fn push(row: &mut Row, kind: Lex, start: u32, text: &[u8]) {
+    let mut cut = Cut { row, at: start, rest: text };
     match kind {
         Lex::Nothing => {}
         Lex::PlainWord => {
-            cut(Lex::Letter, span.start + 1);
-            if matches!(text.get(1), Some(b'-' | b'+')) {
-                cut(Lex::Sign, span.start + 2);
+            if matches!(text.first(), Some(b'N' | b'n')) {
+                cut.take(Lex::SequenceLetter, 1);
+                cut.number(Lex::Integer);
+            } else {
+                cut.take(Lex::Letter, 1);
+                cut.signed();
             }
-            cut(Lex::Number, span.end);
         }
-        Lex::Numbered => {
-            cut(Lex::Hash, span.start + 1);
-            cut(Lex::Integer, span.end);
+        Lex::Numbered => cut.signed(),
+        Lex::PlainTarget => {
+            cut.signed();
+            cut.take(Lex::Equals, 1);
         }
-        kind => cut(kind, span.end),
+        Lex::Operands => {
+            cut.signed();
+            while let Some(byte) = cut.rest.first() {
+                let letters = cut.run(u8::is_ascii_alphabetic);
+                cut.take(Lex::Operator, if byte.is_ascii_alphabetic() { letters } else { 1 });
+                cut.blanks();
+                cut.signed();
+            }
+        }
+        Lex::Integer => cut.number(Lex::Integer),
+        // A comment that nothing closes ends with the line, blanks included.
+        Lex::Comment if !text.trim_ascii_end().ends_with(b")") => cut.take(kind, text.len()),
+        Lex::Space | Lex::OutputText => cut.take(kind, text.len()),
+        kind => cut.take(kind, text.trim_ascii_end().len()),
+    }
+    cut.blanks();
+}
+
+/// Cuts what is written together into its leaves.
+struct Cut<'a> {
+    row: &'a mut Row,
+    /// Where the rest starts in the file.
+    at: u32,
+    rest: &'a [u8],
+}
+
+impl Cut<'_> {
+    /// How many bytes of a kind come next.
+    fn run(&self, kind: impl Fn(&u8) -> bool) -> usize {
+        self.rest.iter().take_while(|byte| kind(byte)).count()
+    }
+
+    fn take(&mut self, kind: Lex, length: usize) {
+        let end = self.at + length as u32;
+        self.row.push(Lexeme { kind, span: Span::new(self.at, end) });
+        self.at = end;
+        self.rest = self.rest.get(length..).unwrap_or_default();
+    }
+
+    fn blanks(&mut self) {
+        let blanks = self.run(|byte| matches!(byte, b' ' | b'\t'));
+        if blanks > 0 {
+            self.take(Lex::Space, blanks);
+        }
+    }
+
+    /// A number, or `#` with one, and the sign before it.
+    fn signed(&mut self) {
+        if matches!(self.rest.first(), Some(b'-' | b'+')) {
+            self.take(Lex::Sign, 1);
+            self.blanks();
+        }
+        if self.rest.first() == Some(&b'#') {
+            self.take(Lex::Hash, 1);
+            self.number(Lex::Integer);
+        } else {
+            let digits = self.run(|byte| matches!(byte, b'0'..=b'9' | b'.'));
+            self.take(Lex::Number, digits);
+        }
+        self.blanks();
+    }
+
+    /// Digits, and the bit that may stand behind those of a variable.
+    fn number(&mut self, kind: Lex) {
+        self.take(kind, self.run(u8::is_ascii_digit));
+        if self.rest.first() == Some(&b'.') {
+            self.take(Lex::Bit, 1 + self.rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count());
+        }
     }
 }
 
@@ -155,15 +224,18 @@ macro_rules! lexemes_of_rules {
                     $rule::space => Self::Space,
                     $rule::comment => Self::Comment,
                     $rule::plain_word => Self::PlainWord,
-                    $rule::numbered => Self::Numbered,
+                    $rule::numbered | $rule::output_numbered => Self::Numbered,
+                    $rule::plain_target => Self::PlainTarget,
+                    $rule::operands => Self::Operands,
                     $rule::letter => Self::Letter,
                     $rule::number => Self::Number,
-                    $rule::integer => Self::Integer,
-                    $rule::bit => Self::Bit,
+                    $rule::integer | $rule::index | $rule::output_integer | $rule::output_index => {
+                        Self::Integer
+                    }
                     $rule::sign => Self::Sign,
                     $rule::hash => Self::Hash,
-                    $rule::open => Self::Open,
-                    $rule::close => Self::Close,
+                    $rule::open | $rule::output_open => Self::Open,
+                    $rule::close | $rule::output_close => Self::Close,
                     $rule::equals => Self::Equals,
                     $rule::comma => Self::Comma,
                     $rule::slash => Self::Slash,

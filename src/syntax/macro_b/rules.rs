@@ -3,7 +3,6 @@
 use super::lexeme::{self, Lex, Row};
 use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
-use crate::text::Span;
 use pest::error::ErrorVariant;
 use pest::{Parser, RuleType};
 
@@ -57,8 +56,7 @@ pub fn read<P: Parser<R>, R: RuleType + Into<Lex>>(
     })?;
     for pair in pairs {
         let span = pair.as_span();
-        let place = Span::new(start + span.start() as u32, start + span.end() as u32);
-        lexeme::push(row, pair.as_rule().into(), place, span.as_str().as_bytes());
+        lexeme::push(row, pair.as_rule().into(), start + span.start() as u32, span.as_str().as_bytes());
     }
     Ok(())
 }
