@@ -6,6 +6,7 @@ import cc100  # noqa: F401  each module fills motion.ALL
 import fadal  # noqa: F401
 import fanuc  # noqa: F401
 import haas  # noqa: F401
+import legalized  # noqa: F401
 from motion import ALL
 
 for motion in ALL:

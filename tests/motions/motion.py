@@ -17,6 +17,10 @@ def number(value):
     return "0" if text in ("-0", "") else text
 
 
+def quoted(text):
+    return f'"{text}"'
+
+
 def sin(degrees):
     return math.sin(math.radians(degrees))
 
@@ -49,6 +53,8 @@ class Motion:
         # Whether the list says what the spindle does and where the program waits for the operator.
         self.turns, self.turning, self.rpm = turns, "stopped", 0.0
         self.lines = []
+        # Targets, the files of src/legalize/ that act on the way there, and the lines of the target's profile.
+        self.converts = []
         ALL.append(self)
 
     # Where coordinates count from.
@@ -281,6 +287,11 @@ class Motion:
 
     # Writing it down.
 
+    def to(self, control, *files, profile=""):
+        """The same moves come of the conversion for a control; these files of src/legalize/ act on the way there."""
+        units = "inch" if self.unit == INCH else "metric"
+        self.converts.append((control, files, f'units = "{units}"\n{profile}'))
+
     def text(self):
         def row(values):
             return "[" + ", ".join(map(number, (list(values) + [0.0] * 10)[:10])) + "]"
@@ -295,12 +306,16 @@ class Motion:
         scenario += [self.tables] if self.tables else []
         about = "\n".join("# " + line for line in self.about.strip().splitlines())
         run = ", ".join(f'"{path}"' for path in self.run)
+        converts = "".join(
+            f"\n[[converts]]\nto = \"{to}\"\nfiles = [{', '.join(map(quoted, files))}]\nprofile = '''\n{profile.strip()}\n'''\n"
+            for to, files, profile in self.converts
+        )
         turns = "turns = true\n" if self.turns else ""
         return (
             f"{about}\n\ncontrol = \"{self.control}\"\nrun = [{run}]\nends = \"{self.ends}\"\n{turns}"
             f"profile = '''\ndialect = \"{self.control}\"\n{self.profile.strip()}\n'''\n"
             f"scenario = '''\n" + "\n".join(scenario) + "\n'''\n"
-            "moves = '''\n" + "\n".join(self.lines) + "\n'''\n"
+            "moves = '''\n" + "\n".join(self.lines) + "\n'''\n" + converts
         )
 
     def path(self):

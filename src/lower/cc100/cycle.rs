@@ -39,6 +39,8 @@ impl State {
         nc.ops().filter(|op| matches!(op.group(), Group::Motion | Group::Cycle)).fold(self, |state, op| {
             match op {
                 Op::CycleOff => State::Off,
+                // A cycle told anew keeps what waits for the end of cycles.
+                op if op.is_cycle() && state.is_on() => state,
                 op if op.is_cycle() => State::On(None),
                 op if state.is_on() => State::On(Some(op)),
                 _ => state,

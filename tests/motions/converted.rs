@@ -1,0 +1,210 @@
+//! What the passes of legalization make of a program moves as its list says: conversions run on the target's control.
+
+use super::{Expectation, Move, difference, difference_by, expectations, moves};
+use crate::support::root;
+use macroglot::dialect::{Control, Profile, registry};
+use macroglot::ir::Module;
+use macroglot::legalize::{Context, PASSES};
+use macroglot::library::{Conversion, Input, Lock, Options, Outcome, convert};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// A conversion that must make the same moves.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Converts {
+    pub to: String,
+    /// The files of `src/legalize/` that put something in another's place here.
+    pub files: Vec<String>,
+    #[serde(default)]
+    pub profile: String,
+    /// The circumstances on the target, where its variables have other names.
+    pub scenario: Option<String>,
+}
+
+fn control(dialect: &str, profile: &str) -> Control {
+    let entry = registry::find(dialect).expect("a dialect");
+    Control::new(entry, Profile::read(profile).expect("a profile")).expect("a control")
+}
+
+fn inputs(expectation: &Expectation) -> Vec<Input> {
+    let read = |name: &String| {
+        let path = root().join(name);
+        Input { bytes: std::fs::read(&path).unwrap(), path, name: name.clone() }
+    };
+    expectation.run.iter().map(read).collect()
+}
+
+fn conversion(expectation: &Expectation, source: &Control, target: &Control) -> Conversion {
+    let lock = Lock::new(source.name(), target.name());
+    convert(&inputs(expectation), source, target, lock, Options::default())
+}
+
+/// The passes that change the program on its way to a target.
+fn acting(expectation: &Expectation, source: &Control, target: &Control) -> BTreeSet<String> {
+    let mut module = Module::default();
+    for (at, input) in inputs(expectation).iter().enumerate() {
+        let entry = source.entry();
+        let parsed = macroglot::syntax::parse_items(&input.bytes, entry.parse, entry.read_plain);
+        let lowered = (entry.lower)(&parsed, at, &input.name, source);
+        module.programs.extend(lowered.programs.into_iter().map(|(program, _)| program));
+        module.names.extend(lowered.names);
+    }
+    let mut context = Context::new(source, target, module.programs.len());
+    let mut acted = BTreeSet::new();
+    for pass in PASSES {
+        let before = module.clone();
+        pass.apply(&mut module, &mut context);
+        if module != before {
+            acted.insert(pass.name.to_owned());
+        }
+    }
+    acted
+}
+
+/// The expectation of a conversion: the same list, for the target's text.
+fn of_target(
+    expectation: &Expectation,
+    converts: &Converts,
+    made: &Conversion,
+    folder: &Path,
+) -> Expectation {
+    let write = |(at, text): (usize, &Option<String>)| {
+        let path = folder.join(format!("{at}.nc"));
+        std::fs::write(&path, text.as_ref().expect("a conversion")).unwrap();
+        path.display().to_string()
+    };
+    Expectation {
+        control: converts.to.clone(),
+        run: made.texts.iter().enumerate().map(write).collect(),
+        ends: expectation.ends.clone(),
+        turns: expectation.turns,
+        profile: format!("dialect = \"{}\"\n{}", converts.to, converts.profile),
+        scenario: converts.scenario.clone().unwrap_or_else(|| expectation.scenario.clone()),
+        moves: expectation.moves.clone(),
+        converts: Vec::new(),
+    }
+}
+
+/// The passes of `chain.rs` or `functions/modulo.rs`; none of a file that runs with others.
+fn passes_of(file: &str) -> Vec<&'static str> {
+    let first = file.split('/').next().unwrap_or(file).trim_end_matches(".rs").replace('_', "-");
+    let named = |name: &&str| *name == first || (first == "chain" && *name == "return-to");
+    PASSES.iter().map(|pass| pass.name).filter(named).collect()
+}
+
+#[test]
+fn conversions_move_as_the_geometry_of_the_source_says() {
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for (path, expectation) in expectations() {
+        for converts in &expectation.converts {
+            count += 1;
+            let name = format!("{} to {}", path.display(), converts.to);
+            let source = control(&expectation.control, &expectation.profile);
+            let target =
+                control(&converts.to, &format!("dialect = \"{}\"\n{}", converts.to, converts.profile));
+            let made = conversion(&expectation, &source, &target);
+            if let Some(refused) = made.programs.iter().find(|program| program.outcome == Outcome::Refused) {
+                let why = refused.diagnostics.iter().map(|found| found.message.to_string());
+                wrong.push(format!("{name}: refused: {:?}", why.collect::<Vec<_>>()));
+                continue;
+            }
+            let folder = tempfile::tempdir().unwrap();
+            let there = of_target(&expectation, converts, &made, folder.path());
+            let (found, end) = moves(&there);
+            if let Some(difference) = difference(&found, &there.list()) {
+                wrong.push(format!(
+                    "{name}: {difference}\n{}",
+                    made.texts.iter().flatten().cloned().collect::<String>()
+                ));
+            }
+            if end != expectation.ends {
+                wrong.push(format!("{name}: ends by {end}"));
+            }
+            let acted = acting(&expectation, &source, &target);
+            let idle = converts.files.iter().filter(|file| {
+                let passes = passes_of(file);
+                !passes.is_empty() && !passes.iter().any(|pass| acted.contains(*pass))
+            });
+            wrong.extend(idle.map(|file| format!("{name}: {file} has nothing to do, but {acted:?}")));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(count >= 20, "{count}");
+}
+/// The files of a folder, by their paths from it.
+fn files_of(folder: &Path, from: &Path, all: &mut BTreeSet<String>) {
+    for path in super::files(folder) {
+        if path.is_dir() {
+            files_of(&path, from, all);
+        } else {
+            all.insert(path.strip_prefix(from).unwrap().display().to_string());
+        }
+    }
+}
+
+/// A file of legalization that no list of moves is for needs a reason.
+#[test]
+fn every_pass_has_a_list_or_a_reason() {
+    let (mut files, folder) = (BTreeSet::new(), root().join("src/legalize"));
+    files_of(&folder, &folder, &mut files);
+    let text = std::fs::read_to_string(root().join("tests/motions/passes.toml")).unwrap();
+    let reasons: BTreeMap<String, String> = toml::from_str(&text).unwrap();
+    let listed: BTreeSet<String> = expectations()
+        .into_iter()
+        .flat_map(|(_, expectation)| expectation.converts)
+        .flat_map(|converts| converts.files)
+        .collect();
+    let known: BTreeSet<String> = listed.iter().chain(reasons.keys()).cloned().collect();
+    assert_eq!(
+        files.difference(&known).collect::<Vec<_>>(),
+        Vec::<&String>::new(),
+        "no list of moves and no reason"
+    );
+    assert_eq!(known.difference(&files).collect::<Vec<_>>(), Vec::<&String>::new(), "no such file");
+    let both: Vec<&String> = reasons.keys().filter(|file| listed.contains(*file)).collect();
+    assert!(both.is_empty(), "a list and a reason: {both:?}");
+}
+
+/// Numbers that a control rounds to its least increment lie about so far from those of the list, millimetres: an inch
+/// control puts each of eight incremental moves a half of .00254 off at the most.
+const ROUNDED: f64 = 0.011;
+
+/// What the rounding of ends does to the centre of an arc by its radius, and to its angle.
+const ROUNDED_ARC: f64 = 0.02;
+
+/// Every program of every list that has a conversion makes the same moves there, but for the rounding of words.
+#[test]
+fn every_conversion_moves_as_its_source() {
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    for (path, expectation) in expectations() {
+        for to in ["fanuc", "haas"].into_iter().filter(|to| *to != expectation.control) {
+            // A lathe's program has no machine to run on at the other control.
+            if expectation.profile.contains("lathe") {
+                continue;
+            }
+            let units = if expectation.profile.contains("inch") { "inch" } else { "metric" };
+            let profile = format!("units = \"{units}\"");
+            let source = control(&expectation.control, &expectation.profile);
+            let target = control(to, &format!("dialect = \"{to}\"\n{profile}"));
+            let made = conversion(&expectation, &source, &target);
+            if made.programs.iter().any(|program| program.outcome == Outcome::Refused) {
+                continue;
+            }
+            count += 1;
+            let converts = Converts { to: to.into(), files: Vec::new(), profile, scenario: None };
+            let folder = tempfile::tempdir().unwrap();
+            let there = of_target(&expectation, &converts, &made, folder.path());
+            let (found, _) = moves(&there);
+            let alike =
+                |a: &Move, b: &Move| a.is_within(b, if a.kind == "arc" { ROUNDED_ARC } else { ROUNDED });
+            if let Some(difference) = difference_by(&found, &there.list(), alike) {
+                wrong.push(format!("{} to {to}: {difference}", path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    eprintln!("conversions that move alike: {count}");
+    assert!(count >= 90, "{count}");
+}
