@@ -4,7 +4,7 @@
 //! goes on into their operands. Order is the order of evaluation.
 
 use super::{
-    Call, Callee, Cond, Expr, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind, Var,
+    Call, Callee, Class, Cond, Expr, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind, Var,
 };
 
 /// Writes a visitor by shared and by exclusive reference from one text.
@@ -199,6 +199,15 @@ impl StmtKind {
 }
 
 impl Program {
+    /// The temporaries, as often as they are written: none is read that is not.
+    pub fn temporaries(&self) -> impl Iterator<Item = Var> + '_ {
+        let targets = self.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.target());
+        targets.filter_map(|place| match place {
+            Place::Var(var) if var.class == Class::Temp => Some(*var),
+            _ => None,
+        })
+    }
+
     /// Visits every variable that the program names, as often as it does.
     pub fn variables(&self, f: &mut dyn FnMut(Var)) {
         let mut read = |e: &Expr| e.variables(f);

@@ -346,7 +346,7 @@ fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
             *target = moved(std::mem::replace(number.as_mut(), Expr::Vacant));
         }
     }
-    rewrite_program(program, &mut |e, _, _| match e {
+    rewrite_program(program, |e| matches!(e, Expr::Indirect(Bank::Numbered, _)), &mut |e, _, _| match e {
         Expr::Indirect(Bank::Numbered, number) => moved(*number).read(),
         other => other,
     });

@@ -13,7 +13,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let Some(most) = context.target.numbers().digits.filter(|most| *most >= 8) else { return };
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
-        rewrite_program(program, &mut |e, position, rewriter| match e {
+        rewrite_program(program, |e| matches!(e, Expr::Number(_)), &mut |e, position, rewriter| match e {
             Expr::Number(value)
                 if is_long(value) && digits(value) > most && !matches!(position, Position::Argument(_)) =>
             {

@@ -1,7 +1,7 @@
 //! Which shared variables a program may read before anything in it, or in what it calls, wrote them.
 
 use super::calls_of;
-use crate::ir::analysis::{CallGraph, Row, Universe};
+use crate::ir::analysis::{CallGraph, Row, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,7 +86,7 @@ impl Exposed {
 
 /// The shared variables that programs read.
 fn universe(module: &Module) -> Universe {
-    let mut all = BTreeSet::new();
+    let mut all = VarSet::default();
     for block in module.programs.iter().flat_map(|program| &program.blocks) {
         let mut note = |e: &Expr| {
             read(e, &mut |var| {
@@ -96,7 +96,7 @@ fn universe(module: &Module) -> Universe {
         block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut note));
         block.term.kind.exprs(&mut note);
     }
-    Universe::new(all.into_iter().collect())
+    Universe::new(all.iter().collect())
 }
 
 /// Which routine a call runs.

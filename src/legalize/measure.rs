@@ -6,6 +6,7 @@
 
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr, Relation};
+use smallvec::SmallVec;
 
 /// Characters of a register's name.
 pub(super) const REGISTER: usize = 5;
@@ -44,7 +45,7 @@ impl<'c> Measure<'c> {
 
     /// The size of an expression to which nothing else is joined.
     pub fn expr(&self, e: &Expr) -> Size {
-        let mut operands = Vec::new();
+        let mut operands = SmallVec::<[Size; 4]>::new();
         e.exprs(&mut |operand| operands.push(self.expr(operand)));
         self.joined(e, &operands)
     }
@@ -57,7 +58,7 @@ impl<'c> Measure<'c> {
         };
         let leaf = |length: usize| Size { depth: 0, length };
         match e {
-            Expr::Number(value) => leaf(format!("{value}").len()),
+            Expr::Number(value) => leaf(digits(*value)),
             Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => leaf(REGISTER),
             Expr::System(..) if operands.iter().all(|operand| operand.length <= 3) => leaf(REGISTER),
             // `#[5201+20*#1]`.
@@ -130,6 +131,16 @@ impl<'c> Measure<'c> {
             Expr::Number(value) => right && value.is_sign_negative(),
             _ => false,
         }
+    }
+}
+
+/// Characters of a constant.
+fn digits(value: f64) -> usize {
+    // Nearly all are small whole numbers.
+    match value {
+        0.0..10.0 if value.fract() == 0.0 && value.is_sign_positive() => 1,
+        10.0..100.0 if value.fract() == 0.0 => 2,
+        _ => value.to_string().len(),
     }
 }
 

@@ -75,7 +75,7 @@ pub use modal_facts::{ModalFacts, replace_statements};
 pub use oversize::shares_line;
 use registers::allocate;
 pub use registers::{Register, Registers};
-pub use rewrite::{Position, Prelude, Rewriter, rewrite_program};
+pub use rewrite::{Position, Prelude, Rewriter, Wanted, rewrite_program};
 
 use crate::canon::{Op, Role};
 use crate::ir::Module;

@@ -23,12 +23,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let target = context.target;
     for program in &mut module.programs {
         write(program, target);
-        rewrite_program(program, &mut |e, _, rewriter| match &e {
-            Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, target) {
-                Some((row, runs)) => read(row.clone(), &runs, rewriter),
-                None => e,
-            },
-            _ => e,
+        rewrite_program(program, |e| matches!(e, Expr::System(Sys::WorkOffset, _)), &mut |e, _, rewriter| {
+            match &e {
+                Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, target) {
+                    Some((row, runs)) => read(row.clone(), &runs, rewriter),
+                    None => e,
+                },
+                _ => e,
+            }
         });
     }
 }

@@ -48,7 +48,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
             sure = false;
         }
-        rewrite_program(program, &mut |e, _, rewriter| {
+        rewrite_program(program, |e| matches!(e, Expr::System(Sys::ProbePoint, _)), &mut |e, _, rewriter| {
             let Expr::System(Sys::ProbePoint, subscripts) = e else { return e };
             any = true;
             look_up(subscripts, &points, rewriter)

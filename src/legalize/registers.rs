@@ -10,6 +10,7 @@ use super::clear;
 use super::{Context, Position, Rewriter, rewrite_program};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, VariableClass};
+use crate::ir::analysis::VarSet;
 use crate::ir::{Bank, BinOp, Class, Expr, Module, Place, StmtKind, Var};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,9 +55,12 @@ pub fn allocate(
     let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
     // Where no program names any, there is nothing to look for.
     let named = module.programs.iter().enumerate().filter(|_| census.has(Thing::Variable));
+    let mut seen = VarSet::default();
     for (index, program) in named {
         program.variables(&mut |var| {
-            users.entry(var).or_insert((index, program.site.span));
+            if seen.insert(var) {
+                users.insert(var, (index, program.site.span));
+            }
         });
     }
     if clear::concerns(census, context) {
@@ -229,18 +233,22 @@ fn point(module: &mut Module, runs: &[(Bank, u32)]) {
         index => Expr::Binary(BinOp::Add, Box::new(Expr::Number(base)), Box::new(index)),
     };
     for program in &mut module.programs {
-        rewrite_program(program, &mut |e, _: Position, _: &mut Rewriter<'_>| match e {
-            Expr::Indirect(bank, index) => match base_of(bank) {
-                // Adding 0 makes a number of what nobody has set, as it is on the source.
-                Some(base) => Expr::Binary(
-                    BinOp::Add,
-                    Box::new(Expr::Indirect(Bank::Numbered, Box::new(shifted(*index, base)))),
-                    Box::new(Expr::Number(0.0)),
-                ),
-                None => Expr::Indirect(bank, index),
+        rewrite_program(
+            program,
+            |e| matches!(e, Expr::Indirect(..)),
+            &mut |e, _: Position, _: &mut Rewriter<'_>| match e {
+                Expr::Indirect(bank, index) => match base_of(bank) {
+                    // Adding 0 makes a number of what nobody has set, as it is on the source.
+                    Some(base) => Expr::Binary(
+                        BinOp::Add,
+                        Box::new(Expr::Indirect(Bank::Numbered, Box::new(shifted(*index, base)))),
+                        Box::new(Expr::Number(0.0)),
+                    ),
+                    None => Expr::Indirect(bank, index),
+                },
+                other => other,
             },
-            other => other,
-        });
+        );
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             if let StmtKind::Assign { target: Place::Indirect(bank, index), .. } = &mut stmt.kind
                 && let Some(base) = base_of(*bank)

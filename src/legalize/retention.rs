@@ -9,6 +9,7 @@ use super::exposed::{Exposed, roots};
 use super::registers::{Register, Registers};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Class, Module, Var};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Reports variables whose life differs.
@@ -23,27 +24,58 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
         };
         (here.is_some() && here != there).then_some(here == Some(true))
     };
-    let told = |var: &Var, register: &Register| {
-        let name = format!("{}{}", register.name, register.number);
-        Some(match differing(var, register)? {
-            true => format!(
-                "{name} keeps its value over power-off on the source, not on the target, and the program reads what an earlier run left in it"
-            ),
-            false => format!(
-                "{name} is vacant after power-on on the source and keeps its value on the target, and the program reads what an earlier run left in it"
-            ),
-        })
+    let of = |(var, register): (&Var, &Register)| {
+        differing(var, register).map(|kept| (*var, kept, (register.name.clone(), register.number)))
     };
-    let lives: Vec<(Var, Arc<str>)> =
-        registers.of.iter().filter_map(|(var, register)| Some((*var, told(var, register)?.into()))).collect();
+    let mut lives: Vec<_> = registers.of.iter().filter_map(of).collect();
     if lives.is_empty() {
         return;
     }
+    lives.sort_by(|(.., a), (.., b)| a.cmp(b));
     let exposed = Exposed::of(module);
+    let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
     for index in roots(module) {
         let span = module.programs[index].site.span;
-        let shown = lives.iter().filter(|(var, _)| exposed.is_at_entry(index, *var));
-        let found = shown.map(|(_, what)| Diagnostic::new(Code::OtherRetention, span, what.clone()));
-        context.add_all(index, found.collect());
+        for kept in [true, false] {
+            let shown = lives.iter().enumerate();
+            let shown = shown.filter(|(_, (var, k, _))| *k == kept && exposed.is_at_entry(index, *var));
+            let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
+            if shown.is_empty() {
+                continue;
+            }
+            // Programs of a library that share their variables share the sentence.
+            let what = said.entry(shown).or_insert_with_key(|shown| {
+                told(&shown.iter().map(|at| &lives[*at].2).collect::<Vec<_>>(), kept).into()
+            });
+            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.clone()));
+        }
     }
+}
+
+/// The sentence about registers, in order of their numbers; true for those that the source keeps.
+fn told(registers: &[&(String, u32)], kept: bool) -> String {
+    let one = registers.len() == 1;
+    let names = list(registers);
+    let (keeps, is, them) =
+        if one { ("keeps its value", "is", "it") } else { ("keep their values", "are", "them") };
+    match kept {
+        true => format!(
+            "{names} {keeps} over power-off on the source, not on the target, and the program reads what an earlier run left in {them}"
+        ),
+        false => format!(
+            "{names} {is} vacant after power-on on the source and {keeps} on the target, and the program reads what an earlier run left in {them}"
+        ),
+    }
+}
+
+/// Registers as people write them: `#100, #103 to #105`.
+fn list(registers: &[&(String, u32)]) -> String {
+    let runs = registers.chunk_by(|a, b| a.0 == b.0 && a.1 + 1 == b.1);
+    let written = |run: &[&(String, u32)]| match run {
+        [(name, number)] => format!("{name}{number}"),
+        [(name, first), (_, second)] => format!("{name}{first}, {name}{second}"),
+        [(name, first), .., (_, last)] => format!("{name}{first} to {name}{last}"),
+        [] => String::new(),
+    };
+    runs.map(written).collect::<Vec<_>>().join(", ")
 }

@@ -120,21 +120,24 @@ pub(super) fn rebuild(program: &mut Program, each: &mut dyn FnMut(&mut Builder, 
     *program = builder.finish(program.name.take(), program.file, std::mem::take(&mut program.site));
 }
 
-/// The function that [`rewrite_program`] calls on every expression, innermost first.
+/// Picks the expressions that [`rewrite_program`] is about.
+pub type Wanted = fn(&Expr) -> bool;
+
+/// The function that [`rewrite_program`] calls on these, innermost first.
 pub type Rewrite<'f> = dyn FnMut(Expr, Position, &mut Rewriter<'_>) -> Expr + 'f;
 
-/// Calls `rewrite` on every expression of a program, innermost first, and
+/// Calls `rewrite` on every expression of a program that is `wanted`, innermost first, and
 /// lays what it wants done first before the statement.
 ///
 /// Statements keep their order; a prelude runs right before its statement, so
 /// what it reads is what the expression would have read.
-pub fn rewrite_program(program: &mut Program, rewrite: &mut Rewrite<'_>) {
+pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewrite<'_>) {
     let mut next_temp = highest_temp(program);
     let mut preludes: VecDeque<(usize, usize, Vec<Prelude>)> = VecDeque::new();
     for (id, block) in program.blocks.iter_mut().enumerate() {
         let mut each = |at: usize, span: Span, walk: &mut dyn FnMut(&mut Each<'_>)| {
             let mut rewriter = Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span };
-            walk(&mut |e, p| map(e, p, rewrite, &mut rewriter));
+            walk(&mut |e, p| map(e, p, wanted, rewrite, &mut rewriter));
             if !rewriter.prelude.is_empty() {
                 preludes.push_back((id, at, rewriter.prelude));
             }
@@ -212,25 +215,30 @@ pub(super) fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: Bl
     }
 }
 
-/// Applies `rewrite` to the parts of an expression, then to itself.
-fn map(e: &mut Expr, position: Position, rewrite: &mut Rewrite<'_>, rewriter: &mut Rewriter<'_>) {
+/// Applies `rewrite` to the parts of an expression that are wanted, then to itself where it is.
+fn map(
+    e: &mut Expr,
+    position: Position,
+    wanted: Wanted,
+    rewrite: &mut Rewrite<'_>,
+    rewriter: &mut Rewriter<'_>,
+) {
+    let mut part = |e: &mut Expr, position| map(e, position, wanted, rewrite, rewriter);
     match e {
-        Expr::Negate(a) => map(a, position, rewrite, rewriter),
+        Expr::Negate(a) => part(a, position),
         Expr::Binary(_, a, b) => {
-            map(a, position, rewrite, rewriter);
-            map(b, position, rewrite, rewriter);
+            part(a, position);
+            part(b, position);
         }
-        Expr::Indirect(_, index) => map(index, Position::Subscript, rewrite, rewriter),
-        Expr::System(_, subscripts) => {
-            subscripts.iter_mut().for_each(|s| map(s, Position::Subscript, rewrite, rewriter));
-        }
-        Expr::Call(_, arguments) => {
-            arguments.iter_mut().for_each(|a| map(a, position, rewrite, rewriter));
-        }
-        Expr::Truth(cond) => condition(cond, &mut |e, p| map(e, p, rewrite, rewriter)),
+        Expr::Indirect(_, index) => part(index, Position::Subscript),
+        Expr::System(_, subscripts) => subscripts.iter_mut().for_each(|s| part(s, Position::Subscript)),
+        Expr::Call(_, arguments) => arguments.iter_mut().for_each(|a| part(a, position)),
+        Expr::Truth(cond) => condition(cond, &mut part),
         Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
     }
-    *e = rewrite(std::mem::replace(e, Expr::Vacant), position, rewriter);
+    if wanted(e) {
+        *e = rewrite(std::mem::replace(e, Expr::Vacant), position, rewriter);
+    }
 }
 
 type Each<'f> = dyn FnMut(&mut Expr, Position) + 'f;
@@ -322,11 +330,5 @@ pub(super) fn terminator(kind: &mut TermKind, f: &mut Each<'_>) {
 
 /// The highest number of a temporary in a program.
 pub(super) fn highest_temp(program: &Program) -> u32 {
-    let mut highest = 0;
-    program.variables(&mut |var| {
-        if var.class == Class::Temp {
-            highest = highest.max(var.number);
-        }
-    });
-    highest
+    program.temporaries().map(|var| var.number).max().unwrap_or(0)
 }

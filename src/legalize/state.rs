@@ -41,15 +41,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let mut timed = BTreeSet::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found: Vec<(Span, Finding)> = Vec::new();
-        rewrite_program(program, &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
-            Expr::System(state, subscripts) => {
-                if state == Sys::CycleSeconds {
-                    timed.insert(index);
+        rewrite_program(
+            program,
+            |e| matches!(e, Expr::System(..)),
+            &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
+                Expr::System(state, subscripts) => {
+                    if state == Sys::CycleSeconds {
+                        timed.insert(index);
+                    }
+                    read(state, subscripts, (source, target), rewriter.span, &mut found)
                 }
-                read(state, subscripts, (source, target), rewriter.span, &mut found)
-            }
-            other => other,
-        });
+                other => other,
+            },
+        );
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             write(stmt, (source, target), &mut found);
         }

@@ -4,11 +4,10 @@
 //! can. A temporary that is alive across a call, or a move where a modal call may be open, must not share with any of the callee's, so each such one
 //! gets a number that no other has.
 
-use super::rewrite::highest_temp;
+use crate::ir::analysis::Temps;
 use crate::ir::{Block, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
+use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
-
-type Live = BTreeSet<u32>;
 
 /// Gives temporaries their colours.
 pub fn run(module: &mut Module) {
@@ -17,14 +16,13 @@ pub fn run(module: &mut Module) {
     let plans: Vec<Plan> = module.programs.iter().map(|program| Plan::of(program, modal)).collect();
     let shared = plans.iter().flat_map(|plan| plan.colours.values()).max().copied().unwrap_or(0);
     let mut lone = shared;
-    for (program, plan) in module.programs.iter_mut().zip(&plans) {
-        let mut names = plan.colours.clone();
-        for &temp in &plan.across {
+    for (program, mut plan) in module.programs.iter_mut().zip(plans) {
+        for temp in plan.across {
             lone += 1;
-            names.insert(temp, lone);
+            plan.colours.insert(temp, lone);
         }
-        if !names.is_empty() {
-            rename(program, &names);
+        if !plan.colours.is_empty() {
+            rename(program, &plan.colours, &plan.naming);
         }
     }
 }
@@ -35,48 +33,52 @@ struct Plan {
     colours: BTreeMap<u32, u32>,
     /// Those alive across a call.
     across: BTreeSet<u32>,
+    /// By block: true where it names any.
+    naming: Vec<bool>,
 }
 
 impl Plan {
     /// Of a program; in a library with modal calls every move may be a call.
     fn of(program: &Program, modal: bool) -> Self {
-        if highest_temp(program) == 0 {
-            return Self { colours: BTreeMap::new(), across: BTreeSet::new() };
+        let mut plan = Self { colours: BTreeMap::new(), across: BTreeSet::new(), naming: Vec::new() };
+        if program.temporaries().next().is_none() {
+            return plan;
         }
-        let live = live_out(program);
-        let mut apart: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
-        let mut across = BTreeSet::new();
-        for (block, out) in program.blocks.iter().zip(&live) {
-            let mut now = out.clone();
-            if matches!(block.term.kind, TermKind::Call { .. }) {
-                across.extend(now.iter().copied());
+        let (live, naming) = live_out(program);
+        let mut apart: BTreeMap<u32, Temps> = BTreeMap::new();
+        for ((block, mut now), names) in program.blocks.iter().zip(live).zip(&naming) {
+            if now.is_empty() && !names {
+                continue;
             }
-            let mut moved = |now: &Live| across.extend(now.iter().copied().filter(|_| modal));
-            backward(block, &mut now, &mut moved, &mut |defined, now| {
-                let row = apart.entry(defined).or_default();
-                row.extend(now.iter().filter(|other| **other != defined));
-                let others: Vec<u32> = now.iter().copied().filter(|other| *other != defined).collect();
-                others.into_iter().for_each(|other| {
-                    apart.entry(other).or_default().insert(defined);
-                });
+            if matches!(block.term.kind, TermKind::Call { .. }) {
+                plan.across.extend(now.iter());
+            }
+            backward(block, &mut now, &mut |step, now| match step {
+                Step::Move if modal => plan.across.extend(now.iter()),
+                Step::Write(temp) => {
+                    now.iter().for_each(|other| apart.entry(other).or_default().insert(temp));
+                    apart.entry(temp).or_default().join(now);
+                }
+                Step::Move | Step::Read => {}
             });
         }
-        let mut colours: BTreeMap<u32, u32> = BTreeMap::new();
-        for (&temp, neighbours) in apart.iter().filter(|(temp, _)| !across.contains(temp)) {
-            let taken: BTreeSet<u32> = neighbours.iter().filter_map(|n| colours.get(n).copied()).collect();
+        for (&temp, neighbours) in apart.iter().filter(|(temp, _)| !plan.across.contains(temp)) {
+            let others = neighbours.iter().filter(|other| *other != temp);
+            let taken: BTreeSet<u32> = others.filter_map(|n| plan.colours.get(&n).copied()).collect();
             let colour = (1..).find(|colour| !taken.contains(colour)).unwrap_or(1);
-            colours.insert(temp, colour);
+            plan.colours.insert(temp, colour);
         }
-        Self { colours, across }
+        Self { naming, ..plan }
     }
 }
 
-/// The temporaries alive at the end of each block.
-fn live_out(program: &Program) -> Vec<Live> {
+/// The temporaries alive at the end of each block, and whether it names any.
+fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
     let count = program.blocks.len();
-    let mut live_in = vec![Live::new(); count];
-    let mut live_out = vec![Live::new(); count];
-    let mut predecessors = vec![Vec::new(); count];
+    let mut live_in = vec![Temps::default(); count];
+    let mut live_out = live_in.clone();
+    let mut naming = vec![true; count];
+    let mut predecessors = vec![SmallVec::<[usize; 2]>::new(); count];
     for (at, block) in program.blocks.iter().enumerate() {
         for to in block.term.kind.successors() {
             if let Some(list) = predecessors.get_mut(to.index()) {
@@ -87,61 +89,63 @@ fn live_out(program: &Program) -> Vec<Live> {
     let mut work: BTreeSet<usize> = (0..count).collect();
     while let Some(at) = work.pop_last() {
         let block = &program.blocks[at];
-        let out: Live = block
-            .term
-            .kind
-            .successors()
-            .iter()
-            .filter_map(|to| live_in.get(to.index()))
-            .flatten()
-            .copied()
-            .collect();
+        let mut out = Temps::default();
+        for live in block.term.kind.successors().iter().filter_map(|to| live_in.get(to.index())) {
+            out.join(live);
+        }
         let mut now = out.clone();
-        backward(block, &mut now, &mut |_| {}, &mut |_, _| {});
+        if naming[at] {
+            let mut names = false;
+            backward(block, &mut now, &mut |step, _| names |= !matches!(step, Step::Move));
+            naming[at] = names;
+        }
         live_out[at] = out;
         if now != live_in[at] {
             live_in[at] = now;
             work.extend(&predecessors[at]);
         }
     }
-    live_out
+    (live_out, naming)
 }
 
-/// Walks a block from its end; `define` is told each definition and what is alive behind it, `moved` what is alive
-/// behind each move.
-fn backward(
-    block: &Block,
-    live: &mut Live,
-    moved: &mut dyn FnMut(&Live),
-    define: &mut dyn FnMut(u32, &Live),
-) {
-    block.term.kind.exprs(&mut |e| read(e, live));
+/// What matters of a block.
+enum Step {
+    /// A temporary is read.
+    Read,
+    /// This one is written.
+    Write(u32),
+    /// An axis is moved.
+    Move,
+}
+
+/// Walks a block from its end; `each` is told each step and what is alive behind it.
+fn backward(block: &Block, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
+    block.term.kind.exprs(&mut |e| read(e, live, each));
     for stmt in block.stmts.iter().rev() {
         if matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis()) {
-            moved(live);
+            each(Step::Move, live);
         }
-        if let StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } = &stmt.kind
-            && let Place::Var(Var { class: Class::Temp, number }) = target
-        {
-            define(*number, live);
+        if let Some(Place::Var(Var { class: Class::Temp, number })) = stmt.kind.target() {
+            each(Step::Write(*number), live);
             // Under block skip the old value may survive.
             if stmt.site.skip.is_none() {
-                live.remove(number);
+                live.remove(*number);
             }
         }
-        stmt.kind.exprs(&mut |e| read(e, live));
+        stmt.kind.exprs(&mut |e| read(e, live, each));
     }
 }
 
-fn read(e: &Expr, live: &mut Live) {
-    e.walk(&mut |e| {
-        if let Expr::Var(Var { class: Class::Temp, number }) = e {
-            live.insert(*number);
+fn read(e: &Expr, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
+    e.variables(&mut |var| {
+        if var.class == Class::Temp {
+            each(Step::Read, live);
+            live.insert(var.number);
         }
     });
 }
 
-fn rename(program: &mut Program, names: &BTreeMap<u32, u32>) {
+fn rename(program: &mut Program, names: &BTreeMap<u32, u32>, naming: &[bool]) {
     let change = |var: &mut Var| {
         if let (Class::Temp, Some(&number)) = (var.class, names.get(&var.number)) {
             var.number = number;
@@ -154,7 +158,7 @@ fn rename(program: &mut Program, names: &BTreeMap<u32, u32>) {
             }
         });
     };
-    for block in &mut program.blocks {
+    for (block, _) in program.blocks.iter_mut().zip(naming).filter(|(_, naming)| **naming) {
         for stmt in &mut block.stmts {
             stmt.kind.exprs_mut(&mut each);
             if let StmtKind::Assign { target: Place::Var(var), .. }

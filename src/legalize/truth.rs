@@ -16,13 +16,17 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 /// Replaces truth values by temporaries that an IF sets.
 pub fn run(module: &mut Module, _: &mut Context<'_>) {
     for program in &mut module.programs {
-        rewrite_program(program, &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
-            Expr::Truth(cond) => {
-                let truth = rewriter.hold(Expr::Number(0.0));
-                rewriter.first(Prelude::When(*cond, truth, Expr::Number(1.0)));
-                Expr::Var(truth)
-            }
-            other => other,
-        });
+        rewrite_program(
+            program,
+            |e| matches!(e, Expr::Truth(_)),
+            &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
+                Expr::Truth(cond) => {
+                    let truth = rewriter.hold(Expr::Number(0.0));
+                    rewriter.first(Prelude::When(*cond, truth, Expr::Number(1.0)));
+                    Expr::Var(truth)
+                }
+                other => other,
+            },
+        );
     }
 }

@@ -11,7 +11,6 @@
 //! words that are variables, and one that becomes a variable may not be one that words take: hence the words, and hence not after legalization.
 
 use super::pass::{Level, Pass};
-use super::retarget::has_temps;
 use crate::ir::analysis::{Summaries, Vars};
 use crate::ir::{Class, Expr, Module, Place, Stmt, StmtKind, TermKind, Var};
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,7 +28,7 @@ impl Pass for Copies {
     }
 
     fn run(&self, module: &mut Module, level: Level) {
-        if level < Level::O2 && !module.programs.iter().any(has_temps) {
+        if level < Level::O2 && module.programs.iter().all(|program| program.temporaries().next().is_none()) {
             return;
         }
         let summaries = Summaries::of(module);

@@ -7,9 +7,10 @@
 //! **Counter-example.** `tmp.1 = SQRT[#1]` stops the machine where `#1` is below 0.
 
 use super::pass::{Level, Pass};
-use super::retarget::{drop_statements, has_temps};
+use super::retarget::drop_statements;
 use crate::ir::analysis::{Liveness, Ways};
-use crate::ir::{Class, Module, Place, Program, StmtKind};
+use crate::ir::{Block, Class, Expr, Module, Place, Program, Stmt, StmtKind, Var};
+use std::cell::Cell;
 
 /// The pass.
 pub(super) struct DeadTemps;
@@ -23,7 +24,7 @@ impl Pass for DeadTemps {
         let ways = Ways::of(module);
         for program in &mut module.programs {
             // What a removed assignment read may be dead in its turn.
-            let _ = (0..SWEEPS).find(|_| !has_temps(program) || !sweep(program, ways));
+            let _ = (0..SWEEPS).find(|_| !may_have_dead(program) || !sweep(program, ways));
         }
     }
 }
@@ -31,18 +32,51 @@ impl Pass for DeadTemps {
 /// Chains of dead assignments longer than this, each read by the next, keep their heads.
 const SWEEPS: usize = 16;
 
+/// Temporaries are read so soon, or it is asked what is live.
+const NEAR: usize = 64;
+
+/// The temporary that a statement may be dropped for.
+fn assigned(stmt: &Stmt) -> Option<Var> {
+    match &stmt.kind {
+        StmtKind::Assign { target: Place::Var(var), value } => {
+            (var.class == Class::Temp && !value.may_alarm()).then_some(*var)
+        }
+        _ => None,
+    }
+}
+
+/// False where every such temporary is read in its own block, as nearly all are: they live.
+fn may_have_dead(program: &Program) -> bool {
+    program.blocks.iter().any(|block| {
+        block
+            .stmts
+            .iter()
+            .enumerate()
+            .any(|(at, stmt)| assigned(stmt).is_some_and(|temp| !is_read(temp, block, at + 1)))
+    })
+}
+
+/// True where a block reads a temporary soon after a statement, or at its end, before it writes it again.
+fn is_read(temp: Var, block: &Block, from: usize) -> bool {
+    let found = Cell::new(false);
+    let mut read = |e: &Expr| e.variables(&mut |var| found.set(found.get() || var == temp));
+    for stmt in block.stmts.iter().skip(from).take(NEAR) {
+        stmt.kind.exprs(&mut read);
+        if found.get() || stmt.kind.target() == Some(&Place::Var(temp)) {
+            return found.get();
+        }
+    }
+    block.term.kind.exprs(&mut read);
+    found.get()
+}
+
 /// Removes what is dead now; true where that was anything.
 fn sweep(program: &mut Program, ways: Ways) -> bool {
     let live = Liveness::of(program, ways);
     let mut dead = Vec::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         live.backward(id, &mut |at, is_live| {
-            let kind = block.stmts.get(at).map(|stmt| &stmt.kind);
-            if let Some(StmtKind::Assign { target: Place::Var(var), value }) = kind
-                && var.class == Class::Temp
-                && !value.may_alarm()
-                && !is_live(var)
-            {
+            if block.stmts.get(at).and_then(assigned).is_some_and(|temp| !is_live(&temp)) {
                 dead.push((id, at));
             }
         });

@@ -22,7 +22,7 @@ impl Pass for Retarget {
 
     fn run(&self, module: &mut Module, _: Level) {
         let ways = Ways::of(module);
-        for program in module.programs.iter_mut().filter(|program| has_temps(program)) {
+        for program in module.programs.iter_mut().filter(|program| has_pair(program)) {
             let found = pairs(program, ways);
             for (block, at) in &found {
                 let Some(block) = program.blocks.get_mut(block.index()) else { continue };
@@ -49,6 +49,12 @@ pub(super) fn drop_statements(program: &mut Program, places: &[(BlockId, usize)]
             block.stmts.retain(|_| at.next().is_some_and(|at| !places.contains(&(id, at))));
         }
     }
+}
+
+/// True where two statements could be a pair: only then is it worth asking what is live.
+fn has_pair(program: &Program) -> bool {
+    let mut all = program.blocks.iter().flat_map(|block| block.stmts.windows(2));
+    all.any(|two| matches!(two, [first, second] if pair(first, second).is_some()))
 }
 
 /// Places of the first statements of pairs. No statement is in two of them.
@@ -81,13 +87,4 @@ fn pair(first: &Stmt, second: &Stmt) -> Option<Var> {
     // Of one source block, or of none.
     let same = first.site.sequence.is_none() || first.site.sequence == second.site.sequence;
     (temp.class == Class::Temp && temp == read && !value.may_be_vacant() && free && same).then_some(*temp)
-}
-
-/// True where a program has something to do for passes over temporaries.
-pub(super) fn has_temps(program: &Program) -> bool {
-    program
-        .blocks
-        .iter()
-        .flat_map(|block| &block.stmts)
-        .any(|stmt| matches!(stmt.kind.target(), Some(Place::Var(Var { class: Class::Temp, .. }))))
 }

@@ -1,6 +1,7 @@
 //! What programs may write, calls included.
 
 use super::call_graph::CallGraph;
+use super::set::VarSet;
 use crate::canon::Op;
 use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, Program, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
@@ -10,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Vars {
     /// Single ones.
-    pub vars: BTreeSet<Var>,
+    pub vars: VarSet,
     /// All of these classes.
     pub classes: BTreeSet<Class>,
 }
@@ -50,7 +51,7 @@ impl Seen<'_> {
 
     /// The single ones.
     pub fn vars(&self) -> impl Iterator<Item = Var> + '_ {
-        self.vars.vars.iter().copied().filter(|var| !self.hides(var.class))
+        self.vars.vars.iter().filter(|var| !self.hides(var.class))
     }
 
     /// The whole classes.
@@ -75,7 +76,7 @@ const SHARED: [Class; 5] =
 impl Vars {
     /// All that other programs see.
     pub fn shared() -> Self {
-        Self { vars: BTreeSet::new(), classes: SHARED.into() }
+        Self { vars: VarSet::default(), classes: SHARED.into() }
     }
 
     /// All that a body in the same program sees.
@@ -96,22 +97,22 @@ impl Vars {
 
     /// True where the variable is among them.
     pub fn contains(&self, var: Var) -> bool {
-        self.classes.contains(&var.class) || self.vars.contains(&var)
+        self.classes.contains(&var.class) || self.vars.contains(var)
     }
 
     /// Adds all of another; true where that changed it.
     pub fn join<'v>(&mut self, other: impl Into<Seen<'v>>) -> bool {
-        let (other, before) = (other.into(), (self.vars.len(), self.classes.len()));
-        self.vars.extend(other.vars());
+        let (other, before) = (other.into(), self.classes.len());
+        let changed = self.vars.join(&other.vars.vars, |class| !other.hides(class));
         self.classes.extend(other.classes());
-        before != (self.vars.len(), self.classes.len())
+        changed || before != self.classes.len()
     }
 
     /// Without the variables of a class.
     #[must_use]
     pub fn without(mut self, class: Class) -> Self {
         self.classes.remove(&class);
-        self.vars.retain(|var| var.class != class);
+        self.vars.remove_class(class);
         self
     }
 

@@ -3,8 +3,8 @@
 //! Nothing outside a program sees its temporaries, so no call reads them but one of a body in the program itself.
 
 use super::effects::moves_values;
-use super::{Cfg, Row, Universe, may_come_back};
-use crate::ir::{Block, BlockId, Callee, Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var};
+use super::{Cfg, Temps, may_come_back};
+use crate::ir::{Block, BlockId, Callee, Class, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use std::collections::VecDeque;
 
 /// What the programs of a library do to one another's ways.
@@ -28,29 +28,35 @@ impl Ways {
 pub struct Liveness<'p> {
     program: &'p Program,
     ways: Ways,
-    universe: Universe,
     /// Live at the start of each block, those two of [`Cfg::whole`] included.
-    before: Vec<Row>,
-    /// What each block reads before it writes it, and what passes it.
-    transfers: Vec<(Row, Row)>,
+    before: Vec<Temps>,
+    /// What each block does to what is live behind it.
+    transfers: Vec<Transfer>,
     cfg: Cfg,
     /// True where a modal call runs a body of the program, whose return may go behind any NC block.
     modal_body: bool,
 }
 
+/// What a block does to what is live behind it.
+#[derive(Clone, Debug)]
+struct Transfer {
+    /// Live before it, if nothing were behind it.
+    reads: Temps,
+    /// What it surely writes.
+    writes: Temps,
+    /// True where all are live somewhere in it, whatever is behind it.
+    fills: bool,
+}
+
 impl<'p> Liveness<'p> {
     /// Computes it.
     pub fn of(program: &'p Program, ways: Ways) -> Self {
-        let universe = temporaries(program);
         let cfg = Cfg::whole(program, ways.come_back);
         let modal_body = has_modal_body(program);
-        let before = vec![universe.none(); cfg.len()];
-        let mut live = Self { program, ways, universe, before, transfers: Vec::new(), cfg, modal_body };
-        // Without temporaries there is nothing to find.
-        if !live.universe.vars().is_empty() {
-            live.transfers = program.blocks.iter().map(|block| live.transfer(block)).collect();
-            live.solve();
-        }
+        let before = vec![Temps::default(); cfg.len()];
+        let mut live = Self { program, ways, before, transfers: Vec::new(), cfg, modal_body };
+        live.transfers = program.blocks.iter().map(|block| live.transfer(block)).collect();
+        live.solve();
         live
     }
 
@@ -61,12 +67,17 @@ impl<'p> Liveness<'p> {
         let mut waiting = vec![true; count];
         while let Some(id) = work.pop_front() {
             waiting[id.index()] = false;
-            let mut row = self.after(id);
-            if let Some((reads, passes)) = self.transfers.get(id.index()) {
-                row.intersect(passes);
-                row.join(reads);
-            }
-            if self.before[id.index()].join(&row) {
+            let live = match self.transfers.get(id.index()) {
+                Some(transfer) if transfer.fills => transfer.reads.clone(),
+                Some(transfer) => {
+                    let mut live = self.after(id);
+                    live.subtract(&transfer.writes);
+                    live.join(&transfer.reads);
+                    live
+                }
+                None => self.after(id),
+            };
+            if self.before[id.index()].join(&live) {
                 for pred in self.cfg.preds(id) {
                     if !std::mem::replace(&mut waiting[pred.index()], true) {
                         work.push_back(*pred);
@@ -76,81 +87,79 @@ impl<'p> Liveness<'p> {
         }
     }
 
-    /// What a block makes of what is live behind it: of nothing, and of everything.
-    fn transfer(&self, block: &Block) -> (Row, Row) {
-        let mut rows = [self.universe.none(), self.universe.all()];
-        self.term(&block.term.kind, &mut rows);
-        block.stmts.iter().rev().for_each(|stmt| self.stmt(&stmt.kind, &stmt.site, &mut rows));
-        rows.into()
+    fn transfer(&self, block: &Block) -> Transfer {
+        let (mut reads, mut writes, mut fills) = (Temps::default(), Temps::default(), false);
+        read_by_term(&block.term.kind, &mut reads);
+        for stmt in block.stmts.iter().rev() {
+            self.stmt(stmt, &mut reads);
+            fills |= self.fills(&stmt.kind);
+            sure(stmt).into_iter().for_each(|temp| writes.insert(temp));
+        }
+        Transfer { reads, writes, fills }
     }
 
     /// Live behind a block's terminator.
-    fn after(&self, id: BlockId) -> Row {
+    fn after(&self, id: BlockId) -> Temps {
         let returns = matches!(self.program.block(id), Some(block) if matches!(block.term.kind, TermKind::Return { .. }));
         if returns && self.modal_body {
-            return self.universe.all();
+            return Temps::all();
         }
-        let mut row = self.universe.none();
+        let mut live = Temps::default();
         self.cfg.succs(id).iter().for_each(|to| {
-            row.join(&self.before[to.index()]);
+            live.join(&self.before[to.index()]);
         });
-        row
+        live
     }
 
-    fn term(&self, kind: &TermKind, rows: &mut [Row]) {
-        kind.exprs(&mut |e| self.read(e, rows));
-    }
-
-    fn stmt(&self, kind: &StmtKind, site: &Site, rows: &mut [Row]) {
-        // What the operator may switch off writes nothing for sure.
-        if let Some(Place::Var(var)) = kind.target()
-            && site.skip.is_none()
-            && let Some(at) = self.universe.place(*var)
-        {
-            rows.iter_mut().for_each(|row| row.remove(at));
+    /// Before a statement, of what is live behind it.
+    fn stmt(&self, stmt: &Stmt, live: &mut Temps) {
+        sure(stmt).into_iter().for_each(|temp| live.remove(temp));
+        if self.fills(&stmt.kind) {
+            *live = Temps::all();
         }
-        if let StmtKind::Nc(nc) = kind
-            && (self.ways.modal_body || moves_values(nc))
-        {
-            rows.fill(self.universe.all());
-        }
-        kind.exprs(&mut |e| self.read(e, rows));
+        stmt.kind.exprs(&mut |e| read(e, live));
     }
 
-    fn read(&self, e: &Expr, rows: &mut [Row]) {
-        e.variables(&mut |var| {
-            if let Some(at) = self.universe.place(var) {
-                rows.iter_mut().for_each(|row| row.insert(at));
-            }
-        });
+    /// True where all are live before the statement.
+    fn fills(&self, kind: &StmtKind) -> bool {
+        matches!(kind, StmtKind::Nc(nc) if self.ways.modal_body || moves_values(nc))
     }
 
-    /// The temporaries live at the start of a block.
-    pub fn before(&self, id: BlockId) -> impl Iterator<Item = Var> + '_ {
-        self.before.get(id.index()).into_iter().flat_map(|row| self.universe.members(row))
+    /// True where a temporary is live at the start of a block.
+    pub fn is_live_before(&self, id: BlockId, temp: Var) -> bool {
+        self.before.get(id.index()).is_some_and(|live| temp.class == Class::Temp && live.has(temp.number))
     }
 
     /// Calls `f` on each statement of a block, last first, with what is live behind it.
     pub fn backward(&self, id: BlockId, f: &mut dyn FnMut(usize, super::Holds<'_, Var>)) {
         let Some(Block { stmts, term, .. }) = self.program.block(id) else { return };
-        let mut rows = [self.after(id)];
-        self.term(&term.kind, &mut rows);
+        let mut live = self.after(id);
+        read_by_term(&term.kind, &mut live);
         for (at, stmt) in stmts.iter().enumerate().rev() {
-            f(at, &|var: &Var| self.universe.place(*var).is_some_and(|place| rows[0].has(place)));
-            self.stmt(&stmt.kind, &stmt.site, &mut rows);
+            f(at, &|var: &Var| var.class == Class::Temp && live.has(var.number));
+            self.stmt(stmt, &mut live);
         }
     }
 }
 
-/// The temporaries that a program names.
-fn temporaries(program: &Program) -> Universe {
-    let mut all = Vec::new();
-    program.variables(&mut |var| {
+/// The temporary that a statement writes: what the operator may switch off writes nothing for sure.
+fn sure(stmt: &Stmt) -> Option<u32> {
+    match stmt.kind.target() {
+        Some(Place::Var(var)) if var.class == Class::Temp && stmt.site.skip.is_none() => Some(var.number),
+        _ => None,
+    }
+}
+
+fn read_by_term(kind: &TermKind, live: &mut Temps) {
+    kind.exprs(&mut |e| read(e, live));
+}
+
+fn read(e: &Expr, live: &mut Temps) {
+    e.variables(&mut |var| {
         if var.class == Class::Temp {
-            all.push(var);
+            live.insert(var.number);
         }
     });
-    Universe::new(all)
 }
 
 fn has_modal_body(program: &Program) -> bool {

@@ -10,6 +10,7 @@ mod effects;
 mod liveness;
 mod loops;
 mod set;
+mod temps;
 mod vacancy;
 mod values;
 
@@ -19,7 +20,8 @@ pub use dominators::Dominators;
 pub use effects::{Seen, Summaries, Vars};
 pub use liveness::{Liveness, Ways};
 pub use loops::{Loop, Loops};
-pub use set::{Row, Universe};
+pub use set::{Row, Universe, VarSet};
+pub use temps::Temps;
 pub use vacancy::Vacancy;
 pub use values::{Constant, values_at};
 

@@ -97,3 +97,81 @@ impl Row {
         self.bits.iter_mut().zip(&other.bits).for_each(|(word, less)| *word &= !less);
     }
 }
+
+/// Any set of variables: 64 neighbours of a class are a word.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct VarSet {
+    /// In order, and none empty.
+    words: Vec<(Class, u32, u64)>,
+}
+
+impl VarSet {
+    fn find(&self, class: Class, word: u32) -> Result<usize, usize> {
+        self.words.binary_search_by_key(&(class, word), |(class, word, _)| (*class, *word))
+    }
+
+    /// Adds a variable; true where it was not in.
+    pub fn insert(&mut self, var: Var) -> bool {
+        self.add(var.class, var.number / 64, 1 << (var.number % 64))
+    }
+
+    fn add(&mut self, class: Class, word: u32, more: u64) -> bool {
+        match self.find(class, word) {
+            Ok(at) => {
+                let before = self.words[at].2;
+                self.words[at].2 |= more;
+                more & !before != 0
+            }
+            Err(at) => {
+                self.words.insert(at, (class, word, more));
+                true
+            }
+        }
+    }
+
+    /// True where the variable is in.
+    pub fn contains(&self, var: Var) -> bool {
+        let at = self.find(var.class, var.number / 64);
+        at.is_ok_and(|at| self.words[at].2 >> (var.number % 64) & 1 == 1)
+    }
+
+    /// True where none is in.
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// Adds the variables of another that are of these classes; true where that changed it.
+    pub fn join(&mut self, other: &Self, test: impl Fn(Class) -> bool) -> bool {
+        let wanted = other.words.iter().filter(|(class, ..)| test(*class));
+        wanted.fold(false, |changed, (class, word, more)| self.add(*class, *word, *more) || changed)
+    }
+
+    /// Takes out the variables of a class.
+    pub fn remove_class(&mut self, class: Class) {
+        self.words.retain(|(other, ..)| *other != class);
+    }
+
+    /// The variables, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Var> + '_ {
+        self.words.iter().flat_map(|(class, word, bits)| {
+            let set = (0..64).filter(move |bit| bits >> bit & 1 == 1);
+            set.map(move |bit| Var { class: *class, number: word * 64 + bit })
+        })
+    }
+}
+
+impl Extend<Var> for VarSet {
+    fn extend<I: IntoIterator<Item = Var>>(&mut self, vars: I) {
+        for var in vars {
+            self.insert(var);
+        }
+    }
+}
+
+impl FromIterator<Var> for VarSet {
+    fn from_iter<I: IntoIterator<Item = Var>>(vars: I) -> Self {
+        let mut set = Self::default();
+        set.extend(vars);
+        set
+    }
+}

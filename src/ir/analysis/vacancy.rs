@@ -5,7 +5,7 @@
 //! where what they copy may be. A comparison with vacant settles it on each of its ways.
 
 use super::effects::{Seen, Summaries};
-use super::{Cfg, Row, Universe};
+use super::{Cfg, Row, Universe, VarSet};
 use crate::canon::Sys;
 use crate::ir::{
     Bank, BlockId, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var,
@@ -25,10 +25,10 @@ pub struct Vacancy<'p> {
 impl<'p> Vacancy<'p> {
     /// Computes it. `assigned` are never vacant at the entry.
     pub fn of(program: &'p Program, summaries: &'p Summaries, assigned: &BTreeSet<Var>) -> Self {
-        let mut vars = Vec::new();
+        let mut vars = VarSet::default();
         program.variables(&mut |var| {
             if var.class.nullable() {
-                vars.push(var);
+                vars.insert(var);
             }
         });
         for block in &program.blocks {
@@ -38,7 +38,7 @@ impl<'p> Vacancy<'p> {
             }
         }
         let cfg = Cfg::whole(program, summaries.come_back());
-        let universe = Universe::new(vars);
+        let universe = Universe::new(vars.iter().collect());
         let mut out = Self { program, summaries, universe, before: vec![None; cfg.len()] };
         out.solve(&cfg, assigned);
         out

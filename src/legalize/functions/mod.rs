@@ -32,7 +32,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
         let (source, target) = (context.source, context.target);
-        rewrite_program(program, &mut |e, position, rewriter| {
+        rewrite_program(program, is_function, &mut |e, position, rewriter| {
             let span = rewriter.span;
             let (name, emulated) = match e {
                 Expr::Call(function, arguments) => {
@@ -63,6 +63,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add_once(index, &fact, Diagnostic::new(code, span, message));
         }
     }
+}
+
+/// True for what this is about.
+fn is_function(e: &Expr) -> bool {
+    use BinOp::{And, Mod, Or, Xor};
+    matches!(e, Expr::Call(..) | Expr::Binary(Mod | And | Or | Xor, ..))
 }
 
 fn call(
