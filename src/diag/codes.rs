@@ -524,9 +524,9 @@ Please report the program with this message."
 
     // ---- 06: libraries and projects ----
     "0601" OutsideLibrary Review "calls a program outside the library"
-"The program calls one that was not among the files converted. The call keeps its number, but nothing is known of what it does: which variables it changes, which modes it leaves in force, whether it exists on the target.
+"The program calls one that was not among the files converted, or one that is refused, for which nothing is written. The call keeps its number, but nothing is known of what it does: which variables it changes, which modes it leaves in force, whether it exists on the target.
 
-Convert the whole library in one run, or check the program on the target by hand."
+Convert the whole library in one run, mend what is refused, or check the program on the target by hand."
 
     "0602" TwinProgram Review "a program number stands twice"
 "Two programs of the library have one number. A control holds one program of a number, so the shop loads one of them or the other; the conversion cannot tell which.

@@ -2,7 +2,7 @@
 
 use super::names::{number_programs, report_twins};
 use super::parts::lower;
-use super::{Input, Lock};
+use super::{Input, Lock, refused_calls};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::{Emitted, Naming, Register, Writer};
@@ -235,6 +235,7 @@ pub(super) fn make(
         Ok(_) => {
             let write = target.entry().emit.map(|emit| emit(&naming, target));
             let lines = || ReadLines::new(target.entry().parse, target.entry().is_plain);
+            let links = refused_calls::links(&module, &origins);
             // Each program is dropped when it is written.
             let programs = std::mem::take(&mut module.programs);
             let emitted: Vec<_> = programs
@@ -250,6 +251,7 @@ pub(super) fn make(
                     Err(diagnostics) => found[origin].extend(diagnostics),
                 }
             }
+            refused_calls::report(&links, &mut found);
         }
         Err(faults) => {
             for all in &mut found {

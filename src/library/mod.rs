@@ -14,6 +14,7 @@ mod outputs;
 mod parts;
 mod pieces;
 mod project;
+mod refused_calls;
 mod segments;
 mod verified;
 
