@@ -31,6 +31,7 @@ mod exposed;
 mod facts;
 mod functions;
 mod increments;
+mod lathe;
 mod link;
 mod locked;
 mod lookahead;
@@ -120,6 +121,7 @@ impl Pass {
 /// The passes, in the order they run in.
 pub const PASSES: &[Pass] = &[
     Pass { name: "source-facts", concerns: |c, _| c.has(Thing::Computed), run: Reports(facts::of_source) },
+    Pass { name: "lathe", concerns: lathe::concerns, run: Reports(lathe::run) },
     Pass { name: "matters", concerns: |c, _| matters::concerns(c), run: Reports(matters::run) },
     Pass { name: "blanks", concerns: |_, context| !context.same_family(), run: Rewrites(blanks::run) },
     Pass {
