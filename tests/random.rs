@@ -216,3 +216,26 @@ fn the_bytes_of_a_fuzzer_make_programs_too() {
         assert!(trial::run(program.dialect, &program.text()).faults.is_empty());
     }
 }
+
+/// Five brackets are what one of the controls takes: two for each root, so that roots in roots are spelled otherwise.
+#[test]
+fn programs_are_spelled_in_five_brackets() {
+    let mut deepest = 0;
+    for dialect in ["fanuc", "haas"] {
+        for (policy, seed) in
+            [Policy::DeepDo, Policy::NearRounding].into_iter().zip([34_359_759_964, 42_949_695_699])
+        {
+            for seed in seed..seed + 400 {
+                for line in drawn(dialect, policy, seed).text().lines() {
+                    let mut depth = 0;
+                    for sign in line.chars() {
+                        depth += i32::from(sign == '[') - i32::from(sign == ']');
+                        deepest = deepest.max(depth);
+                        assert!(depth <= 5, "{dialect} {policy:?} seed {seed}: {line}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(deepest >= 4, "roots in roots are drawn");
+}
