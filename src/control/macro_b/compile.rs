@@ -7,7 +7,7 @@ use super::meaning;
 use crate::control::library::{LoadedFile, Section};
 use crate::control::outcome::Stop;
 use crate::control::trace::Place;
-use crate::diag::Severity;
+use crate::diag::{Code, Severity};
 use crate::dialect::{Control, Row};
 use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
 use crate::text::Span;
@@ -85,7 +85,10 @@ impl<'c> Compiler<'c, '_> {
 
     fn block(&mut self, block: &syntax::Block, sequence: Option<u32>) -> Block<'c> {
         let mut gather = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new(), shown: None };
-        let fault = block.errors.iter().find(|error| error.code.severity() == Severity::Error);
+        // What has no value is an alarm where it is computed, and a statement behind a condition may never be.
+        let at_run_time = |code| matches!(code, Code::DivisionByZero | Code::FunctionDomain);
+        let mut faults = block.errors.iter().filter(|error| error.code.severity() == Severity::Error);
+        let fault = faults.find(|error| !at_run_time(error.code));
         if let Some(fault) = fault {
             let step = match self.style.alarm_of(fault.code) {
                 Some(number) => Step::Alarm(Stop::alarm(number, fault.message.clone())),

@@ -80,8 +80,6 @@ impl Style {
             Code::NotInteger => alarms.point,
             Code::LoopNumber => alarms.loop_number,
             Code::AtanDivision => alarms.atan,
-            Code::DivisionByZero => alarms.division,
-            Code::FunctionDomain => alarms.domain,
             Code::MacroCallNotAlone | Code::ArgumentBeforeCall => alarms.call_not_alone,
             Code::LoopsCross | Code::LoopNotPaired => alarms.loops,
             Code::NullAssigned => alarms.no_variable,

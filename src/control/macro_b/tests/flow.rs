@@ -209,3 +209,22 @@ fn any_bytes_run_to_some_end() {
         }
     }
 }
+
+/// `PS0112` and `PS0119` are alarms of a computation (seed 001:1100), so a statement that is not run raises none.
+#[test]
+fn what_has_no_value_is_an_alarm_where_it_is_computed() {
+    for (statement, number) in [
+        ("THEN#2=1/0", "PS0112"),
+        ("THEN#2=5MOD0", "PS0112"),
+        ("GOTO[1/0]", "PS0112"),
+        ("THEN#2=SQRT[-1]", "PS0119"),
+        ("THEN#2=ACOS[2]", "PS0119"),
+        ("THEN#2=LN[0]", "PS0119"),
+    ] {
+        let text = format!("O1\nIF[#101EQ1]{statement}\n#102=1\nM30\n");
+        assert_eq!(value(&fanuc(&text), "#102"), Some(1.0), "{statement}");
+        assert_eq!(value(&haas(&text), "#102"), Some(1.0), "{statement}");
+        let run = fanuc(&text.replace("O1\n", "O1\n#101=1\n"));
+        assert_eq!((alarm(&run), value(&run, "#102")), (number, None), "{statement}");
+    }
+}
