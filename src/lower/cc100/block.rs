@@ -29,6 +29,9 @@ impl Lowering<'_> {
             self.findings.not_understood(block.span, "no block of this control has so many words");
             words.clear();
         }
+        if block.items.iter().any(|item| matches!(item.kind, ItemKind::Label(_))) {
+            self.constants.forget();
+        }
         self.check_mixture(block, &words);
         self.findings.distance_order(&block.items);
         let mut planned = (!words.is_empty()).then(|| self.words(&words, &block.items));
@@ -50,6 +53,7 @@ impl Lowering<'_> {
                 }
                 _ => said |= self.statement(item, &site),
             }
+            self.constants.follow(&item.kind);
         }
         if let Some(planned) = planned.take() {
             self.act(planned, &site);
@@ -67,6 +71,7 @@ impl Lowering<'_> {
             self.push(StmtKind::Nc(nc), site);
         }
         if let Some(flow) = planned.flow {
+            self.constants.forget();
             self.flow(flow, site);
         }
     }

@@ -1,4 +1,7 @@
-//! Variables that only ever hold one number.
+//! Variables of which the text says what number they hold.
+//!
+//! Law: a read holds the constant of the last assignment before it, where no label stands between them, at which
+//! jumps and calls arrive, and no call.
 //!
 //! Law: where every assignment to a variable in a program gives it the same
 //! constant, a read behind one of them yields that constant. Side condition: the
@@ -7,15 +10,20 @@
 //! Counter-example: `G=V30` before `V30=22` reads what was left there.
 
 use crate::lower::common::constant;
-use crate::syntax::{Block, Index, ItemKind, VarRef, for_each_item};
+use crate::syntax::{Block, Expr, ExprKind, Index, ItemKind, VarRef, for_each_item};
 use std::collections::HashMap;
 
 /// A variable as it is written: number, or letter.
 type Key = (Option<u32>, Option<char>);
 
-/// The variables of a program that only ever hold one number.
+/// The variables of a program whose numbers are known.
 #[derive(Debug, Default)]
-pub struct Constants(HashMap<Key, Option<f64>>);
+pub struct Constants {
+    /// Those that are assigned, and the number where it is always the same.
+    all: HashMap<Key, Option<f64>>,
+    /// Those that hold a number for certain at the place that is read.
+    here: HashMap<Key, f64>,
+}
 
 impl Constants {
     /// Looks through all assignments of a program.
@@ -37,12 +45,47 @@ impl Constants {
 
     /// The number that the variable holds once it is assigned.
     pub fn value(&self, variable: &VarRef) -> Option<f64> {
-        self.0.get(&key(variable)?).copied().flatten()
+        self.all.get(&key(variable)?).copied().flatten()
+    }
+
+    /// The number that a value is for certain here.
+    pub fn sure(&self, value: &Expr) -> Option<f64> {
+        constant(value).or_else(|| match &value.kind {
+            ExprKind::Variable(variable) => self.here.get(&key(variable)?).copied(),
+            _ => None,
+        })
+    }
+
+    /// Goes on behind an item.
+    pub fn follow(&mut self, item: &ItemKind) {
+        match item {
+            ItemKind::Assign { target, value, .. } => {
+                let value = self.sure(value);
+                self.hold(target, value);
+            }
+            ItemKind::Step { target, .. } | ItemKind::Timer(target) => self.hold(target, None),
+            ItemKind::Transfer { cells, .. } => cells.iter().for_each(|cell| self.hold(&cell.variable, None)),
+            ItemKind::Input { .. } | ItemKind::Label(_) => self.forget(),
+            _ => {}
+        }
+    }
+
+    /// Goes on where control may come from elsewhere.
+    pub fn forget(&mut self) {
+        self.here.clear();
+    }
+
+    fn hold(&mut self, variable: &VarRef, value: Option<f64>) {
+        match (key(variable), value) {
+            (Some(key), Some(value)) => drop(self.here.insert(key, value)),
+            (Some(key), None) => drop(self.here.remove(&key)),
+            (None, _) => self.forget(),
+        }
     }
 
     fn note(&mut self, variable: &VarRef, value: Option<f64>) {
         let Some(key) = key(variable) else { return };
-        let known = self.0.entry(key).or_insert(value);
+        let known = self.all.entry(key).or_insert(value);
         if *known != value {
             *known = None;
         }

@@ -65,7 +65,12 @@ impl Lowering<'_> {
             return self.findings.not_understood(span, "this control has no such jump");
         };
         let cond = Cond::Compare(relation, Expr::Var(REGISTER), Expr::Number(0.0));
-        match target {
+        let known = match target {
+            Target::Computed(label) => self.constants.sure(label).and_then(whole_label),
+            _ => None,
+        };
+        let known = known.map(|label| Target::Label(Label::Number(label)));
+        match known.as_ref().unwrap_or(target) {
             Target::Label(Label::Number(label)) => {
                 if let Some(yes) = self.target(*label, span) {
                     self.build.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
@@ -129,4 +134,10 @@ impl Lowering<'_> {
         let call = Call { callee, level: false, arguments: Vec::new(), count };
         self.build.end_then(site, |next| TermKind::Call { call: Box::new(call), next });
     }
+}
+
+/// The label that a number names.
+pub(super) fn whole_label(number: f64) -> Option<u32> {
+    let in_range = number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number);
+    in_range.then_some(number as u32)
 }

@@ -1,12 +1,11 @@
 //! The words of a block: codes by the control's table, the rest by the codes beside them.
 
 use super::Lowering;
-use super::flow::Flow;
+use super::flow::{Flow, whole_label};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::CodeMeaning;
 use crate::ir::{BinOp, Expr, Nc, NcItem};
-use crate::lower::common::constant;
 use crate::syntax::{ExprKind, Item, Word};
 use crate::text::Span;
 
@@ -117,7 +116,7 @@ impl<'a> Lowering<'a> {
                 self.findings.add(finding.with_help(help));
                 return None;
             }
-            if word.equals {
+            if !self.is_sure(word) {
                 let message = format!(
                     "the code is taken to be {}{number}, all that its variable is given",
                     word.letter
@@ -154,10 +153,15 @@ impl<'a> Lowering<'a> {
         Some(row.role)
     }
 
+    /// True where it is certain what number a word holds.
+    fn is_sure(&self, word: &Word) -> bool {
+        word.value.as_ref().is_some_and(|value| self.constants.sure(value).is_some())
+    }
+
     /// The constant that a word holds, its own or that of its variable.
     pub(super) fn whole(&self, word: &Word) -> Option<f64> {
         let value = word.value.as_ref()?;
-        constant(value).or_else(|| match &value.kind {
+        self.constants.sure(value).or_else(|| match &value.kind {
             ExprKind::Variable(variable) => self.constants.value(variable),
             _ => None,
         })
@@ -217,14 +221,17 @@ impl<'a> Lowering<'a> {
 
     /// The label that the P word names.
     fn label_of(&mut self, word: Option<(&Word, Span)>, span: Span) -> Option<(u32, Span)> {
-        let number = word.and_then(|(word, _)| self.whole(word));
-        let label = number.filter(|n| n.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(n));
+        let label = word.and_then(|(word, _)| self.whole(word)).and_then(whole_label);
         let Some(label) = label else {
             self.findings.not_understood(span, "the label that this goes to is not a known number");
             return None;
         };
-        // In range by the test above.
-        Some((label as u32, word.map_or(span, |(_, span)| span)))
+        let at = word.map_or(span, |(_, span)| span);
+        if word.is_some_and(|(word, _)| !self.is_sure(word)) {
+            let message = format!("the label is taken to be ${label}, all that its variable is given");
+            self.findings.add(Diagnostic::new(Code::CodeByVariable, at, message));
+        }
+        Some((label, at))
     }
 
     /// How often a call runs in all, where `first` runs come on top of the number written.
