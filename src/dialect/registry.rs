@@ -6,7 +6,7 @@ use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
 use crate::lower::{self, Cuts, Lower};
-use crate::syntax::{self, IsPlain, Parser, ReadPlain};
+use crate::syntax::{self, IsSound, Parser, without_tokens};
 use std::sync::OnceLock;
 
 /// A dialect: its table, and the modules that know it by name.
@@ -19,10 +19,12 @@ pub struct Entry {
     pub table: &'static str,
     /// Reads its blocks.
     pub parse: Parser,
-    /// Reads lines of plain words faster.
-    pub read_plain: ReadPlain,
-    /// Knows lines that need not be read to see that they have no fault.
-    pub is_plain: IsPlain,
+    /// Reads its blocks without their tokens.
+    pub parse_items: Parser,
+    /// Knows lines of plain words that have no fault.
+    pub is_plain: IsSound,
+    /// Knows lines that need not be read whole to see that they have no fault.
+    pub is_sound: IsSound,
     /// Lowers its programs.
     pub lower: Lower,
     /// Cuts files that need not be lowered whole.
@@ -35,14 +37,15 @@ pub struct Entry {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $read_plain:expr, $is_plain:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr) => {
+    ($name:literal, $parse:expr, $parse_items:expr, $is_plain:expr, $is_sound:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
             table: include_str!(concat!("../../dialects/", $name, ".toml")),
             parse: $parse,
-            read_plain: $read_plain,
+            parse_items: $parse_items,
             is_plain: $is_plain,
+            is_sound: $is_sound,
             lower: $lower,
             cuts: $cuts,
             emit: $emit,
@@ -56,7 +59,8 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "fadal",
         syntax::fadal::parse_line,
-        |_, _| None,
+        |source, line, out| without_tokens(syntax::fadal::parse_line, source, line, out),
+        |_, _| false,
         |_, _| false,
         lower::fadal::lower,
         |_, _| Vec::new(),
@@ -66,8 +70,9 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "fanuc",
         syntax::fanuc::parse_line,
-        syntax::fanuc::read_plain,
+        syntax::fanuc::parse_items,
         syntax::fanuc::is_plain,
+        syntax::fanuc::is_sound,
         lower::fanuc::lower,
         lower::fanuc::cuts,
         Some(emit::fanuc::emit),
@@ -76,8 +81,9 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "haas",
         syntax::haas::parse_line,
-        syntax::haas::read_plain,
+        syntax::haas::parse_items,
         syntax::haas::is_plain,
+        syntax::haas::is_sound,
         lower::haas::lower,
         lower::haas::cuts,
         Some(emit::haas::emit),
@@ -86,7 +92,8 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "cc100",
         syntax::cc100::parse_line,
-        |_, _| None,
+        |source, line, out| without_tokens(syntax::cc100::parse_line, source, line, out),
+        |_, _| false,
         |_, _| false,
         lower::cc100::lower,
         |_, _| Vec::new(),

@@ -234,7 +234,8 @@ pub(super) fn make(
     match validate(&module) {
         Ok(_) => {
             let write = target.entry().emit.map(|emit| emit(&naming, target));
-            let lines = || ReadLines::new(target.entry().parse, target.entry().is_plain);
+            let entry = target.entry();
+            let lines = || ReadLines::new(entry.parse, entry.is_plain, entry.is_sound);
             let links = refused_calls::links(&module, &origins);
             // Each program is dropped when it is written.
             let programs = std::mem::take(&mut module.programs);

@@ -5,7 +5,7 @@
 use super::Input;
 use crate::dialect::Control;
 use crate::lower::{Cut, Lowered};
-use crate::syntax::{ItemKind, ParsedFile, parse_items, parse_part};
+use crate::syntax::{ItemKind, ParsedFile, parse_file, parse_part};
 use crate::text::Span;
 use rayon::prelude::*;
 
@@ -15,7 +15,7 @@ const PART: usize = 32 * 1024;
 /// Lowers one file; errors of reading are findings of the program they stand in.
 pub fn lower(at: usize, input: &Input, source: &Control) -> Lowered {
     in_parts(PART, at, input, source).unwrap_or_else(|| {
-        let parsed = parse_items(&input.bytes, source.entry().parse, source.entry().read_plain);
+        let parsed = parse_file(&input.bytes, source.entry().parse_items);
         (source.entry().lower)(&parsed, at, &input.name, source)
     })
 }
@@ -31,8 +31,8 @@ fn in_parts(least: usize, at: usize, input: &Input, source: &Control) -> Option<
     let ends = cuts.iter().map(|cut| cut.at).chain([input.bytes.len() as u32]);
     let parts: Vec<(Cut, u32)> = starts.zip(ends).collect();
     let lowered = parts.into_par_iter().map(|(start, end)| {
-        let parsed =
-            parse_part(&input.bytes, Span::new(start.at, end), start.lines, entry.parse, entry.read_plain);
+        let part = Span::new(start.at, end);
+        let parsed = parse_part(&input.bytes, part, start.lines, entry.parse_items);
         (start.at == 0 || begins_program(&parsed)).then(|| (entry.lower)(&parsed, at, &input.name, source))
     });
     let lowered: Vec<Lowered> = lowered.collect::<Option<_>>()?;
@@ -59,7 +59,7 @@ mod tests {
         let input = Input { path: "a.nc".into(), name: "a.nc".into(), bytes: text.as_bytes().to_vec() };
         let controls = crate::dialect::registry::all().iter().filter_map(|entry| Control::plain(entry.name));
         let both = controls.map(|control| {
-            let parsed = parse_items(&input.bytes, control.entry().parse, control.entry().read_plain);
+            let parsed = parse_file(&input.bytes, control.entry().parse_items);
             let whole = (control.entry().lower)(&parsed, 0, &input.name, &control);
             (whole, in_parts(least, 0, &input, &control))
         });

@@ -16,7 +16,7 @@ use crate::dialect::Control;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::lower::Lowered;
-use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word, read_items};
+use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word};
 use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -105,7 +105,7 @@ fn lower(input: &Input, piece: Piece, source: &Control) -> Option<Lowered> {
     let lines: Vec<Line> = piece.head.into_iter().chain(own).collect();
     let mut blocks = Vec::with_capacity(lines.len());
     for line in &lines {
-        read_items(&input.bytes, line.text, entry.parse, entry.read_plain, &mut blocks);
+        (entry.parse_items)(&input.bytes, line.text, &mut blocks);
     }
     let plain = blocks
         .iter()

@@ -12,12 +12,8 @@ use std::collections::HashSet;
 /// tile the line.
 pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
 
-/// What a dialect's parser reads on a line that is one block of plain words without a fault; none for any other line,
-/// and for lines that are not known to be such. Tests hold it to the parser.
-pub type ReadPlain = fn(source: &[u8], line: Span) -> Option<Vec<Item>>;
-
 /// True for a line that a dialect's parser surely reads without a fault; false where only reading tells.
-pub type IsPlain = fn(source: &[u8], line: Span) -> bool;
+pub type IsSound = fn(source: &[u8], line: Span) -> bool;
 
 /// A file with its blocks.
 #[derive(Clone, Debug)]
@@ -71,50 +67,8 @@ const CHUNK: usize = 256 * 1024;
 
 /// Reads all blocks of `source`.
 pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
-    read(source, &|line, out| parser(source, line, out))
-}
-
-/// As [`parse_file`], without the tokens: a third of it, which only printing needs.
-pub fn parse_items(source: &[u8], parser: Parser, plain: ReadPlain) -> ParsedFile<'_> {
-    read(source, &|line, out| read_items(source, line, parser, plain, out))
-}
-
-/// As [`parse_items`], of whole lines of a file, `before` of which stand before them.
-pub fn parse_part(
-    source: &[u8],
-    part: Span,
-    before: usize,
-    parser: Parser,
-    plain: ReadPlain,
-) -> ParsedFile<'_> {
-    let (lines, blocks) = read_lines(source, part, &|line, out| read_items(source, line, parser, plain, out));
-    ParsedFile { source, before, lines, blocks }
-}
-
-/// Reads the blocks of one line without their tokens.
-pub fn read_items(source: &[u8], line: Span, parser: Parser, plain: ReadPlain, out: &mut Vec<Block>) {
-    if let Some(items) = plain(source, line) {
-        return out.push(Block { span: line, tokens: Vec::new(), items, errors: Vec::new() });
-    }
-    let first = out.len();
-    parser(source, line, out);
-    out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
-}
-
-/// Reads the blocks of a line.
-type ReadLine<'r> = &'r (dyn Fn(Span, &mut Vec<Block>) + Sync);
-
-fn read_lines(source: &[u8], part: Span, line: ReadLine<'_>) -> (Vec<Line>, Vec<Block>) {
-    let mut lines = Vec::with_capacity(memchr::memchr_iter(b'\n', part.of(source)).count() + 1);
-    lines.extend(Lines::within(source, part));
-    let mut blocks = Vec::with_capacity(lines.len());
-    lines.iter().for_each(|each| line(each.text, &mut blocks));
-    (lines, blocks)
-}
-
-fn read<'s>(source: &'s [u8], line: ReadLine<'_>) -> ParsedFile<'s> {
     let parts: Vec<(Vec<Line>, Vec<Block>)> =
-        chunks(source).into_par_iter().map(|chunk| read_lines(source, chunk, line)).collect();
+        chunks(source).into_par_iter().map(|chunk| read_lines(source, chunk, parser)).collect();
     let (lines, blocks) =
         (parts.iter().map(|(l, _)| l.len()).sum(), parts.iter().map(|(_, b)| b.len()).sum());
     let mut file = ParsedFile {
@@ -130,13 +84,38 @@ fn read<'s>(source: &'s [u8], line: ReadLine<'_>) -> ParsedFile<'s> {
     file
 }
 
+/// Reads the blocks of whole lines of a file, `before` of which stand before them.
+pub fn parse_part(source: &[u8], part: Span, before: usize, parser: Parser) -> ParsedFile<'_> {
+    let (lines, blocks) = read_lines(source, part, parser);
+    ParsedFile { source, before, lines, blocks }
+}
+
+fn read_lines(source: &[u8], part: Span, parser: Parser) -> (Vec<Line>, Vec<Block>) {
+    let mut lines = Vec::with_capacity(memchr::memchr_iter(b'\n', part.of(source)).count() + 1);
+    lines.extend(Lines::within(source, part));
+    let mut blocks = Vec::with_capacity(lines.len());
+    lines.iter().for_each(|line| parser(source, line.text, &mut blocks));
+    (lines, blocks)
+}
+
+/// As a parser, without the tokens: a third of a block, which only printing needs.
+pub fn without_tokens(parser: Parser, source: &[u8], line: Span, out: &mut Vec<Block>) {
+    let first = out.len();
+    parser(source, line, out);
+    out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
+}
+
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
     fold_lines(source, parser, |_, _| false, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
 }
 
-/// Reads all blocks of `source` but plain lines and keeps only their faults, in order: memory stays flat.
-pub fn parse_faults(source: &[u8], parser: Parser, is_plain: IsPlain) -> Vec<SyntaxError> {
+/// Reads all blocks of `source` but lines that are sound and keeps only their faults, in order: memory stays flat.
+pub fn parse_faults(
+    source: &[u8],
+    parser: Parser,
+    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
+) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
     };
@@ -144,7 +123,7 @@ pub fn parse_faults(source: &[u8], parser: Parser, is_plain: IsPlain) -> Vec<Syn
         a.append(&mut b);
         a
     };
-    fold_lines(source, parser, is_plain, Vec::new, add, join)
+    fold_lines(source, parser, is_sound, Vec::new, add, join)
 }
 
 /// True for a block without a fault, but for text outside a program: what stands before it decides about that.
@@ -158,7 +137,8 @@ fn surely_read(block: &Block) -> bool {
 #[derive(Debug)]
 pub struct ReadLines {
     parser: Parser,
-    is_plain: IsPlain,
+    is_plain: IsSound,
+    is_sound: IsSound,
     read: HashSet<Box<[u8]>>,
 }
 
@@ -166,30 +146,36 @@ pub struct ReadLines {
 const REMEMBERED: (usize, usize) = (4096, 48);
 
 impl ReadLines {
-    /// None yet.
-    pub fn new(parser: Parser, is_plain: IsPlain) -> Self {
-        Self { parser, is_plain, read: HashSet::new() }
+    /// None yet. What is plain is seen faster than remembered, and what is sound faster than read.
+    pub fn new(parser: Parser, is_plain: IsSound, is_sound: IsSound) -> Self {
+        Self { parser, is_plain, is_sound, read: HashSet::new() }
     }
 
     /// As [`parse_faults`]. Lines of short texts that were read before are not read again; long ones are read in parallel.
     pub fn faults(&mut self, source: &[u8]) -> Vec<SyntaxError> {
+        let Self { parser, is_plain, is_sound, read } = self;
         if source.len() > CHUNK {
-            return parse_faults(source, self.parser, self.is_plain);
+            return parse_faults(source, *parser, |source, line| {
+                is_plain(source, line) || is_sound(source, line)
+            });
         }
         let (mut faults, mut blocks) = (Vec::new(), Vec::new());
         for line in Lines::new(source).map(|line| line.text) {
             let bytes = line.of(source);
             let short = bytes.len() <= REMEMBERED.1;
-            if (self.is_plain)(source, line) || (short && self.read.contains(bytes)) {
+            if is_plain(source, line) || (short && read.contains(bytes)) {
                 continue;
             }
             blocks.clear();
-            (self.parser)(source, line, &mut blocks);
+            let sound = is_sound(source, line);
+            if !sound {
+                parser(source, line, &mut blocks);
+            }
             if short && blocks.iter().all(surely_read) {
-                if self.read.len() == REMEMBERED.0 {
-                    self.read.clear();
+                if read.len() == REMEMBERED.0 {
+                    read.clear();
                 }
-                self.read.insert(bytes.into());
+                read.insert(bytes.into());
             }
             blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
         }
@@ -197,18 +183,18 @@ impl ReadLines {
     }
 }
 
-/// Folds the blocks of all lines but the plain ones in parallel; `join` is given neighbours in their order.
+/// Folds the blocks of all lines but sound ones in parallel; `join` is given neighbours in their order.
 fn fold_lines<T: Send>(
     source: &[u8],
     parser: Parser,
-    is_plain: IsPlain,
+    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
     none: impl Fn() -> T + Sync + Send,
     add: impl Fn(&mut T, Line, &mut [Block]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let fold = |chunk| {
         let (mut out, mut blocks) = (none(), Vec::new());
-        for line in Lines::within(source, chunk).filter(|line| !is_plain(source, line.text)) {
+        for line in Lines::within(source, chunk).filter(|line| !is_sound(source, line.text)) {
             blocks.clear();
             parser(source, line.text, &mut blocks);
             add(&mut out, line, &mut blocks);

@@ -1,7 +1,7 @@
 //! Haas macros, legacy and NGC controls.
 
-use super::macro_b::{self, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
-use super::{Block, Item};
+use super::Block;
+use super::macro_b::{self, Keep, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
 use crate::text::Span;
 
 /// What pest makes of the grammar; it stays in here.
@@ -30,17 +30,22 @@ pub(super) const RULES: Rules = Rules {
 
 /// Reads the blocks of one line.
 pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
-    macro_b::parse_line(&RULES, source, line, out);
+    macro_b::read_line(&RULES, source, line, Keep::Tokens, out);
 }
 
-/// See [`super::ReadPlain`].
-pub fn read_plain(source: &[u8], line: Span) -> Option<Vec<Item>> {
-    macro_b::read_plain(source, line)
+/// As [`parse_line`], without the tokens.
+pub fn parse_items(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    macro_b::read_line(&RULES, source, line, Keep::Items, out);
 }
 
-/// See [`super::IsPlain`].
+/// See [`super::IsSound`]; knows lines of plain words.
 pub fn is_plain(source: &[u8], line: Span) -> bool {
     macro_b::is_plain(source, line)
+}
+
+/// See [`super::IsSound`].
+pub fn is_sound(source: &[u8], line: Span) -> bool {
+    macro_b::is_sound(&RULES, source, line)
 }
 
 fn read(text: &str, start: u32, row: &mut Row) -> Result<(), Reading> {

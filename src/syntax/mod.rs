@@ -27,8 +27,8 @@ mod walk;
 pub use ast::*;
 pub use block::print_blocks;
 pub use file::{
-    IsPlain, ParseTotals, ParsedFile, Parser, ReadLines, ReadPlain, parse_faults, parse_file, parse_items,
-    parse_part, parse_totals, read_items,
+    IsSound, ParseTotals, ParsedFile, Parser, ReadLines, parse_faults, parse_file, parse_part, parse_totals,
+    without_tokens,
 };
 pub use value::*;
 pub use walk::{for_each_expr, for_each_item};

@@ -45,7 +45,7 @@ fn acting(expectation: &Expectation, source: &Control, target: &Control) -> BTre
     let mut module = Module::default();
     for (at, input) in inputs(expectation).iter().enumerate() {
         let entry = source.entry();
-        let parsed = macroglot::syntax::parse_items(&input.bytes, entry.parse, entry.read_plain);
+        let parsed = macroglot::syntax::parse_file(&input.bytes, entry.parse_items);
         let lowered = (entry.lower)(&parsed, at, &input.name, source);
         module.programs.extend(lowered.programs.into_iter().map(|(program, _)| program));
         module.names.extend(lowered.names);

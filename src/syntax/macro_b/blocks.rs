@@ -4,52 +4,66 @@ use super::faults::{self, outside_text};
 use super::lexeme::{Lexeme, Row, tokens};
 use super::plain::{NeedsCheck, Plain};
 use super::shape::{self, Shape};
-use super::tree::{self, Tree};
-use super::{Rules, checks, scanner};
+use super::tree;
+use super::{Rules, checks, scanner, sound};
 use crate::syntax::support::readable;
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;
 
+/// What is kept of a block beside what it says.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Keep {
+    /// Its tokens.
+    Tokens,
+    /// Nothing.
+    Items,
+}
+
 /// Reads the blocks of one line.
-pub fn parse_line(rules: &Rules, source: &[u8], line: Span, out: &mut Vec<Block>) {
+pub fn read_line(rules: &Rules, source: &[u8], line: Span, keep: Keep, out: &mut Vec<Block>) {
     let bytes = line.of(source);
-    if is_dump_header(bytes) {
-        out.push(outside_block(line));
-        return;
-    }
     let first = out.len();
-    let mut at = line.start;
+    let mut at = if is_dump_header(bytes) { line.end } else { line.start };
     while at < line.end {
-        let mut scanned =
-            (Row::new(), Plain::within(bytes.get((at - line.start) as usize..).unwrap_or_default()));
-        let end = scanner::scan(source, Span::new(at, line.end), &mut scanned);
-        let (mut row, plain) = scanned;
-        let block = match end {
-            Some(end) => plain_block(rules, source, Span::new(at, end), &row, plain),
-            None => {
-                let start = (at - line.start) as usize;
-                let mut shape = shape::outline(bytes, start);
-                shape.end = with_trailing_blanks(bytes, start, shape.end);
-                let span = Span::new(at, line.start + shape.end as u32);
-                row.clear();
-                grammar_block(rules, source, span, line.start, &shape, &mut row)
-            }
-        };
+        let block = plain_block(rules, source, Span::new(at, line.end), keep).unwrap_or_else(|| {
+            let (span, shape) = outline(bytes, line.start, at);
+            grammar_block(rules, source, span, line.start, &shape, keep)
+        });
         // A block has at least one byte, so the line is finished after finitely many.
         at = block.span.end.max(at + 1);
         out.push(block);
     }
-    if out[first..].iter().any(|block| !block.errors.is_empty()) && outside_text(source, line) {
+    let faulty = out[first..].iter().any(|block| !block.errors.is_empty());
+    if is_dump_header(bytes) || (faulty && outside_text(source, line)) {
         out.truncate(first);
         out.push(outside_block(line));
     }
+    if keep == Keep::Items {
+        out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
+    }
 }
 
-/// What a line says that is one block of plain words in which nothing can be wrong; none for any other.
-pub fn read_plain(source: &[u8], line: Span) -> Option<Vec<Item>> {
-    let mut plain = Plain::within(line.of(source));
-    let whole = !line.is_empty() && scanner::scan(source, line, &mut plain) == Some(line.end);
-    (whole && !plain.needs_check).then(|| plain.into_items())
+/// True for a line of blocks in which nothing can be wrong, as far as their leaves tell; see [`sound`].
+pub fn is_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
+    let bytes = line.of(source);
+    let mut row = Row::new();
+    let mut at = line.start;
+    while at < line.end {
+        let (span, shape) = outline(bytes, line.start, at);
+        let shaped = shape.depth <= rules.bracket_depth.map_or(shape::DEEPEST, |most| most as usize)
+            && shape.open_comment.is_none()
+            && shape.nested_comment.is_none();
+        row.clear();
+        if !shaped
+            || (rules.read)(&readable(span.of(source)), span.start, &mut row).is_err()
+            || !is_tiled(&row, span)
+            || !sound::is_sound(rules, source, &row)
+        {
+            return false;
+        }
+        at = span.end.max(at + 1);
+    }
+    !is_dump_header(bytes)
 }
 
 /// True for a line that is one block of plain words in which nothing can be wrong, or empty.
@@ -58,15 +72,37 @@ pub fn is_plain(source: &[u8], line: Span) -> bool {
     scanner::scan(source, line, &mut check) == Some(line.end) && !check.0
 }
 
-/// A block read by the scanner.
-fn plain_block(rules: &Rules, source: &[u8], span: Span, row: &Row, plain: Plain) -> Block {
+/// The block of a line that starts at `at`, and its outline, which counts from the start of the line.
+fn outline(line: &[u8], line_start: u32, at: u32) -> (Span, Shape) {
+    let start = (at - line_start) as usize;
+    let mut shape = shape::outline(line, start);
+    shape.end = with_trailing_blanks(line, start, shape.end);
+    (Span::new(at, line_start + shape.end as u32), shape)
+}
+
+/// The block at the start of `rest`, up to the end of its line, if the scanner reads it.
+fn plain_block(rules: &Rules, source: &[u8], rest: Span, keep: Keep) -> Option<Block> {
+    let text = rest.of(source);
+    if !scanner::begins_plain(text) {
+        return None;
+    }
+    let mut plain = Plain::within(text);
+    let (end, tokens, plain) = match keep {
+        Keep::Tokens => {
+            let mut both = (Row::new(), plain);
+            let end = scanner::scan(source, rest, &mut both)?;
+            (end, tokens(&both.0), both.1)
+        }
+        Keep::Items => (scanner::scan(source, rest, &mut plain)?, Vec::new(), plain),
+    };
     let needs_check = plain.needs_check;
-    let mut block = Block { span, tokens: tokens(row), items: plain.into_items(), errors: Vec::new() };
-    debug_assert!(block.is_tiled());
+    let span = Span::new(rest.start, end);
+    let mut block = Block { span, tokens, items: plain.into_items(), errors: Vec::new() };
+    debug_assert!(keep == Keep::Items || block.is_tiled());
     if needs_check {
         checks::check_items(rules, source, &block.items, &mut block.errors);
     }
-    block
+    Some(block)
 }
 
 /// A block read by the grammar.
@@ -76,20 +112,26 @@ pub(super) fn grammar_block(
     span: Span,
     line_start: u32,
     shape: &Shape,
-    row: &mut Row,
+    keep: Keep,
 ) -> Block {
     let bytes = span.of(source);
     if shape.depth > shape::DEEPEST {
         return unread(span, end_of_block(bytes, span), faults::too_deep(span, shape.depth));
     }
-    let read = (rules.read)(&readable(bytes), span.start, row);
-    let tree = match read {
-        Ok(()) => tree::build(source, row, rules.rank),
+    let mut row = Row::new();
+    let tree = match (rules.read)(&readable(bytes), span.start, &mut row) {
+        Ok(()) if !is_tiled(&row, span) => {
+            // Cannot happen while grammars tile; if one does not, nothing may be lost.
+            return unread(span, None, faults::not_tiled(span));
+        }
+        Ok(()) => tree::build(source, &row, rules.rank),
         Err(stop) => Err(faults::explain(source, span, line_start, shape, &stop)),
     };
     match tree {
         Ok(tree) => {
-            let mut block = finish(rules, source, span, row, tree);
+            let tokens = if keep == Keep::Tokens { tokens(&row) } else { Vec::new() };
+            let mut block = Block { span, tokens, items: tree.items, errors: tree.errors };
+            checks::check_items(rules, source, &block.items, &mut block.errors);
             checks::check_shape(rules, source, &mut block, line_start, shape);
             block
         }
@@ -97,14 +139,10 @@ pub(super) fn grammar_block(
     }
 }
 
-fn finish(rules: &Rules, source: &[u8], span: Span, row: &[Lexeme], tree: Tree) -> Block {
-    let mut block = Block { span, tokens: tokens(row), items: tree.items, errors: tree.errors };
-    if !block.is_tiled() {
-        // Cannot happen while grammars tile; if one does not, nothing may be lost.
-        return unread(span, None, faults::not_tiled(span));
-    }
-    checks::check_items(rules, source, &block.items, &mut block.errors);
-    block
+/// True where the leaves tile the block.
+fn is_tiled(row: &[Lexeme], block: Span) -> bool {
+    let mut at = block.start;
+    row.iter().all(|leaf| std::mem::replace(&mut at, leaf.span.end) == leaf.span.start) && at == block.end
 }
 
 /// A block whose text is kept and not understood.

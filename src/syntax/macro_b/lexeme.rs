@@ -5,7 +5,7 @@ use crate::text::Span;
 use smallvec::SmallVec;
 
 /// Kinds of leaves, and of what the grammar yields as one and [`push`] cuts into them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lex {
     Space,
     Comment,
@@ -49,6 +49,7 @@ pub enum Lex {
     SetNames,
     Name,
     /// Pest's end of input, and whatever yields no leaf.
+    #[default]
     Nothing,
 }
 

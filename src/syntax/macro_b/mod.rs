@@ -4,7 +4,8 @@
 //! [`scanner`] reads blocks of plain words (built by [`plain`]), and the dialect's pest grammar
 //! (`grammar/macro_b.pest` and its own file) all others, both into one row of
 //! [`lexeme`]s that tiles the block; [`tree`] builds the items of the others from that row;
-//! [`checks`] finds what the grammar lets pass but the control does not.
+//! [`checks`] finds what the grammar lets pass but the control does not, and [`sound`] sees from
+//! the row alone that it would find nothing.
 //! [`faults`] says in a programmer's words why a block could not be read.
 
 mod blocks;
@@ -16,13 +17,14 @@ mod plain;
 mod rules;
 mod scanner;
 mod shape;
+mod sound;
 mod statements;
 mod tree;
 
 #[cfg(test)]
 mod tests;
 
-pub(super) use blocks::{is_plain, parse_line, read_plain};
+pub(super) use blocks::{Keep, is_plain, is_sound, read_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
 pub(super) use rules::{Reading, Rules, read};

@@ -4,7 +4,7 @@ use super::lexeme::{self, Lex, Row};
 use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
 use pest::error::ErrorVariant;
-use pest::{Parser, RuleType};
+use pest::{Parser, RuleType, Token};
 
 /// The differences between the dialects that reading a block meets.
 ///
@@ -54,9 +54,15 @@ pub fn read<P: Parser<R>, R: RuleType + Into<Lex>>(
         };
         Reading { at: start + at as u32, expected }
     })?;
-    for pair in pairs {
-        let span = pair.as_span();
-        lexeme::push(row, pair.as_rule().into(), start + span.start() as u32, span.as_str().as_bytes());
+    let mut from = 0;
+    for token in pairs.tokens() {
+        match token {
+            Token::Start { pos, .. } => from = pos.pos(),
+            Token::End { rule, pos } => {
+                let leaf = text.as_bytes().get(from..pos.pos()).unwrap_or_default();
+                lexeme::push(row, rule.into(), start + from as u32, leaf);
+            }
+        }
     }
     Ok(())
 }

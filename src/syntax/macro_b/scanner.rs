@@ -77,6 +77,21 @@ pub fn scan<T: Take>(source: &[u8], rest: Span, take: &mut T) -> Option<u32> {
     Some(rest.end)
 }
 
+/// False for most blocks that [`scan`] declines: a statement stands behind the sequence number.
+pub fn begins_plain(text: &[u8]) -> bool {
+    let first = match text {
+        [b'N' | b'n', rest @ ..] => &text[1 + pass(rest, 0, |byte| byte.is_ascii_digit())..],
+        _ => text,
+    };
+    match first {
+        [letter, next, ..] if letter.is_ascii_alphabetic() => {
+            matches!(next, b'0'..=b'9' | b'.' | b'-' | b'+')
+        }
+        [first, ..] => matches!(first, b' ' | b'\t' | b'(' | b';'),
+        [] => true,
+    }
+}
+
 fn span(start: usize, end: usize) -> Span {
     Span::new(start as u32, end as u32)
 }

@@ -6,7 +6,7 @@ use crate::syntax::{Comment, Fence, Item, ItemKind, OutputPart, ProgramName, Syn
 use crate::text::Span;
 
 /// IFs that may stand behind one another in a block.
-const MOST_CONDITIONS: usize = 20;
+pub const MOST_CONDITIONS: usize = 20;
 
 impl Builder<'_> {
     /// Reads items up to the end of the row; under an IF (`depth` above 0) up to the end of the block.

@@ -1,8 +1,10 @@
 //! Laws over random input.
 
-use super::super::{bits_among_arithmetic, blocks, lexeme::Row, scanner, shape, tree};
+use super::super::{
+    bits_among_arithmetic, blocks, blocks::Keep, lexeme::Row, read_line, scanner, shape, tree,
+};
 use super::{BOTH, Dialect};
-use crate::syntax::Block;
+use crate::syntax::{Block, ItemKind, ReadLines};
 use crate::text::{Lines, Span};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -69,7 +71,7 @@ fn mutated_programs_are_kept() {
 fn by_grammar(dialect: &Dialect, source: &[u8], block: Span, line: Span) -> Block {
     let mut shape = shape::outline(line.of(source), (block.start - line.start) as usize);
     shape.end = (block.end - line.start) as usize;
-    blocks::grammar_block(dialect.rules, source, block, line.start, &shape, &mut Row::new())
+    blocks::grammar_block(dialect.rules, source, block, line.start, &shape, Keep::Tokens)
 }
 
 /// On every block that the scanner accepts it agrees with the grammar; returns how many those were.
@@ -80,11 +82,6 @@ fn scanner_agrees(dialect: &Dialect, source: &[u8]) -> usize {
         (dialect.parse_line)(source, line.text, &mut blocks);
         if blocks::is_plain(source, line.text) {
             assert!(blocks.len() <= 1 && blocks.iter().all(|block| block.errors.is_empty()), "{blocks:?}");
-        }
-        let plain = blocks::read_plain(source, line.text);
-        assert_eq!(plain.is_some(), !line.text.is_empty() && blocks::is_plain(source, line.text));
-        if let Some(items) = plain {
-            assert_eq!(blocks.iter().map(|block| &block.items).collect::<Vec<_>>(), [&items]);
         }
         for block in blocks {
             let mut row = Row::new();
@@ -107,5 +104,77 @@ fn the_scanner_agrees_with_the_grammar() {
         let accepted = std::cell::Cell::new(0);
         over(4000, &plain(), |source| accepted.set(accepted.get() + scanner_agrees(&dialect, &source)));
         assert!(accepted.get() > 1000, "only {} blocks were accepted", accepted.get());
+    }
+}
+
+/// Statements that can be wrong in what the grammar lets pass: divisors, arguments, digits, loops, calls.
+fn statements() -> impl Strategy<Value = Vec<u8>> {
+    let call = r"(SQRT|ASIN|LN|ATAN|SIN|FIX) ?\[(-?[0-2]|#1|#1-1|\[0\])\](/\[2\])?";
+    let operand = format!(r"(#[0-3]|-?0|0\.0|2\.5|-1|123456789|\[-?0\]|\[-#1\]|#\[#1\]|{call})");
+    let value = format!(r"{operand}((\+|-|\*|/| ?MOD ?| EQ | AND ){operand}){{0,3}}");
+    let word = format!(r"(G65|G66|G1|G\[65\]|G#1|M6|M6\.|S1\.5|T#1|X-1\.|P1|Y\[{value}\]|,R1\.)");
+    let then = format!(r"(GOTO ?10|THEN ?#1={value}|\(A\)|THEN|IF\[#1 LT 2\] ?(GOTO1)?|X1)?");
+    let statement = format!(
+        r"(#[0-2] ?={value}|{word}{{1,4}}|(IF ?)?\[{value}\] ?{then}|(WHILE\[{value}\])?DO[0-4]|END[0-4])"
+    );
+    proptest::string::bytes_regex(&format!(
+        r"(N[0-9]{{1,3}} ?|/2)?{statement}( ?\(A\)){{0,2}}(;{statement})?;?"
+    ))
+    .unwrap()
+}
+
+/// What is read without tokens or not at all is what is read; returns how many lines are sound, and how many have faults.
+fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
+    let is_sound = |source: &[u8], line: Span| blocks::is_sound(dialect.rules, source, line);
+    let (mut sound, mut faulty, mut faults) = (0, 0, Vec::new());
+    for line in Lines::new(source).map(|line| line.text) {
+        let mut read = Vec::new();
+        (dialect.parse_line)(source, line, &mut read);
+        let text = line.of(source).escape_ascii();
+        let errors: Vec<_> = read.iter().flat_map(|block| block.errors.clone()).collect();
+        if is_sound(source, line) {
+            let unread = |block: &Block| block.items.iter().any(|item| item.kind == ItemKind::Unparsed);
+            assert!(errors.is_empty() && !read.iter().any(unread), "{}: {text}: {errors:?}", dialect.name);
+            sound += usize::from(!blocks::is_plain(source, line));
+        }
+        faulty += usize::from(!errors.is_empty());
+        faults.extend(errors);
+        let mut items = Vec::new();
+        read_line(dialect.rules, source, line, Keep::Items, &mut items);
+        read.iter_mut().for_each(|block| block.tokens.clear());
+        assert_eq!(items, read, "{}: {text}", dialect.name);
+    }
+    let mut lines = ReadLines::new(dialect.parse_line, blocks::is_plain, dialect.is_sound);
+    for _ in 0..2 {
+        assert_eq!(lines.faults(source), faults, "{}: {}", dialect.name, source.escape_ascii());
+    }
+    (sound, faulty)
+}
+
+#[test]
+fn what_is_not_read_has_no_fault() {
+    for dialect in BOTH {
+        let (sound, faulty) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
+        let agree = |source: &[u8]| {
+            let (more_sound, more_faulty) = shortcuts_agree(&dialect, source);
+            sound.set(sound.get() + more_sound);
+            faulty.set(faulty.get() + more_faulty);
+        };
+        let files: Vec<Vec<u8>> = dialect.corpus().into_iter().map(|(_, source)| source).collect();
+        files.iter().for_each(|source| agree(source));
+        dialect.fragments().iter().for_each(|fragment| agree(fragment.text.as_bytes()));
+        over(1500, &text(), |source| agree(&source));
+        sound.set(0);
+        faulty.set(0);
+        over(4000, &statements(), |source| agree(&source));
+        assert!(sound.get() > 1000, "only {} lines are sound", sound.get());
+        assert!(faulty.get() > 1000, "only {} lines have faults", faulty.get());
+        let damaged = (proptest::sample::select(files), any::<(u16, u16)>(), text());
+        over(60, &damaged, |(mut source, (from, len), insert)| {
+            let from = usize::from(from) % (source.len() + 1);
+            let to = (from + usize::from(len % 8)).min(source.len());
+            source.splice(from..to, insert);
+            agree(&source);
+        });
     }
 }
