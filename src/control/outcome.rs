@@ -27,6 +27,9 @@ pub struct Run {
     /// What was in force at its end; none where it did not end by itself.
     #[serde(skip)]
     pub left: Option<Left>,
+    /// The codes whose numbers it computed: the letter, the number, and how many events came before.
+    #[serde(skip)]
+    pub computed_codes: Vec<(char, f64, usize)>,
 }
 
 /// How a run ended.

@@ -242,6 +242,7 @@ impl<'r, 'f> Session<'r, 'f> {
             Halt::Error(text) => End::Error { at, text },
         };
         Run {
+            computed_codes: self.trace.computed_codes(),
             events: self.trace.events,
             programs: self.programs,
             variables,

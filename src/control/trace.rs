@@ -13,7 +13,7 @@ use crate::canon::Op;
 use crate::dialect::Row;
 use crate::text::Span;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 /// One event and the block that caused it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -60,6 +60,9 @@ pub struct Program {
     pub modes: Vec<Op>,
 }
 
+/// Computed codes that a run remembers.
+const MOST_CODES: usize = 64;
+
 /// The events of a run in the making.
 #[derive(Debug)]
 pub struct Trace {
@@ -72,6 +75,8 @@ pub struct Trace {
     limit: usize,
     full: bool,
     doubted: HashSet<(String, Place)>,
+    /// Codes whose number was computed, with their letter, and how many events came before each.
+    computed_codes: BTreeMap<(char, u64), usize>,
     /// Matters that the machine's profile confirms.
     confirmed: Vec<String>,
 }
@@ -86,6 +91,7 @@ impl Trace {
             limit,
             full: false,
             doubted: HashSet::new(),
+            computed_codes: BTreeMap::new(),
             confirmed: confirmed.to_vec(),
         }
     }
@@ -102,6 +108,18 @@ impl Trace {
     /// True when an event found no room: the run must end.
     pub fn is_full(&self) -> bool {
         self.full
+    }
+
+    /// Records a code whose number was computed.
+    pub fn computed_code(&mut self, letter: char, number: f64) {
+        if self.computed_codes.len() < MOST_CODES {
+            self.computed_codes.entry((letter, number.to_bits())).or_insert(self.events.len());
+        }
+    }
+
+    /// The codes whose numbers were computed, with how many events came before each.
+    pub fn computed_codes(&self) -> Vec<(char, f64, usize)> {
+        self.computed_codes.iter().map(|((letter, bits), at)| (*letter, f64::from_bits(*bits), *at)).collect()
     }
 
     /// Records that a fact mattered that nobody confirmed; once for each block.

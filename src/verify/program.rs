@@ -12,7 +12,7 @@ use super::names::{Names, Side};
 use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
 use super::scenarios::{Proposals, asked, on_target, unit};
-use super::stops::{nests_too_deep, off_its_circle, stops_by_itself};
+use super::stops::{computes_another_code, nests_too_deep, off_its_circle, stops_by_itself};
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
 use crate::control::trace::{Event, Happening};
@@ -239,6 +239,16 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 let (_, most) = nests_too_deep(run, &other, &difference).unwrap_or_default();
                 let text = format!(
                     "calls nest deeper than the {most} levels of the target, which stops with an alarm there"
+                );
+                self.because(Why::Condition, &text);
+            }
+            Some(difference)
+                if computes_another_code((source, run), (target, &other), &difference).is_some() =>
+            {
+                let code =
+                    computes_another_code((source, run), (target, &other), &difference).unwrap_or_default();
+                let text = format!(
+                    "a run computes the code {code}, which does not mean the same on the target: it must never do that"
                 );
                 self.because(Why::Condition, &text);
             }

@@ -1,7 +1,8 @@
 //! Where a control stops a program: the source's, so that the program says nothing of what the target should do, or the
-//! target's, where a condition of the conversion is broken.
+//! target's, where a condition of the conversion is broken; and where a run breaks one without an alarm.
 
 use super::compare::Difference;
+use super::names::Side;
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, Run};
 
@@ -48,6 +49,27 @@ pub fn nests_too_deep(run: &Run, other: &Run, difference: &Difference<'_>) -> Op
         }
     }
     (deepest > i64::from(most)).then_some((limit, most))
+}
+
+/// The code that both sides computed before they differ and that does not mean the same on both, where there is one.
+pub fn computes_another_code(
+    (source, run): (&Side<'_>, &Run),
+    (target, other): (&Side<'_>, &Run),
+    difference: &Difference<'_>,
+) -> Option<String> {
+    let at = difference.source.and_then(|event| run.events.iter().position(|e| std::ptr::eq(e, event)));
+    let both = run.computed_codes.iter().filter(|(letter, number, before)| {
+        let theirs = other.computed_codes.iter().any(|(there, same, _)| (there, same) == (letter, number));
+        theirs && at.is_none_or(|at| *before <= at)
+    });
+    both.copied().find_map(|(letter, number, _)| {
+        let here = source.control.code(letter, number, &[])?;
+        let there = target.control.code(letter, number, &[]);
+        let same = there.is_some_and(|there| {
+            (here.op, &here.words, &here.fixed) == (there.op, &there.words, &there.fixed)
+        });
+        (!same).then(|| format!("{letter}{number}"))
+    })
 }
 
 /// True where the difference lies at the alarm that ended the source, not before it.

@@ -1,6 +1,7 @@
 //! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
 
 mod callers;
+mod codes;
 mod ends;
 mod nesting;
 mod random;

@@ -21,6 +21,9 @@ impl<'c> Runner<'c> {
                 self.rounds_to_whole(value.unwrap_or(0.0));
                 // A computed code is a whole number, the nearest one.
                 values[at] = value.map(|value| if word.form.is_literal() { value } else { value.round() });
+                if let Some(number) = values[at].filter(|_| !word.form.is_literal()) {
+                    self.session.trace.computed_code(word.letter, number);
+                }
             }
         }
         let fresh = match &words.meaning {

@@ -1,0 +1,21 @@
+//! Codes whose number is computed, where the conversion has made it a condition what they are.
+
+use super::{Names, reported};
+use crate::verify::{Outcome, Why};
+
+/// What becomes of O1, and whether a condition is why.
+fn outcome(source: &str, target: &str) -> (Outcome, bool) {
+    let found = reported(("fanuc", source), ("haas", target), Names::default(), &[]);
+    (found[0].outcome, found[0].reasons.iter().any(|reason| reason.why == Why::Condition))
+}
+
+/// G4 waits as long as X says on the one control and not on the other.
+const SOURCE: &str = "O1\nG21G90\nG1G#500X5.F100.\nG0X1.\nM30\n";
+
+#[test]
+fn a_code_that_means_something_else_is_a_condition() {
+    assert_eq!(outcome(SOURCE, SOURCE), (Outcome::Undecided, true));
+    // What differs where the code is the same on both is different, and so is what differs before it.
+    assert_eq!(outcome(SOURCE, &SOURCE.replace("X1.", "X2.")).0, Outcome::Different);
+    assert_eq!(outcome(SOURCE, &SOURCE.replace("G21G90", "G21G90G0X9.")).0, Outcome::Different);
+}
