@@ -1,7 +1,7 @@
 //! Checks of the system variables.
 
+use super::SystemVariable;
 use super::reader::{Placed, Reader};
-use super::{Subscript, SystemVariable};
 
 /// Runs are well formed and no two that can be present together share a number.
 pub(super) fn check(reader: &mut Reader, rows: &[Placed<SystemVariable>]) {
@@ -89,9 +89,7 @@ impl SystemVariable {
     /// included; none where the run does not hold it.
     pub fn subscripts_of(&self, number: u32) -> Option<Vec<u32>> {
         let mut rest = number.checked_sub(self.first?)?;
-        // Most rows end before it.
-        let length = |s: &Subscript| s.step.saturating_mul(s.count.saturating_sub(1));
-        if rest > self.subscripts.iter().map(length).fold(0, u32::saturating_add) {
+        if number > self.last()? {
             return None;
         }
         let mut order: Vec<usize> = (0..self.subscripts.len()).collect();

@@ -7,7 +7,8 @@ use super::{
     Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Sys};
-use std::collections::{BTreeMap, HashMap};
+use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeMap;
 
 /// A dialect with a machine profile laid over it.
 ///
@@ -25,7 +26,7 @@ pub struct Control {
     pub(super) codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>>,
     pub(super) targets: HashMap<Op, Vec<usize>>,
     pub(super) words: HashMap<(char, bool), usize>,
-    pub(super) system: HashMap<String, Vec<usize>>,
+    pub(super) system: HashMap<String, Vec<(usize, u32)>>,
     pub(super) states: HashMap<Sys, Vec<usize>>,
     /// The codes that call programs, by letter and number.
     pub(super) aliases: Vec<(char, f64, Alias)>,
@@ -53,10 +54,11 @@ impl Control {
         let words = (dialect.words.iter().enumerate())
             .filter_map(|(at, row)| Some((address(&row.letter)?, at)))
             .collect();
-        let mut system: HashMap<String, Vec<usize>> = HashMap::new();
+        let mut system: HashMap<String, Vec<(usize, u32)>> = HashMap::new();
         let mut states: HashMap<Sys, Vec<usize>> = HashMap::new();
         for (at, row) in dialect.system.iter().enumerate() {
-            system.entry(row.name.clone()).or_default().push(at);
+            let last = row.last().unwrap_or(u32::MAX);
+            system.entry(row.name.clone()).or_default().push((at, last));
             states.entry(row.state).or_default().push(at);
         }
         let aliases = aliases(&dialect, &settings);

@@ -2,7 +2,8 @@
 
 use crate::ir::Var;
 use crate::syntax::ProgramName;
-use std::collections::{BTreeSet, HashMap};
+use foldhash::HashMap;
+use std::collections::BTreeSet;
 
 /// A variable of the target.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -15,6 +15,9 @@ use crate::text::Span;
 /// Reports computed numbers that may lie outside of their space.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let spaces = [Bank::Global, Bank::Parametric].map(|bank| (bank, Space::of(bank, context.source)));
+    if spaces.iter().all(|(_, space)| space.is_none()) {
+        return;
+    }
     let summaries = Summaries::of(module);
     for (index, program) in module.programs.iter().enumerate() {
         let mut found: Vec<(Span, &Space)> = Vec::new();

@@ -14,10 +14,11 @@ use crate::dialect::Control;
 use crate::ir::analysis::{Constant, Summaries, values_at};
 use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
 use crate::text::Span;
+use std::cell::LazyCell;
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let summaries = Summaries::of(module);
+    let summaries = LazyCell::new(|| Summaries::of(module));
     let rounds = [context.source, context.target].iter().all(|control| control.is("integer.word.rounds"));
     let mut found: Vec<(usize, Span, Finding)> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
@@ -82,7 +83,7 @@ pub(super) struct Number {
 pub(super) fn numbers(
     value: &Expr,
     program: &Program,
-    summaries: &Summaries,
+    summaries: &LazyCell<Summaries, impl FnOnce() -> Summaries>,
     id: BlockId,
     at: usize,
     source: &Control,

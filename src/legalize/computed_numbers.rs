@@ -9,11 +9,12 @@
 use super::{Context, rewrite_program};
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, SystemVariable};
 use crate::ir::analysis::{Constant, Summaries, values_at};
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Place, Program, StmtKind};
 use crate::text::Span;
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
 /// Values of plain variables are looked up for so many computed numbers of a program; others are not known.
@@ -25,8 +26,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if numbers.all_alike() {
         return;
     }
-    let summaries = Summaries::of(module);
-    for (index, program) in module.programs.iter_mut().enumerate() {
+    look(module, &mut numbers, context);
+    module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
+}
+
+fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
+    let summaries = LazyCell::new(|| Summaries::of(module));
+    for (index, program) in module.programs.iter().enumerate() {
         let mut found: Vec<(Span, Finding)> = Vec::new();
         let mut looked_up = 0;
         each_index(program, &mut |bank, number, span, id, at| {
@@ -50,9 +56,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 found.push((span, finding));
             }
         });
-        shift(program, &mut numbers);
         for (span, finding) in found {
-            let (code, what) = finding.told(context, &numbers);
+            let (code, what) = finding.told(context, numbers);
             context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
         }
     }
@@ -206,7 +211,7 @@ impl<'c> Numbers<'c> {
     fn counted(&self, number: u32) -> Option<Finding> {
         let (state, _, row) =
             self.source.read_system("#", Some(number)).filter(|(state, ..)| *state != Sys::Other)?;
-        let (first, last) = span_of(row)?;
+        let (first, last) = (row.first?, row.last()?);
         match row.subscripts.as_slice() {
             [one] if one.step == 1 && !one.axis => Some(Finding::Counted(state, first, last, one.from)),
             _ => None,
@@ -224,7 +229,7 @@ impl<'c> Numbers<'c> {
     /// The run of a state as far as the target has it at one distance.
     fn distance(&self, number: u32) -> Option<Finding> {
         let (state, _, row) = self.source.read_system("#", Some(number))?;
-        let (first, last) = span_of(row)?;
+        let (first, last) = (row.first?, row.last()?);
         let distance = |number: u32| {
             let (name, there, found) = self.target.system_address(state, &row.subscripts_of(number)?)?;
             let fits = name == "#" && row.access.chars().all(|c| found.access.contains(c));
@@ -265,19 +270,9 @@ impl<'c> Numbers<'c> {
 /// The largest number that the control has.
 fn last_number(control: &Control) -> u32 {
     let dialect = control.dialect();
-    let system =
-        dialect.system.iter().filter(|row| row.name == "#").filter_map(span_of).map(|(_, last)| last);
+    let system = dialect.system.iter().filter(|row| row.name == "#").filter_map(SystemVariable::last);
     let own = control.classes().iter().filter(|row| row.name == "#").map(|row| row.last);
     system.chain(own).max().unwrap_or(0).min(100_000)
-}
-
-/// The first and the last number of a run.
-fn span_of(row: &crate::dialect::SystemVariable) -> Option<(u32, u32)> {
-    let first = row.first?;
-    let far = |last: u32, s: &crate::dialect::Subscript| {
-        last.saturating_add(s.step.saturating_mul(s.count.saturating_sub(1)))
-    };
-    Some((first, row.subscripts.iter().fold(first, far)))
 }
 
 /// The sum of the constants that are added up in a number.

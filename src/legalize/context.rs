@@ -4,7 +4,8 @@ use super::Modal;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
 use crate::text::Span;
-use std::collections::{BTreeSet, HashMap, HashSet};
+use foldhash::{HashMap, HashSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The controls of a conversion and the findings so far.

@@ -16,7 +16,8 @@ type Routine = (usize, BlockId);
 /// its own speaks of it. The sets may be too large, never too small.
 pub struct Exposed {
     universe: Universe,
-    live_in: Vec<Vec<Row>>,
+    /// What is live where a routine is entered.
+    entries: BTreeMap<Routine, Row>,
 }
 
 impl Exposed {
@@ -25,34 +26,40 @@ impl Exposed {
         let universe = universe(module);
         let callees = Callees::of(module);
         let written = Written::of(module, &callees, &universe);
-        let transfers: Vec<Vec<Transfer>> = (module.programs.iter().enumerate())
-            .map(|(index, program)| {
-                let transfer = |block| Transfer::of(block, &universe, |call| callees.routine(index, call));
-                program.blocks.iter().map(transfer).collect()
-            })
-            .collect();
-        let mut live_in: Vec<Vec<Row>> =
-            module.programs.iter().map(|p| vec![universe.none(); p.blocks.len()]).collect();
         let (none, everything) = (universe.none(), universe.all());
+        let own = (0..module.programs.len()).map(|index| (index, BlockId(0)));
+        let routines = written.0.keys().copied().chain(own);
+        let mut entries: BTreeMap<Routine, Row> = routines.map(|routine| (routine, none.clone())).collect();
+        // Live at the start of each block of one program: what a library of them would take stays small.
+        let mut live_in: Vec<Row> = Vec::new();
         callees.graph(module).settle(|index| {
             let program = &module.programs[index];
-            let mut any = false;
+            let transfer = |block| Transfer::of(block, &universe, |call| callees.routine(index, call));
+            let transfers: Vec<Transfer> = program.blocks.iter().map(transfer).collect();
+            live_in.clear();
+            live_in.resize(program.blocks.len(), none.clone());
+            let own = || (index, BlockId(0))..(index + 1, BlockId(0));
+            for (routine, row) in entries.range(own()) {
+                live_in.get_mut(routine.1.index()).into_iter().for_each(|live| live.clone_from(row));
+            }
             let mut changed = true;
+            let mut live = none.clone();
             while std::mem::take(&mut changed) {
                 for (at, block) in program.blocks.iter().enumerate().rev() {
-                    let mut live = none.clone();
+                    live.clone_from(&none);
                     for to in block.term.kind.successors() {
-                        live.join(live_in[index].get(to.index()).unwrap_or(&none));
+                        live.join(live_in.get(to.index()).unwrap_or(&none));
                     }
                     if let Some(sure) = written.by_end(index, block, &callees) {
                         live.subtract(sure);
                     }
-                    let called = |live: &mut Row, (i, entry): Routine, passes: &Row| {
-                        let mut there = live_in[i].get(entry.index()).unwrap_or(&none).clone();
+                    let called = |live: &mut Row, routine: Routine, passes: &Row| {
+                        let own = live_in.get(routine.1.index()).filter(|_| routine.0 == index);
+                        let mut there = own.or_else(|| entries.get(&routine)).unwrap_or(&none).clone();
                         there.intersect(passes);
                         live.join(&there);
                     };
-                    let Transfer { reads, passes, modal } = &transfers[index][at];
+                    let Transfer { reads, passes, modal } = &transfers[at];
                     if let TermKind::Call { call, .. } = &block.term.kind
                         && let Some(routine) = callees.routine(index, call)
                     {
@@ -62,24 +69,27 @@ impl Exposed {
                     live.join(reads);
                     // It runs at moves behind it, before what is written later.
                     modal.iter().for_each(|(routine, passes)| called(&mut live, *routine, passes));
-                    changed |= live_in[index][at].join(&live);
+                    changed |= live_in[at].join(&live);
                 }
-                any |= changed;
+            }
+            let mut any = false;
+            for (routine, row) in entries.range_mut(own()) {
+                any |= live_in.get(routine.1.index()).is_some_and(|live| row.join(live));
             }
             any
         });
-        Self { universe, live_in }
+        Self { universe, entries }
     }
 
     /// True where a variable is exposed at the entry of a program.
     pub fn is_at_entry(&self, program: usize, var: Var) -> bool {
-        let row = self.live_in.get(program).and_then(|p| p.first());
+        let row = self.entries.get(&(program, BlockId(0)));
         row.is_some_and(|row| self.universe.place(var).is_some_and(|at| row.has(at)))
     }
 
     /// What is exposed at the entry of a program.
     pub fn at_entry(&self, program: usize) -> BTreeSet<Var> {
-        let row = self.live_in.get(program).and_then(|p| p.first());
+        let row = self.entries.get(&(program, BlockId(0)));
         row.into_iter().flat_map(|row| self.universe.members(row)).collect()
     }
 }

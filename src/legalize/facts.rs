@@ -14,8 +14,9 @@ use crate::ir::{
 };
 use crate::syntax::ProgramName;
 use crate::text::Span;
+use foldhash::{HashMap, HashMapExt};
 use smallvec::SmallVec;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports the unconfirmed facts of the target that programs rest on; `computes` is false where all values are constants.
 pub fn of_target(module: &Module, computes: bool, context: &mut Context<'_>) {
@@ -61,7 +62,9 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
             if side == Side::Target {
                 found.block(blocks);
             }
-            if let Some(vacancy) = &vacancy {
+            if let Some(vacancy) = &vacancy
+                && !VACANCY.iter().all(|name| found.is_told(name))
+            {
                 found.vacant(id, blocks, vacancy);
             }
         }
@@ -173,6 +176,13 @@ impl<'c> Found<'c> {
         }
     }
 
+    /// True where there is no more to say about a behaviour in this program.
+    fn is_told(&self, name: &str) -> bool {
+        let last = |row| self.rows.get(&(std::ptr::from_ref(row) as usize)).map(|(_, last)| *last);
+        let row = self.control.behaviour(name).filter(|row| !row.origin.confirmed);
+        row.is_none_or(|row| last(row) == Some(self.program))
+    }
+
     /// The behaviour must be confirmed, whatever its answer.
     fn behaviour(&mut self, name: &str, span: Span) {
         if let Some(row) = self.control.behaviour(name) {
@@ -206,15 +216,8 @@ impl<'c> Found<'c> {
             }
             match &stmt.kind {
                 StmtKind::Nc(nc) => {
-                    let operands = nc
-                        .items
-                        .iter()
-                        .filter_map(|item| match item {
-                            NcItem::Word(role, value) => Some((*role, value.constant()?)),
-                            _ => None,
-                        })
-                        .filter(|(role, _)| *role == crate::canon::Role::WorkOffset)
-                        .collect();
+                    let number = nc.word(Role::WorkOffset).and_then(Expr::constant);
+                    let operands = number.map(|number| (Role::WorkOffset, number)).into_iter().collect();
                     nc.ops().for_each(|op| self.code(op, &operands, span));
                     self.words(nc, span);
                 }

@@ -7,7 +7,7 @@ use super::{Context, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, Control, Units};
-use crate::ir::{BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
 
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -26,7 +26,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         // A program that names one unit throughout is in it wherever it is entered.
         let named = unit_named(program);
         let mut unknown = None;
-        for (at, block) in program.blocks.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| counts(block)) {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
                 state.step(stmt);
@@ -60,6 +60,20 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             );
         }
     }
+}
+
+/// True where a block has a count of increments.
+fn counts(block: &Block) -> bool {
+    let mut any = false;
+    let mut look = |e: &Expr| {
+        any |= match e {
+            Expr::Negate(inner) => matches!(**inner, Expr::Increments(_)),
+            e => matches!(e, Expr::Increments(_)),
+        }
+    };
+    block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut look));
+    block.term.kind.exprs(&mut look);
+    any
 }
 
 fn unit(setting: &Setting) -> Option<Units> {

@@ -206,14 +206,14 @@ pub fn span_of(block: &Block, call: &Call) -> Span {
 
 /// The blocks that a routine entered at `entry` can run, calls stepped over.
 pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
-    let mut seen = BTreeSet::new();
+    let mut seen = vec![false; program.blocks.len()];
     let mut work = vec![entry];
     while let Some(id) = work.pop() {
         if let Some(block) = program.block(id)
-            && seen.insert(id)
+            && !std::mem::replace(&mut seen[id.index()], true)
         {
             work.extend(block.term.kind.successors());
         }
     }
-    seen
+    program.ids().filter(|id| seen[id.index()]).collect()
 }

@@ -9,7 +9,7 @@ use super::exposed::{Exposed, roots};
 use super::registers::{Register, Registers};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Class, Module, Var};
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 use std::sync::Arc;
 
 /// Reports variables whose life differs.

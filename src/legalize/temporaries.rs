@@ -86,8 +86,10 @@ fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
             }
         }
     }
-    let mut work: BTreeSet<usize> = (0..count).collect();
-    while let Some(at) = work.pop_last() {
+    let mut work: Vec<usize> = (0..count).collect();
+    let mut waiting = vec![true; count];
+    while let Some(at) = work.pop() {
+        waiting[at] = false;
         let block = &program.blocks[at];
         let mut out = Temps::default();
         for live in block.term.kind.successors().iter().filter_map(|to| live_in.get(to.index())) {
@@ -102,7 +104,7 @@ fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
         live_out[at] = out;
         if now != live_in[at] {
             live_in[at] = now;
-            work.extend(&predecessors[at]);
+            work.extend(predecessors[at].iter().filter(|at| !std::mem::replace(&mut waiting[**at], true)));
         }
     }
     (live_out, naming)

@@ -181,7 +181,8 @@ fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
     let mut calls: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); open.len()];
     for (index, program) in module.programs.iter().enumerate() {
         for id in with_subroutines(program) {
-            let Some(block) = program.block(id) else { continue };
+            // What it calls says no more of one that is open itself.
+            let Some(block) = program.block(id).filter(|_| !open[index]) else { break };
             let mut state = facts.at(index, id);
             for stmt in &block.stmts {
                 // A modal call that the block sets off comes behind it.

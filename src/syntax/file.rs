@@ -2,8 +2,8 @@
 
 use super::{Block, Fence, Item, ItemKind, SyntaxError};
 use crate::text::{Line, Lines, Span};
+use foldhash::{HashSet, HashSetExt};
 use rayon::prelude::*;
-use std::collections::HashSet;
 
 /// Reads the blocks of one line of a dialect.
 ///

@@ -7,7 +7,7 @@
 
 use crate::ir::{Block, Program, TermKind};
 use crate::syntax::Label;
-use std::collections::{HashMap, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Tries at one place before another is looked for.
 const TRIES: usize = 1000;

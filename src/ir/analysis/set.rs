@@ -36,7 +36,11 @@ impl Universe {
 
     /// All of it.
     pub fn all(&self) -> Row {
-        self.classes(|_| true)
+        let mut row = Row { bits: smallvec![u64::MAX; self.vars.len().div_ceil(64)] };
+        if let (Some(word), over @ 1..) = (row.bits.last_mut(), self.vars.len() % 64) {
+            *word = (1 << over) - 1;
+        }
+        row
     }
 
     /// The variables of these classes.

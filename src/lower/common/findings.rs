@@ -5,7 +5,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side, matters};
 use crate::syntax::{ExprKind, Item, ItemKind};
 use crate::text::Span;
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 use std::sync::Arc;
 
 /// The findings of one program after another. A fact that no maker's text confirms is reported

@@ -4,7 +4,7 @@
 //! of each is kept by its number.
 
 use crate::dialect::{Alias, CodeHead, CodeMeaning, Control, WordMeaning};
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 
 /// Index of a code among those met so far.
 pub(super) type CodeId = u32;

@@ -8,7 +8,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::BlockId;
 use crate::syntax::{Expr, ExprKind, Item, ItemKind, ParsedFile};
 use crate::text::Span;
-use std::collections::HashMap;
+use foldhash::HashMap;
 
 /// The sequence numbers of a program that jumps or calls. One that only runs from
 /// its first block to its last has none, and stays one basic block.
