@@ -30,6 +30,9 @@ pub struct Run {
     /// The codes whose numbers it computed: the letter, the number, and how many events came before.
     #[serde(skip)]
     pub computed_codes: Vec<(char, f64, usize)>,
+    /// The numbers of variables that it computed, and how many events came before.
+    #[serde(skip)]
+    pub computed_numbers: Vec<(u32, usize)>,
 }
 
 /// How a run ended.

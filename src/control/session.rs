@@ -243,6 +243,7 @@ impl<'r, 'f> Session<'r, 'f> {
         };
         Run {
             computed_codes: self.trace.computed_codes(),
+            computed_numbers: self.trace.computed_numbers(),
             events: self.trace.events,
             programs: self.programs,
             variables,

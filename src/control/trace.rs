@@ -63,6 +63,9 @@ pub struct Program {
 /// Computed codes that a run remembers.
 const MOST_CODES: usize = 64;
 
+/// Computed numbers of variables that a run remembers.
+const MOST_NUMBERS: usize = 1024;
+
 /// The events of a run in the making.
 #[derive(Debug)]
 pub struct Trace {
@@ -77,6 +80,8 @@ pub struct Trace {
     doubted: HashSet<(String, Place)>,
     /// Codes whose number was computed, with their letter, and how many events came before each.
     computed_codes: BTreeMap<(char, u64), usize>,
+    /// Numbers of variables that were computed, and how many events came before each.
+    computed_numbers: BTreeMap<u32, usize>,
     /// Matters that the machine's profile confirms.
     confirmed: Vec<String>,
 }
@@ -92,6 +97,7 @@ impl Trace {
             full: false,
             doubted: HashSet::new(),
             computed_codes: BTreeMap::new(),
+            computed_numbers: BTreeMap::new(),
             confirmed: confirmed.to_vec(),
         }
     }
@@ -120,6 +126,18 @@ impl Trace {
     /// The codes whose numbers were computed, with how many events came before each.
     pub fn computed_codes(&self) -> Vec<(char, f64, usize)> {
         self.computed_codes.iter().map(|((letter, bits), at)| (*letter, f64::from_bits(*bits), *at)).collect()
+    }
+
+    /// Records the number of a variable that was computed.
+    pub fn computed_number(&mut self, number: u32) {
+        if self.computed_numbers.len() < MOST_NUMBERS {
+            self.computed_numbers.entry(number).or_insert(self.events.len());
+        }
+    }
+
+    /// The numbers of variables that were computed, with how many events came before each.
+    pub fn computed_numbers(&self) -> Vec<(u32, usize)> {
+        self.computed_numbers.iter().map(|(number, at)| (*number, *at)).collect()
     }
 
     /// Records that a fact mattered that nobody confirmed; once for each block.

@@ -57,8 +57,10 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
             }
         });
         for (span, finding) in found {
+            let fact = finding.fact(numbers);
             let (code, what) = finding.told(context, numbers);
-            context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
+            let told = Diagnostic::new(code, span, what.clone());
+            context.add_once(index, &what, if let Some(fact) = fact { told.with_fact(fact) } else { told });
         }
     }
 }
@@ -82,6 +84,17 @@ enum Finding {
 }
 
 impl Finding {
+    /// The numbers that it must be one of, as the verifier is told them.
+    fn fact(&self, numbers: &Numbers<'_>) -> Option<String> {
+        match self {
+            Finding::Alike(first, last)
+            | Finding::Shifted(_, first, last, _)
+            | Finding::Counted(_, first, last, _) => Some(format!("numbers:#{first}-#{last}")),
+            Finding::Any => Some(format!("numbers:{}", numbers.list())),
+            Finding::Other(_) => None,
+        }
+    }
+
     fn told(self, context: &Context<'_>, numbers: &Numbers<'_>) -> (Code, String) {
         let title = &context.target.dialect().title;
         match self {

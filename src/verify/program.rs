@@ -12,7 +12,7 @@ use super::names::{Names, Side};
 use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
 use super::scenarios::{Proposals, asked, on_target, unit};
-use super::stops::{computes_another_code, nests_too_deep, off_its_circle, stops_by_itself};
+use super::stops::{breaks_a_condition, nests_too_deep, off_its_circle, stops_by_itself};
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
 use crate::control::trace::{Event, Happening};
@@ -223,7 +223,13 @@ impl<'v, 'j> Verifier<'v, 'j> {
             let text = format!("the last digit of its arithmetic decides where it goes: {}", hair.what);
             self.because(Why::Substituted, &text);
         }
-        match hair.filter(|_| !hangs).or(found.difference) {
+        let difference = hair.filter(|_| !hangs).or(found.difference);
+        let broken = difference.as_ref().and_then(|difference| {
+            let files = run.programs.iter().filter_map(|program| source.files.get(program.file));
+            let facts = files.filter_map(|file| self.job.reported.get(file.name)).flatten();
+            breaks_a_condition((source, run), (target, &other), difference, facts.map(String::as_str))
+        });
+        match difference {
             // Where the source's control itself stops the program, the program says nothing.
             Some(difference) if stops_by_itself(run, &difference) => {
                 let text = match &run.end {
@@ -242,16 +248,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 );
                 self.because(Why::Condition, &text);
             }
-            Some(difference)
-                if computes_another_code((source, run), (target, &other), &difference).is_some() =>
-            {
-                let code =
-                    computes_another_code((source, run), (target, &other), &difference).unwrap_or_default();
-                let text = format!(
-                    "a run computes the code {code}, which does not mean the same on the target: it must never do that"
-                );
-                self.because(Why::Condition, &text);
-            }
+            Some(_) if broken.is_some() => self.because(Why::Condition, &broken.unwrap_or_default()),
             Some(difference) if off_its_circle(&difference).is_some() => {
                 let off = off_its_circle(&difference).unwrap_or_default();
                 let text = format!(

@@ -6,6 +6,9 @@ use super::names::Side;
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, Run};
 
+/// How the facts begin that say which numbers a computed variable must have.
+const NUMBERS: &str = "numbers:";
+
 /// How far the end of an arc may lie off its circle, millimetres, to be an arc at all.
 const MOST_OFF: f64 = 0.05;
 
@@ -51,13 +54,53 @@ pub fn nests_too_deep(run: &Run, other: &Run, difference: &Difference<'_>) -> Op
     (deepest > i64::from(most)).then_some((limit, most))
 }
 
+/// What the conversion made a condition and the run breaks, without an alarm, before the difference; `reported` has what
+/// it said of the files that ran.
+pub fn breaks_a_condition<'r>(
+    source: (&Side<'_>, &Run),
+    target: (&Side<'_>, &Run),
+    difference: &Difference<'_>,
+    reported: impl Iterator<Item = &'r str>,
+) -> Option<String> {
+    if let Some(code) = computes_another_code(source, target, difference) {
+        let text = "which does not mean the same on the target: it must never do that";
+        return Some(format!("a run computes the code {code}, {text}"));
+    }
+    let number = leaves_its_numbers(source.1, difference, reported)?;
+    let text = "which is none of those that the conversion takes it to be: it must never do that";
+    Some(format!("a run computes the variable #{number}, {text}"))
+}
+
+/// How many events come before a difference; none where the source came to its end before.
+fn place(run: &Run, difference: &Difference<'_>) -> Option<usize> {
+    difference.source.and_then(|event| run.events.iter().position(|e| std::ptr::eq(e, event)))
+}
+
+/// The number of a variable that the source computed before a difference and that is none of those reported.
+fn leaves_its_numbers<'r>(
+    run: &Run,
+    difference: &Difference<'_>,
+    reported: impl Iterator<Item = &'r str>,
+) -> Option<u32> {
+    let mut runs: Vec<(u32, u32)> = Vec::new();
+    for run in reported.filter_map(|fact| fact.strip_prefix(NUMBERS)).flat_map(|list| list.split(", ")) {
+        let (first, last) = run.split_once('-').unwrap_or((run, run));
+        let number = |text: &str| text.trim_start_matches('#').parse().ok();
+        runs.extend(number(first).zip(number(last)));
+    }
+    let at = place(run, difference);
+    let before = run.computed_numbers.iter().filter(|(_, before)| at.is_none_or(|at| *before <= at));
+    let outside = |number: u32| !runs.iter().any(|(first, last)| (*first..=*last).contains(&number));
+    before.map(|(number, _)| *number).find(|number| !runs.is_empty() && outside(*number))
+}
+
 /// The code that both sides computed before they differ and that does not mean the same on both, where there is one.
-pub fn computes_another_code(
+fn computes_another_code(
     (source, run): (&Side<'_>, &Run),
     (target, other): (&Side<'_>, &Run),
     difference: &Difference<'_>,
 ) -> Option<String> {
-    let at = difference.source.and_then(|event| run.events.iter().position(|e| std::ptr::eq(e, event)));
+    let at = place(run, difference);
     let both = run.computed_codes.iter().filter(|(letter, number, before)| {
         let theirs = other.computed_codes.iter().any(|(there, same, _)| (there, same) == (letter, number));
         theirs && at.is_none_or(|at| *before <= at)

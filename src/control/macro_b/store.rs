@@ -85,6 +85,7 @@ impl Runner<'_> {
 
     /// The variable with a computed number; what it rests on is noted now.
     fn found(&mut self, number: u32) -> Var {
+        self.session.trace.computed_number(number);
         let var = numbered(self.session.control, number);
         if let Var::System(system) = &var {
             system.unsure.iter().for_each(|fact| self.session.trace.doubt(fact));

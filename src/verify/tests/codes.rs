@@ -19,3 +19,21 @@ fn a_code_that_means_something_else_is_a_condition() {
     assert_eq!(outcome(SOURCE, &SOURCE.replace("X1.", "X2.")).0, Outcome::Different);
     assert_eq!(outcome(SOURCE, &SOURCE.replace("G21G90", "G21G90G0X9.")).0, Outcome::Different);
 }
+
+/// The wear of a tool length by the tool's number, which a test takes past the table of the target.
+fn wear(base: u32) -> String {
+    format!("O1\nG21G90\nIF[#501NE250]GOTO5\nG0X1.\nN5#500=#[{base}+#501]\nG0X[#500]\nM30\n")
+}
+
+#[test]
+fn a_number_outside_of_those_reported_is_a_condition() {
+    let outcome = |base: u32, facts: &[&str]| {
+        let found = reported(("fanuc", &wear(2000)), ("haas", &wear(base)), Names::default(), facts);
+        (found[0].outcome, found[0].reasons.iter().any(|reason| reason.why == Why::Condition))
+    };
+    let told = &["numbers:#2001-#2199"];
+    assert_eq!(outcome(2200, told), (Outcome::Undecided, true));
+    assert_eq!(outcome(2200, &[]).0, Outcome::Different);
+    // Another table is another one inside of them.
+    assert_eq!(outcome(2000, told).0, Outcome::Different);
+}
