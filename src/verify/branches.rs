@@ -22,6 +22,7 @@ pub struct NotReached {
 }
 
 /// The branches of one program.
+#[derive(Clone)]
 pub struct Coverage {
     branches: BTreeMap<Span, (bool, BTreeSet<i64>)>,
     /// All ways that were seen anywhere, those of called programs too.
@@ -54,10 +55,15 @@ impl Coverage {
 
     /// Notes where a run went. True where that was new.
     pub fn add(&mut self, run: &Run) -> bool {
+        self.add_moved(run, &|_, span| span)
+    }
+
+    /// As [`Coverage::add`], for a text whose places stood elsewhere before it was edited.
+    pub fn add_moved(&mut self, run: &Run, place: &dyn Fn(usize, Span) -> Span) -> bool {
         let before = self.seen.len();
         for (branch, ways) in run.branches.iter() {
             let Some(program) = run.programs.get(branch.at.program as usize) else { continue };
-            let span = branch.at.span;
+            let span = place(program.file, branch.at.span);
             for way in ways {
                 self.seen.insert((program.file, span, *way));
             }

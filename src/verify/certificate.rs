@@ -76,6 +76,8 @@ pub struct ProgramCertificate {
     pub branches_total: usize,
     /// Ways that were never gone.
     pub not_reached: Vec<NotReached>,
+    /// Constants that were edited alike in both texts, each to go a way that it decides; those ways were gone.
+    pub edits: Vec<Edit>,
     /// Positions count as the same up to here where words round, millimetres.
     pub tolerance_mm: f64,
     /// The largest distance between positions that counted as the same, millimetres.
@@ -88,6 +90,21 @@ pub struct ProgramCertificate {
     pub texts: Vec<(String, String)>,
     /// Where they differ.
     pub witness: Option<Witness>,
+}
+
+/// A literal at the head of both texts, and the one that stood there in a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Edit {
+    /// The variable that it is assigned to.
+    pub variable: String,
+    /// The line of the source.
+    pub line: u32,
+    /// The register of the target.
+    pub register: String,
+    /// The line of the target.
+    pub target_line: u32,
+    /// What stood there instead.
+    pub value: f64,
 }
 
 /// Why a program is undecided.
@@ -119,6 +136,8 @@ pub enum Why {
     Condition,
     /// It does the same as its library calls it, but something else where it is run by itself.
     NotByItself,
+    /// With another literal at the head of both texts they do different things.
+    Edited,
     /// A branch went one way only.
     NotReached,
     /// Something rests on a fact that no source confirms.

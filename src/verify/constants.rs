@@ -69,9 +69,11 @@ impl Reader<'_> {
                             Some(name) => {
                                 self.known.remove(&name);
                             }
+                            // An alarm, an output, an offset: no variable of a program.
+                            None if self.is_system(target) => {}
                             None => self.known.clear(),
                         },
-                        Goto(_) => {}
+                        Goto(_) | Comment(_) | EndOfBlock => {}
                         _ => self.known.clear(),
                     }
                 }
@@ -87,6 +89,11 @@ impl Reader<'_> {
         let name = format!("{}{number}", variable.name);
         let own = self.control.read_system(&variable.name, Some(number)).is_none();
         (own && class_of(self.control, &name).is_some()).then_some(name)
+    }
+
+    fn is_system(&self, variable: &VarRef) -> bool {
+        let Index::Number(number) = variable.index else { return false };
+        self.control.read_system(&variable.name, Some(number)).is_some()
     }
 
     fn value(&self, e: &Expr) -> Option<Known> {

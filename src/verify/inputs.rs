@@ -136,7 +136,11 @@ impl<'c> Reader<'c> {
     fn plain(&mut self, kind: &ItemKind, sure: bool) {
         match kind {
             ItemKind::Word(word) => self.check_of_unit(word),
-            ItemKind::Assign { target, .. } | ItemKind::Timer(target) => self.write(target, sure),
+            ItemKind::Assign { target, value, .. } => {
+                self.numbers.extend(step(target, value));
+                self.write(target, sure);
+            }
+            ItemKind::Timer(target) => self.write(target, sure),
             ItemKind::Input { targets, .. } => targets.iter().for_each(|target| self.write(target, sure)),
             ItemKind::Step { target, .. } => self.read(target),
             ItemKind::Test(TestSubject::Variable(variable)) => {
@@ -259,13 +263,26 @@ impl<'c> Reader<'c> {
     }
 }
 
+/// By how much a variable goes on each time, and twice that: a way of so few steps comes to its end.
+fn step(target: &VarRef, value: &Expr) -> Vec<f64> {
+    let ExprKind::Binary(BinaryOp::Add | BinaryOp::Subtract, left, right) = &value.kind else {
+        return Vec::new();
+    };
+    match (&left.kind, &right.kind) {
+        (ExprKind::Variable(variable), ExprKind::Number(by)) if name_of(variable) == name_of(target) => {
+            vec![by.value, by.value * 2.0]
+        }
+        _ => Vec::new(),
+    }
+}
+
 fn is_relation(op: BinaryOp) -> bool {
     use BinaryOp::*;
     matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
 }
 
 /// The whole name of a variable whose subscript is written: `#100`, `VX`.
-fn name_of(variable: &VarRef) -> Option<String> {
+pub(super) fn name_of(variable: &VarRef) -> Option<String> {
     match &variable.index {
         Index::Number(number) => Some(format!("{}{number}", variable.name)),
         Index::Letter(letter) => Some(format!("{}{letter}", variable.name)),

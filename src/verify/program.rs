@@ -1,10 +1,11 @@
 //! The verification of one program.
 
+mod edited;
 mod elsewhere;
 
 use super::branches::Coverage;
 use super::callers::{Shown, implicate, through, ways};
-use super::certificate::{Moment, ProgramCertificate, Reason, Why, Witness, sha256};
+use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Tolerance, compare, is_cut};
 use super::given::{Given, given};
 use super::inputs::{inputs, is_called};
@@ -81,6 +82,8 @@ struct Verifier<'v, 'j> {
     compared: usize,
     tried: usize,
     steps: u64,
+    /// Constants that were edited on both sides to go a way that they decide.
+    edits: Vec<Edit>,
     /// What came to no end on both sides, the same as far as it went.
     endless: BTreeSet<String>,
     sensitive: Option<bool>,
@@ -107,6 +110,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             compared: 0,
             tried: 0,
             steps: 0,
+            edits: Vec::new(),
             endless: BTreeSet::new(),
             sensitive: None,
             witness: None,
@@ -121,6 +125,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             Some(there) => {
                 self.search(there);
                 self.elsewhere(there);
+                self.edited(there);
             }
             None => self.because(Why::NoTarget, "the target has no such program"),
         }
@@ -380,6 +385,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             branches_covered,
             branches_total,
             not_reached,
+            edits: self.edits,
             tolerance_mm: self.tolerance.rounded,
             largest_difference_mm: self.largest,
             rounding_sensitive: self.sensitive,

@@ -1,0 +1,229 @@
+//! Constants at a program's head that decide where it goes, edited alike on both sides.
+//!
+//! A literal that a main program assigns at its head is what its operator edits. Where it decides a branch, no
+//! circumstances go the other way; so both texts are run anew with another literal there. Which literal of the target is
+//! the same one is found without the compiler: it is the first thing that the target's program assigns to the register that
+//! the lock has for the variable, and it has the same value. Ways that the source goes so count where both sides did the
+//! same. Where they part, the program is undecided: a person sees whether that literal is the one.
+
+use super::Verifier;
+use crate::control::{LoadedFile, ProgramRef};
+use crate::syntax::{Expr, ExprKind, Item, ItemKind, parse_file};
+use crate::text::{LineIndex, Span};
+use crate::verify::Job;
+use crate::verify::certificate::{Edit, Why};
+use crate::verify::inputs::{inputs, name_of};
+use crate::verify::names::Side;
+use crate::verify::scenarios::{Proposals, unit};
+use std::collections::BTreeSet;
+
+/// Constants of a program that are edited, at the most.
+const CONSTANTS: usize = 16;
+
+/// Values that each is given, at the most.
+const VALUES: usize = 32;
+
+/// The first assignment of a variable, where it is a literal.
+#[derive(Clone, Debug, PartialEq)]
+struct Constant {
+    name: String,
+    value: f64,
+    span: Span,
+}
+
+impl Verifier<'_, '_> {
+    /// Goes ways that constants decide. What other programs call has no head that an operator edits.
+    pub(super) fn edited(&mut self, there: ProgramRef) {
+        if self.called || self.witness.is_some() || self.compared == 0 || self.coverage.is_complete() {
+            return;
+        }
+        let Job { source, target, names, .. } = self.job;
+        let theirs = constants(target, there, false);
+        let numbers = inputs(source, self.program).numbers;
+        let mut steps = self.job.effort.all_steps;
+        for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
+            let named = names.variable(&constant.name, source.control, target.control);
+            let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
+            let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
+            for value in values(constant.value, &numbers) {
+                if self.coverage.is_complete() || steps == 0 {
+                    return;
+                }
+                self.edit(there, (&constant, twin), value, &mut steps);
+            }
+        }
+    }
+
+    /// Runs both sides with another literal, where the source goes a new way by it.
+    fn edit(
+        &mut self,
+        there: ProgramRef,
+        (ours, theirs): (&Constant, &Constant),
+        value: f64,
+        steps: &mut u64,
+    ) {
+        let Job { source, target, names, reported, effort } = *self.job;
+        let Some(text) = with(source, self.program, ours, value) else { return };
+        let parsed = parse_file(&text, source.control.entry().parse);
+        let files = replaced(source, self.program, &parsed);
+        let new_source = Side::new(source.control, source.execute, &files);
+        let told = Constant { value, ..ours.clone() };
+        if !constants(&new_source, self.program, true)
+            .iter()
+            .any(|c| (&c.name, c.value) == (&told.name, value))
+        {
+            return;
+        }
+        let found = inputs(&new_source, self.program);
+        let Some(mut scenario) = Proposals::new(&found, effort).next() else { return };
+        scenario.inch = unit(source, target).or(found.inch);
+        self.given.start(&mut scenario);
+        let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
+        *steps = steps.saturating_sub(run.steps);
+        let grown = text.len() as i64
+            - source.files.get(self.program.file).map_or(0, |f| f.parsed.source.len()) as i64;
+        let mut coverage = self.coverage.clone();
+        let back = |file: usize, span: Span| {
+            if file == self.program.file { moved_back(span, ours.span.start, grown) } else { span }
+        };
+        if !coverage.add_moved(&run, &back) {
+            return;
+        }
+        let Some(text) = with(target, there, theirs, value) else { return };
+        let parsed = parse_file(&text, target.control.entry().parse);
+        let files = replaced(target, there, &parsed);
+        let new_target = Side::new(target.control, target.execute, &files);
+        if !constants(&new_target, there, false).iter().any(|c| c.name == theirs.name && c.value == value) {
+            return;
+        }
+        let job = Job { source: &new_source, target: &new_target, names, reported, effort };
+        let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
+        pair.compare(&scenario, &run, there);
+        let edit = Edit {
+            variable: ours.name.clone(),
+            line: line(source, self.program, ours.span),
+            register: theirs.name.clone(),
+            target_line: line(target, there, theirs.span),
+            value,
+        };
+        if let Some(witness) = &pair.witness {
+            let text = format!(
+                "with {value} for {} in line {} and for {} in line {} they part: {}",
+                edit.variable, edit.line, edit.register, edit.target_line, witness.what
+            );
+            return self.because(Why::Edited, &text);
+        }
+        // What comes to no end on both sides, as a stop that is jumped back to, is compared as far as it went.
+        if (pair.compared == 0 && pair.endless.is_empty()) || !pair.reasons.is_empty() {
+            return;
+        }
+        self.coverage = coverage;
+        self.tried += 1;
+        self.compared += pair.compared;
+        self.largest = self.largest.max(pair.largest);
+        self.texts.extend(pair.texts);
+        for (fact, text) in pair.unconfirmed {
+            self.unconfirmed.entry(fact).or_insert(text);
+        }
+        self.edits.push(edit);
+    }
+}
+
+/// The variables whose first assignment in a program's text is a literal; of a head, those before anything can branch.
+fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> {
+    let (mut written, mut found) = (BTreeSet::new(), Vec::new());
+    for block in side.text(program) {
+        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        for item in &block.items {
+            if head && branches(item) {
+                return found;
+            }
+            for (name, value) in writes(item) {
+                // What may be anything may be this variable.
+                let Some(name) = name else { return found };
+                let first = written.insert(name.clone());
+                if let Some(value) = value.filter(|_| first && !skipped)
+                    && let Some(number) = literal(value)
+                {
+                    found.push(Constant { name, value: number, span: value.span });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// What an item writes: the variable's name where that is written, and the value where it is an assignment for sure.
+fn writes(item: &Item) -> Vec<(Option<String>, Option<&Expr>)> {
+    match &item.kind {
+        ItemKind::Assign { target, value, by_sign: false } => vec![(name_of(target), Some(value))],
+        ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } | ItemKind::Timer(target) => {
+            vec![(name_of(target), None)]
+        }
+        ItemKind::Input { targets, .. } => targets.iter().map(|target| (name_of(target), None)).collect(),
+        ItemKind::Transfer { cells, .. } => {
+            cells.iter().filter(|cell| !cell.store).map(|cell| (name_of(&cell.variable), None)).collect()
+        }
+        ItemKind::If { body, .. } => body.iter().flat_map(writes).map(|(name, _)| (name, None)).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn branches(item: &Item) -> bool {
+    use ItemKind::*;
+    matches!(item.kind, If { .. } | Do { .. } | End { .. } | Goto(_) | Branch { .. } | Label(_))
+}
+
+fn literal(e: &Expr) -> Option<f64> {
+    match &e.kind {
+        ExprKind::Number(number) => Some(number.value),
+        ExprKind::Negate(inner) => match &inner.kind {
+            ExprKind::Number(number) => Some(-number.value),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Values worth a try: what conditions name, and what lies about the constant.
+fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
+    let about =
+        [0.0, 1.0, constant - 1.0, constant + 1.0, constant + 0.5, -constant, constant * 2.0, constant / 2.0];
+    let mut seen = BTreeSet::from([(constant + 0.0).to_bits()]);
+    let all = about.into_iter().chain(numbers.iter().copied()).map(|value| value + 0.0);
+    all.filter(|value| seen.insert(value.to_bits())).take(VALUES).collect()
+}
+
+/// The text of a program's file with another literal.
+fn with(side: &Side<'_>, program: ProgramRef, constant: &Constant, value: f64) -> Option<Vec<u8>> {
+    let source = side.files.get(program.file)?.parsed.source;
+    let range = constant.span.range();
+    let point = source.get(range.clone())?.contains(&b'.') && value.fract() == 0.0;
+    let literal = format!("{value}{}", if point { "." } else { "" });
+    Some([source.get(..range.start)?, literal.as_bytes(), source.get(range.end..)?].concat())
+}
+
+/// The files of a side with a program's file read anew.
+fn replaced<'f>(
+    side: &'f Side<'_>,
+    program: ProgramRef,
+    parsed: &'f crate::syntax::ParsedFile<'f>,
+) -> Vec<LoadedFile<'f>> {
+    let files = side.files.iter().enumerate();
+    files
+        .map(|(at, file)| LoadedFile {
+            name: file.name,
+            parsed: if at == program.file { parsed } else { file.parsed },
+        })
+        .collect()
+}
+
+/// Where a place behind an edit stood before the text grew by so many bytes.
+fn moved_back(span: Span, edit: u32, grown: i64) -> Span {
+    let back = |at: u32| if at > edit { (i64::from(at) - grown).max(0) as u32 } else { at };
+    Span::new(back(span.start), back(span.end))
+}
+
+fn line(side: &Side<'_>, program: ProgramRef, span: Span) -> u32 {
+    side.files.get(program.file).map_or(0, |file| LineIndex::new(file.parsed.source).place(span.start).0)
+}

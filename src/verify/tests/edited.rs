@@ -1,0 +1,62 @@
+//! Constants at a program's head that decide a branch, edited on both sides.
+
+use super::run;
+use crate::verify::{Outcome, ProgramCertificate, Why};
+
+const SOURCE: &str = "O1\n#500=1(SIDE)\nG90 G0 X0.\nIF[#500EQ1]GOTO10\nX2.5\nGOTO20\nN10 X7.\nN20 M30\n";
+
+/// The source above on another control, where this stands for its X2.5.
+fn target(other: &str) -> String {
+    format!("O1\n#500=1. (SIDE)\nG90 G0 X0.\nIF [#500 EQ 1] GOTO 10\n{other}\nGOTO 20\nN10 X7.\nN20 M30\n")
+}
+
+fn has(found: &ProgramCertificate, why: Why) -> bool {
+    found.reasons.iter().any(|reason| reason.why == why)
+}
+
+#[test]
+fn a_way_that_a_constant_decides_is_gone_with_another_one() {
+    let found = run("fanuc", SOURCE, "haas", &target("X2.5"), &[]);
+    assert!(!has(&found, Why::NotReached) && !has(&found, Why::Edited), "{found:#?}");
+    assert_eq!((found.branches_covered, found.branches_total), (2, 2));
+    let [edit] = found.edits.as_slice() else { panic!("{:?}", found.edits) };
+    assert_eq!((&*edit.variable, edit.line, &*edit.register, edit.target_line), ("#500", 2, "#500", 2));
+    assert!(edit.value != 1.0);
+}
+
+#[test]
+fn a_fault_behind_the_constant_shows() {
+    let found = run("fanuc", SOURCE, "haas", &target("X2.25"), &[]);
+    assert_eq!(found.outcome, Outcome::Undecided);
+    assert!(has(&found, Why::Edited) && has(&found, Why::NotReached), "{found:#?}");
+    assert!(found.edits.is_empty() && found.branches_covered == 1);
+}
+
+#[test]
+fn what_is_not_the_same_literal_is_left_alone() {
+    // The register gets another value first, or by an expression, or under a block skip; or it has another name.
+    for first in ["#500=2.\n#500=1.", "#500=#501\n#500=1.", "#500=[1.]", "/#500=1."] {
+        let found = run("fanuc", SOURCE, "haas", &target("X2.5").replacen("#500=1. (SIDE)", first, 1), &[]);
+        assert!(found.edits.is_empty() && !has(&found, Why::Edited), "{first}: {found:#?}");
+    }
+    let found = run("fanuc", SOURCE, "haas", &target("X2.5"), &[("#500", 520)]);
+    assert!(found.edits.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn only_a_head_is_edited() {
+    // Behind a branch the constant is no operator's.
+    let source = SOURCE.replacen("#500=1(SIDE)", "IF[#501EQ1]GOTO5\nN5 #500=1", 1);
+    let target = target("X2.5").replacen("#500=1. (SIDE)", "IF [#501 EQ 1] GOTO 5\nN5 #500=1.", 1);
+    let found = run("fanuc", &source, "haas", &target, &[]);
+    assert!(found.edits.is_empty() && has(&found, Why::NotReached), "{found:#?}");
+}
+
+#[test]
+fn steps_that_a_loop_goes_by_are_tried_as_values() {
+    // From 0 by .25 to the square of .5: other counts pass it by.
+    let source = "O1\n#1=0\nN5#1=#1+.25\nIF[#1EQ#500]GOTO9\nIF[#1LT3.]GOTO5\nG0X1.\nN9M30\n";
+    let target = "O1\n#1=0\nN5 #1=#1+.25\nIF [#1 EQ #500] GOTO 9\nIF [#1 LT 3.] GOTO 5\nG0 X1.\nN9 M30\n";
+    let found = run("fanuc", source, "haas", target, &[]);
+    assert!(!has(&found, Why::NotReached), "{found:#?}");
+}
