@@ -15,7 +15,7 @@ use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Place, Program, StmtKind};
 use crate::text::Span;
 use std::cell::LazyCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Values of plain variables are looked up for so many computed numbers of a program; others are not known.
 const MOST_LOOKED_UP: usize = 50;
@@ -32,7 +32,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
     let summaries = LazyCell::new(|| Summaries::of(module));
-    for (index, program) in module.programs.iter().enumerate() {
+    let mut all_found: Vec<Vec<(Span, Finding)>> = Vec::new();
+    // Numbers that others are known to be: the verifier must not take them for strays.
+    let mut sure: BTreeSet<u32> = BTreeSet::new();
+    for program in &module.programs {
         let mut found: Vec<(Span, Finding)> = Vec::new();
         let mut looked_up = 0;
         each_index(program, &mut |bank, number, span, id, at| {
@@ -47,7 +50,10 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
                 _ => None,
             };
             let finding = match known {
-                Some(all) => all.into_iter().find(|n| !numbers.alike(*n)).map(Finding::Other),
+                Some(all) => {
+                    sure.extend(&all);
+                    all.into_iter().find(|n| !numbers.alike(*n)).map(Finding::Other)
+                }
                 None => Some(numbers.of(number).clone()),
             };
             if let Some(finding) = finding
@@ -56,8 +62,12 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
                 found.push((span, finding));
             }
         });
+        all_found.push(found);
+    }
+    let sure: String = sure.into_iter().map(|number| format!(", #{number}")).collect();
+    for (index, found) in all_found.into_iter().enumerate() {
         for (span, finding) in found {
-            let fact = finding.fact(numbers);
+            let fact = finding.fact(numbers).map(|fact| fact + &sure);
             let (code, what) = finding.told(context, numbers);
             let told = Diagnostic::new(code, span, what.clone());
             context.add_once(index, &what, if let Some(fact) = fact { told.with_fact(fact) } else { told });

@@ -140,11 +140,18 @@ impl<'p> Emitter<'p> {
         }
         let spellings = self.spellings;
         let Some((letter, code)) = spellings.letter(role, codes) else {
-            return self.unmapped(format_args!("the word '{role}' here: no letter has that role"));
+            return self.unmapped(format_args!(
+                "the word '{role}' ({}) here: no letter has that role",
+                meaning(role)
+            ));
         };
         let misread = codes.iter().any(|c| c.words.iter().any(|(l, r)| *l == letter && *r != role));
         if misread || used.twice(letter) {
-            return self.unmapped(format_args!("the word '{role}' here: {} means something else", letter.0));
+            return self.unmapped(format_args!(
+                "the word '{role}' ({}) here: {} means something else",
+                meaning(role),
+                letter.0
+            ));
         }
         self.space();
         if letter.1 {
@@ -247,4 +254,9 @@ fn split_sum(value: &Expr) -> (&Expr, f64) {
 /// True where a constant in this role has a decimal point.
 fn has_point(role: Role) -> bool {
     !role.is_integer() && !matches!(role, Role::DwellMs | Role::CycleDwell | Role::SpeedLimit | Role::Builder)
+}
+
+/// What a role is, as a part of a sentence.
+fn meaning(role: Role) -> &'static str {
+    role.meaning().trim().trim_end_matches('.')
 }

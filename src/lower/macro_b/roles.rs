@@ -58,7 +58,9 @@ impl<'a> Lowering<'a> {
         }
         let Some(usual) = usual.filter(|_| !self.foreign_axis(word)) else {
             self.no_role(word, span, codes);
-            return None;
+            // It is some axis word: a return is not one without axes for it.
+            let reference = codes.iter().any(|(_, row)| row.op == Op::ReferenceReturn);
+            return usual.filter(|_| reference).map(|usual| (usual.role, None));
         };
         if !usual.origin.confirmed && self.codes.tell_letter(word.letter, word.comma) {
             self.findings.rest_on(usual, span);

@@ -213,7 +213,9 @@ impl<'a> Lowering<'a> {
             return;
         }
         if self.findings.behaviour("system.read.waits", span) != Some("true") {
-            let message = format!("'{state}' may be reached before the moves ahead of this block are done");
+            let meaning = state.meaning().trim().trim_end_matches('.');
+            let message =
+                format!("'{state}' ({meaning}) may be read before the moves ahead of this block are done");
             let finding = Diagnostic::new(Code::EarlyRead, span, message);
             self.findings.add(finding.with_fact("behaviour:lookahead.runs.early"));
         }
