@@ -8,15 +8,15 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::BlockId;
 use crate::syntax::{Expr, ExprKind, Item, ItemKind, ParsedFile};
 use crate::text::Span;
-use foldhash::HashMap;
 
 /// The sequence numbers of a program that jumps or calls. One that only runs from
 /// its first block to its last has none, and stays one basic block.
 #[derive(Debug, Default)]
 pub(super) struct Labels {
+    /// In the order of their blocks.
     list: Vec<Label>,
-    by_number: HashMap<u32, Vec<usize>>,
-    by_block: HashMap<usize, usize>,
+    /// Each number with the index of its label, in order of both.
+    by_number: Vec<(u32, usize)>,
     /// Targets of computed jumps listed so far.
     listed: usize,
 }
@@ -68,16 +68,15 @@ impl Labels {
                 }
             }
         }
+        labels.by_number = labels.list.iter().map(|label| label.number).zip(0..).collect();
+        labels.by_number.sort_unstable();
         labels
     }
 
     fn add(&mut self, number: u32, at: usize, span: Span, open: &[(u32, usize)]) {
-        if self.by_block.contains_key(&at) {
+        if self.list.last().is_some_and(|last| last.at == at) {
             return;
         }
-        let index = self.list.len();
-        self.by_number.entry(number).or_default().push(index);
-        self.by_block.insert(at, index);
         self.list.push(Label { number, at, span, loops: open.iter().map(|(_, start)| *start).collect() });
     }
 
@@ -88,8 +87,15 @@ impl Labels {
 
     /// The label of a block of the file: its number and its id.
     pub fn of_block(&self, at: usize) -> Option<(u32, BlockId)> {
-        let index = *self.by_block.get(&at)?;
+        let index = self.list.binary_search_by_key(&at, |label| label.at).ok()?;
         self.list.get(index).map(|label| (label.number, Label::id(index)))
+    }
+
+    /// The number with the indices of its labels.
+    fn places(&self, number: u32) -> &[(u32, usize)] {
+        let start = self.by_number.partition_point(|place| place.0 < number);
+        let end = self.by_number.partition_point(|place| place.0 <= number);
+        &self.by_number[start..end]
     }
 }
 
@@ -131,18 +137,18 @@ impl Lowering<'_> {
     pub(super) fn is_crowded(&self) -> bool {
         let labels = &self.labels;
         labels.listed.saturating_add(labels.by_number.len()) > MANY_LISTED
-            && labels.by_number.values().all(|places| places.len() == 1)
+            && labels.by_number.windows(2).all(|pair| pair[0].0 != pair[1].0)
     }
 
     /// Every number and the block that a computed jump to it finds.
     pub(super) fn all_targets(&mut self, span: Span) -> Vec<(u32, BlockId)> {
-        let mut numbers: Vec<u32> = self.labels.by_number.keys().copied().collect();
+        let mut numbers: Vec<u32> = self.labels.by_number.iter().map(|place| place.0).collect();
+        numbers.dedup();
         self.labels.listed = self.labels.listed.saturating_add(numbers.len());
         if self.labels.listed > MAX_LISTED {
             self.findings.not_understood(span, "too many computed jumps to too many sequence numbers");
             return Vec::new();
         }
-        numbers.sort_unstable();
         let mut targets = Vec::with_capacity(numbers.len());
         for number in numbers {
             if let Some(index) = self.choose(number, span) {
@@ -160,8 +166,8 @@ impl Lowering<'_> {
 
     fn choose(&mut self, number: u32, span: Span) -> Option<usize> {
         let forward = self.control.behaviour("goto.forward.first").map(|row| row.value.as_str());
-        let candidates = self.labels.by_number.get(&number)?;
-        let &first = candidates.first()?;
+        let candidates = self.labels.places(number);
+        let first = candidates.first()?.1;
         let count = candidates.len();
         if count == 1 {
             return Some(first);
@@ -169,10 +175,14 @@ impl Lowering<'_> {
         let (chosen, rule) = match forward {
             Some("true") => {
                 // They stand in the order of their blocks.
-                let is_behind =
-                    |index: &usize| self.labels.list.get(*index).is_some_and(|label| label.at <= self.at);
-                let found = candidates.get(candidates.partition_point(is_behind)).copied().unwrap_or(first);
-                (found, "the control looks ahead first, then from the head of the program")
+                let is_behind = |place: &(u32, usize)| {
+                    self.labels.list.get(place.1).is_some_and(|label| label.at <= self.at)
+                };
+                let found = candidates.get(candidates.partition_point(is_behind));
+                (
+                    found.map_or(first, |place| place.1),
+                    "the control looks ahead first, then from the head of the program",
+                )
             }
             Some("false") => (first, "the control finds the first one in the program"),
             _ => (first, "no source says which one the control finds; the first one in the program is taken"),
