@@ -60,7 +60,7 @@ pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Ve
             _ => {}
         }
     }
-    if rules.call_stands_first {
+    if may_call && rules.call_stands_first {
         check_call(items, &mut faults);
     }
     check_expressions(rules, source, items, &mut faults);

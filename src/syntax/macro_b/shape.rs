@@ -27,8 +27,10 @@ pub fn outline(line: &[u8], start: usize) -> Shape {
     let mut open = [0; DEEPEST];
     let mut level = 0;
     let mut at = start;
-    while let Some(&byte) = line.get(at) {
-        match byte {
+    let telling = |byte: &u8| matches!(byte, b';' | b'(' | b'[' | b']');
+    while let Some(passed) = line.get(at..).and_then(|rest| rest.iter().position(telling)) {
+        at += passed;
+        match line[at] {
             b';' => {
                 shape.end = at + 1;
                 break;
@@ -44,11 +46,10 @@ pub fn outline(line: &[u8], start: usize) -> Shape {
                 level += 1;
                 shape.depth = shape.depth.max(level);
             }
-            b']' if level == 0 => {
+            _ if level == 0 => {
                 shape.extra_close.get_or_insert(at);
             }
-            b']' => level -= 1,
-            _ => {}
+            _ => level -= 1,
         }
         at += 1;
     }

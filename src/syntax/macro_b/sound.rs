@@ -26,11 +26,11 @@ struct Met {
     operators: usize,
     divides: bool,
     arc_tangent: bool,
-    /// True where a number that comes next is a divisor.
+    /// True where the operand that comes next is a divisor.
     divisor: bool,
-    /// True where a number that comes next is the argument of a function that does not take each.
+    /// True where it is the argument of a function that does not take each number.
     argument: bool,
-    /// True where the last leaf is the number of `#0`.
+    /// True where the last variable is `#0`.
     null: bool,
 }
 
@@ -60,10 +60,6 @@ impl Met {
             Lex::Output | Lex::SetNames | Lex::Name => false,
             _ => true,
         };
-        self.null = kind == Lex::Integer && self.last == Lex::Hash && text.iter().all(|digit| *digit == b'0');
-        if !matches!(kind, Lex::Operator | Lex::Function | Lex::Open | Lex::Sign) {
-            (self.divisor, self.argument) = (false, false);
-        }
         self.last = kind;
         if !matches!(kind, Lex::Comment | Lex::EndOfBlock) {
             self.last_said = kind;
@@ -89,10 +85,14 @@ impl Met {
         let behind_words = called && self.words > 1;
         let with_point = whole && text.contains(&b'.');
         let zero_divides = self.divisor && read_number(text).value == 0.0;
-        !(behind_words || with_point || zero_divides || self.argument) && text.len() <= USUAL_DIGITS
+        let argument = std::mem::take(&mut self.argument);
+        self.divisor = false;
+        !(behind_words || with_point || zero_divides || argument) && text.len() <= USUAL_DIGITS
     }
 
-    fn integer(&self, text: &[u8]) -> bool {
+    fn integer(&mut self, text: &[u8]) -> bool {
+        (self.divisor, self.argument) = (false, false);
+        self.null = self.last == Lex::Hash && text.iter().all(|digit| *digit == b'0');
         match self.last {
             Lex::Do | Lex::End => matches!(text, b"1" | b"2" | b"3"),
             _ => text.len() <= USUAL_DIGITS,

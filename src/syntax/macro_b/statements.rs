@@ -102,7 +102,7 @@ impl Builder<'_> {
         }
         let bare = self.take_if(Lex::If).is_none();
         let condition = self.condition()?;
-        let mut body = Vec::new();
+        let mut body = Vec::with_capacity(1);
         while matches!(self.kind(), Lex::Space | Lex::Comment) {
             self.gap(&mut body);
         }
