@@ -41,7 +41,7 @@ impl Build<'_> {
     /// The place of a pair in the file, blanks behind it left out.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let span = pair.as_span();
-        let length = pair.as_str().trim_end_matches([' ', '\t']).len();
+        let length = span.as_str().trim_ascii_end().len();
         Span::new(self.start + span.start() as u32, self.start + (span.start() + length) as u32)
     }
 
