@@ -3,8 +3,9 @@
 //! Law: what a cycle is told lasts for the cycles behind it, until cycles are cancelled, and a cycle does nothing with
 //! a word that its code does not take. So where only the target's code takes a dwell, it is told one of 0, and the
 //! dwell of before is told again where the next code that takes one has none of its own. A word that only the
-//! source's code takes is refused, but for a dwell of 0, which is left out. Side condition: which cycle is in force
-//! is known. Counter-example: `G82 P500 .. G83`, where the source's G83 takes no P and the target's waits half a second.
+//! source's code takes is refused, and so is a dwell of before that only the source's code takes; a dwell of 0 is left
+//! out. Side condition: which cycle is in force is known. Counter-example: `G82 P500 .. G83`, where the source's G83
+//! takes no P and the target's waits half a second.
 
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
@@ -53,7 +54,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 last = nc.word(Role::CycleDwell).cloned().or(last);
                 let [own, others] =
                     [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell));
-                if !nc.ops().any(Op::is_cycle) || nc.word(Role::CycleDwell).is_some() || !others {
+                let begins = nc.ops().any(Op::is_cycle) && nc.word(Role::CycleDwell).is_none();
+                let waits = last.as_ref().is_some_and(|dwell| dwell.constant() != Some(0.0));
+                if begins && own && !others && waits {
+                    let what = format!(
+                        "the dwell of the cycle before lasts into this one ({op}), and the target's code takes none"
+                    );
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                }
+                if !begins || !others {
                     away &= nc.word(Role::CycleDwell).is_none();
                     continue;
                 }

@@ -157,9 +157,17 @@ impl Writer<'_> {
                     _ => {}
                 }
                 self.line(&(line + " F120."));
-                for place in places {
+                // Another cycle may follow without an end between: what it does with the words of before is its own.
+                let other = [82, 83, 89, 88, 85, 73][choices.below(6)];
+                let turns = choices.below(8);
+                for (at, place) in places.enumerate() {
                     let place = self.place(place);
-                    self.line(place.trim());
+                    if at == turns {
+                        let step = if matches!(other, 83 | 73) { " Q1.25" } else { "" };
+                        self.line(&format!("G{other}{place}{step}"));
+                    } else {
+                        self.line(place.trim());
+                    }
                 }
                 self.line(choices.pick(&["G80", "G80", "G0 G80"]));
             }
