@@ -9,7 +9,7 @@
 use super::{Context, rewrite_program};
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, SystemVariable};
+use crate::dialect::{Control, Side, SystemVariable};
 use crate::ir::analysis::{Constant, Summaries, values_at};
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Place, Program, StmtKind};
@@ -68,9 +68,10 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
     for (index, found) in all_found.into_iter().enumerate() {
         for (span, finding) in found {
             let fact = finding.fact(numbers).map(|fact| fact + &sure);
+            finding.rest_on_rows(index, span, context);
             let (code, what) = finding.told(context, numbers);
-            let told = Diagnostic::new(code, span, what.clone());
-            context.add_once(index, &what, if let Some(fact) = fact { told.with_fact(fact) } else { told });
+            let told = Diagnostic { fact: fact.map(Into::into), ..Diagnostic::new(code, span, what.clone()) };
+            context.add_once(index, &what, told);
         }
     }
 }
@@ -94,6 +95,18 @@ enum Finding {
 }
 
 impl Finding {
+    /// Says which of the rows that hold these numbers nobody confirmed.
+    fn rest_on_rows(&self, index: usize, span: Span, context: &mut Context<'_>) {
+        let (here, there) = match *self {
+            Finding::Alike(first, _) => (first, Some(first)),
+            Finding::Shifted(_, first, _, by) => (first, u32::try_from(i64::from(first) + by).ok()),
+            Finding::Counted(_, first, ..) => (first, None),
+            _ => return,
+        };
+        context.rests_on_number(Side::Source, index, span, here);
+        there.into_iter().for_each(|number| context.rests_on_number(Side::Target, index, span, number));
+    }
+
     /// The numbers that it must be one of, as the verifier is told them.
     fn fact(&self, numbers: &Numbers<'_>) -> Option<String> {
         match self {
@@ -110,27 +123,24 @@ impl Finding {
         match self {
             Finding::Alike(first, last) => (
                 Code::Conditional,
-                format!(
-                    "the number of a variable is computed: it must stay in #{first} to #{last}, outside of which numbers mean other variables on {title}"
-                ),
+                must_stay(first, last)
+                    + &format!(", outside of which numbers mean other variables on {title}"),
             ),
             Finding::Shifted(state, first, last, by) => {
                 let there = |n: u32| i64::from(n) + by;
                 (
                     Code::Conditional,
                     format!(
-                        "the number of a variable is computed: it must stay in #{first} to #{last} ('{state}'), which are #{} to #{} on {title}",
+                        "{} ('{state}'), which are #{} to #{} on {title}",
+                        must_stay(first, last),
                         there(first),
                         there(last)
                     ),
                 )
             }
-            Finding::Counted(state, first, last, _) => (
-                Code::Conditional,
-                format!(
-                    "the number of a variable is computed: it must stay in #{first} to #{last} ('{state}')"
-                ),
-            ),
+            Finding::Counted(state, first, last, _) => {
+                (Code::Conditional, format!("{} ('{state}')", must_stay(first, last)))
+            }
             Finding::Other(number) => (
                 Code::NoEquivalent,
                 format!(
@@ -146,6 +156,10 @@ impl Finding {
             ),
         }
     }
+}
+
+fn must_stay(first: u32, last: u32) -> String {
+    format!("the number of a variable is computed: it must stay in #{first} to #{last}")
 }
 
 /// What a number means.

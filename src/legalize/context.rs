@@ -2,7 +2,7 @@
 
 use super::Modal;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Side};
+use crate::dialect::{Control, Row, Side};
 use crate::text::Span;
 use foldhash::{HashMap, HashSet};
 use std::collections::BTreeSet;
@@ -118,6 +118,16 @@ impl<'a> Context<'a> {
         let told = told.or_insert_with(|| control.unconfirmed(side, &fact, Some(note), span));
         let finding = Diagnostic { span, ..told.clone() };
         self.add_once(program, &format!("{side} {fact}"), finding);
+    }
+
+    /// Says, once a program, that it rests on which state a numbered variable is, where no maker's text confirms that.
+    pub fn rests_on_number(&mut self, side: Side, program: usize, span: Span, number: u32) {
+        let control = if side == Side::Source { self.source } else { self.target };
+        let row = control.read_system("#", Some(number)).filter(|(.., row)| !row.origin.confirmed);
+        if let Some((.., row)) = row {
+            let finding = control.unconfirmed(side, &row.fact(), row.origin.note.as_deref(), span);
+            self.add_once(program, &format!("{side} {}", row.fact()), finding);
+        }
     }
 
     /// What was found, by program of the source.

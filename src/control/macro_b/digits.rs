@@ -8,7 +8,8 @@ use crate::canon::Func;
 use crate::control::trace::Trace;
 use crate::syntax::BinaryOp;
 
-/// The errors of a control's short arithmetic.
+/// The errors of a short arithmetic. They belong to the kind of number, which a table or a setting names, and not to a
+/// control: no source gives them as limits, they are the examples of two makers, taken a little larger.
 #[derive(Debug)]
 pub struct Digits {
     /// Relative error of a step.
