@@ -16,6 +16,7 @@
 pub mod cc100;
 pub mod fadal;
 pub mod fanuc;
+mod fewer;
 pub mod haas;
 pub mod library;
 pub mod machine;

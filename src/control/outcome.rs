@@ -21,6 +21,9 @@ pub struct Run {
     pub steps: u64,
     /// Which branching blocks went which way.
     pub branches: Branches,
+    /// True where the scenario left its arithmetic fewer digits than it needed.
+    #[serde(skip)]
+    pub lacked_digits: bool,
     /// The modes in force at its end, however it ended: [`super::machine::GIVEN`].
     #[serde(skip)]
     pub modes: Vec<Op>,

@@ -62,6 +62,10 @@ pub struct Scenario {
     /// Significant decimal digits that arithmetic keeps in place of the control's own, to find
     /// programs that depend on the last digit.
     pub digits: Option<u32>,
+    /// Where `digits` are fewer than a result needs, it is not rounded but off by one of the last of them, to a side
+    /// that is drawn with this seed; seeds 2n and 2n+1 draw opposite sides.
+    #[serde(skip)]
+    pub last_digits: Option<u64>,
     /// True where a control of which no source says whether it rounds computed words to the least increment is to
     /// do so; else it leaves them as they are.
     pub rounds_words: bool,
@@ -136,6 +140,7 @@ impl Default for Scenario {
             peck_clearance: 1.0,
             variable_events: false,
             digits: None,
+            last_digits: None,
             rounds_words: false,
             steps: 1_000_000,
             events: 1_000_000,

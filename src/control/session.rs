@@ -1,5 +1,6 @@
 //! A run in the making: what an interpreter keeps besides its own variables.
 
+use super::fewer::FewerDigits;
 use super::library::{Library, LoadedFile, ProgramRef, Sections};
 use super::machine::{GIVEN, Machine};
 use super::outcome::{Branches, End, Run, Stop};
@@ -57,6 +58,7 @@ pub struct Session<'r, 'f> {
     pub trace: Trace,
     /// The ways taken so far.
     pub branches: Branches,
+    digits: Option<FewerDigits>,
     programs: Vec<Program>,
     numbers: HashMap<usize, u32>,
     answered: usize,
@@ -77,6 +79,7 @@ impl<'r, 'f> Session<'r, 'f> {
             machine: Machine::new(control, scenario),
             trace: Trace::new(scenario.events, &control.profile().confirm),
             branches: Branches::default(),
+            digits: FewerDigits::of(scenario),
             programs: Vec::new(),
             numbers: HashMap::new(),
             answered: 0,
@@ -183,13 +186,7 @@ impl<'r, 'f> Session<'r, 'f> {
 
     /// A result of arithmetic, with the digits that the scenario leaves it.
     pub fn kept(&self, value: f64) -> f64 {
-        match self.scenario.digits {
-            Some(digits) if value.is_finite() => {
-                let places = digits.clamp(1, 17) as usize - 1;
-                format!("{value:.places$e}").parse().unwrap_or(value)
-            }
-            _ => value,
-        }
+        self.digits.as_ref().map_or(value, |digits| digits.keep(value))
     }
 
     /// The least increment that computed words are rounded to where the scenario has it so and no source says whether
@@ -250,6 +247,7 @@ impl<'r, 'f> Session<'r, 'f> {
             end,
             steps: self.steps,
             branches: self.branches,
+            lacked_digits: self.digits.is_some_and(|digits| digits.lacked()),
             modes,
             left,
         }

@@ -560,7 +560,7 @@ One of three is at fault: the conversion, one of the emulated controls, or a tab
 Look at the places named, or give the machine profile what it lacks, and verify again with `macroglot verify`."
 
     "0803" RoundingSensitive Review "rounding decides what the machine does"
-"When the target's arithmetic keeps a few digits less, the machine does something else: a comparison of computed values is so close that the last digit decides it. Two controls of one make can differ there.
+"When the target's arithmetic keeps a few digits less, or errs in the last of them, the machine does something else: a comparison of computed values is so close that the last digit decides it. Two controls of one make can differ there.
 
 Compare with a small margin, or round before comparing, in the source."
 

@@ -2,6 +2,7 @@
 
 mod edited;
 mod elsewhere;
+mod fewer_digits;
 
 use super::branches::Coverage;
 use super::callers::{Shown, implicate, through, ways};
@@ -34,9 +35,6 @@ pub struct Job<'j> {
     /// How much may be done.
     pub effort: Effort,
 }
-
-/// Significant digits that the second run of the target keeps: three fewer than a double has.
-const FEWER_DIGITS: u32 = 13;
 
 /// How the facts begin that limit how deep calls nest.
 const NESTING: &str = "limit:call.";
@@ -234,6 +232,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             let facts = files.filter_map(|file| self.job.reported.get(file.name)).flatten();
             breaks_a_condition((source, run), (target, &other), difference, facts.map(String::as_str))
         });
+        let upto = difference.as_ref().map(|difference| difference.target);
         match difference {
             // Where the source's control itself stops the program, the program says nothing.
             Some(difference) if stops_by_itself(run, &difference) => {
@@ -291,12 +290,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
                     target: difference.target.map(|event| Moment::of(target, &other, event)),
                 });
             }
-            None if self.sensitive != Some(true) && !is_cut(&other) => {
-                let nudged = self.nudged((there, &circumstances));
-                let apart = compare((target, &other), (target, &nudged), &Names::default(), self.tolerance);
-                self.sensitive = Some(apart.difference.is_some());
-            }
             None => {}
+        }
+        if self.witness.is_none() && self.sensitive != Some(true) && !is_cut(&other) {
+            self.sensitive = Some(self.is_sensitive((there, &circumstances), &other, upto));
         }
     }
 
@@ -305,21 +302,6 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let file = self.job.source.files.get(self.program.file);
         let facts = file.and_then(|file| self.job.reported.get(file.name));
         facts.is_some_and(|facts| facts.iter().any(|fact| fact.starts_with(NESTING)))
-    }
-
-    /// The target's run with fewer digits.
-    fn nudged(&self, (there, circumstances): (ProgramRef, &Scenario)) -> Run {
-        let target = self.job.target;
-        let nudged = Scenario { digits: Some(FEWER_DIGITS), ..circumstances.clone() };
-        (target.execute)(&target.library, there, target.control, &nudged)
-    }
-
-    /// True where the target goes elsewhere, by however little, with fewer digits.
-    fn wavers(&self, of: (ProgramRef, &Scenario), run: &Run) -> bool {
-        let target = self.job.target;
-        let nudged = self.nudged(of);
-        let apart = compare((target, run), (target, &nudged), &Names::default(), self.tolerance);
-        apart.difference.is_some() || apart.hair.is_some()
     }
 
     fn because(&mut self, why: Why, text: &str) {

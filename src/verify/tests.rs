@@ -245,6 +245,23 @@ fn what_hangs_on_the_last_digit_is_marked() {
     assert_eq!(within("fanuc", ROW, ROW).rounding_sensitive, Some(false));
 }
 
+/// 7.3 squared less 7.3 squared: 4.1e-13 in doubles and 0 in decimals, so that neither is an alarm; errors of other signs
+/// are less than 0. The arc ends 2 mm off its circle, so that nothing counts where it goes.
+#[test]
+fn other_errors_than_those_of_doubles_decide_too() {
+    let program = |a: &str, x: &str| {
+        format!("O1\n#1={a}-122.9\n#2=130.2-122.9\n#3=SQRT[#1*#1-#2*#2]\nG90G17G0X{x}\nM30\n")
+    };
+    let sensitive = |source: &str, target: &str| within("fanuc", source, target).rounding_sensitive;
+    let root = program("115.6", "#3");
+    assert_eq!(sensitive(&root, &root), Some(true));
+    let clear = program("110.5", "#3");
+    assert_eq!(sensitive(&clear, &clear), Some(false));
+    let arc = |x: &str| root.replace("X#3", &format!("X0Y0\nG2X5.I{x}J0F100."));
+    let found = within("fanuc", &arc("1.5"), &arc("1.4"));
+    assert_eq!((found.outcome, found.rounding_sensitive), (Outcome::Undecided, Some(true)), "{found:#?}");
+}
+
 #[test]
 fn certificates_are_the_same_each_time() {
     let again = || serde_json::to_string(&within("fanuc", ROW, ROW)).unwrap();

@@ -2,8 +2,9 @@
 
     python3 tests/verify/rounding.py > tests/verify/rounding.tsv
 
-Where the two counts differ, the last digit decides what the machine does. The third column is the count in doubles,
-the fourth the one of exact decimals.
+The third column is the count in doubles, the fourth the one of exact decimals. The last digit decides what the machine does
+where the two differ, and where a sum that doubles do not hold exactly lies so near the limit that other errors than
+theirs would put it on the other side: the fifth column says yes or no.
 """
 
 from decimal import Decimal
@@ -22,5 +23,17 @@ def count(step, limit):
     return times
 
 
+def hangs(step, limit):
+    """Whether a sum may lie on either side of the limit, each that doubles do not hold being off by 1e-13 of it."""
+    exact, double, off, hangs = Decimal(0), 0.0, 0.0, False
+    while exact < Decimal(limit):
+        exact, double = exact + Decimal(step), double + float(step)
+        if off > 0 or double != float(exact):
+            off += 1e-13 * double
+        hangs |= off > 0 and abs(float(exact) - float(limit)) <= off
+    return hangs
+
+
 for step, limit in ROWS:
-    print(step, limit, count(float(step), float(limit)), count(Decimal(step), Decimal(limit)), sep="\t")
+    decides = "yes" if hangs(step, limit) else "no"
+    print(step, limit, count(float(step), float(limit)), count(Decimal(step), Decimal(limit)), decides, sep="\t")

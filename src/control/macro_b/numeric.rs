@@ -3,7 +3,9 @@
 use super::Alarms;
 use super::digits::Digits;
 use crate::canon::Func;
+use crate::control::fewer::FewerDigits;
 use crate::control::outcome::Stop;
+use crate::control::scenario::Scenario;
 use crate::control::trace::Trace;
 use crate::dialect::Control;
 use crate::syntax::BinaryOp;
@@ -60,7 +62,7 @@ fn is(word: &'static str, no: &'static str) -> impl Fn(&str) -> Option<bool> {
 #[derive(Debug)]
 pub struct Numeric {
     /// Significant digits that are kept; none for all of a double's.
-    digits: Option<i32>,
+    digits: Option<FewerDigits>,
     /// How far values may be off, where few digits are kept.
     pub short: Option<Digits>,
     largest: f64,
@@ -82,10 +84,10 @@ pub struct Numeric {
 }
 
 impl Numeric {
-    /// The arithmetic of a control; `digits` in place of its own where given.
-    pub fn new(control: &Control, digits: Option<u32>, alarms: &'static Alarms) -> Self {
+    /// The arithmetic of a control; the digits of the scenario in place of its own where given.
+    pub fn new(control: &Control, scenario: &Scenario, alarms: &'static Alarms) -> Self {
         let short = control.numbers().arithmetic == "decimal8";
-        let digits = digits.or(short.then_some(8)).map(|digits| digits.clamp(1, 17) as i32);
+        let digits = FewerDigits::of(scenario).or_else(|| short.then(|| FewerDigits::new(8)));
         let alarm = |value: &str| (value == "alarm").then_some(true);
         Self {
             digits,
@@ -117,13 +119,12 @@ impl Numeric {
         if value.abs() < self.smallest {
             return Ok(0.0);
         }
-        let Some(digits) = self.digits else { return Ok(value) };
-        if value == 0.0 {
-            return Ok(value);
-        }
-        // Through decimal text, so that every value kept is the nearest double to its digits.
-        let places = usize::try_from(digits - 1).unwrap_or(0);
-        Ok(format!("{value:.places$e}").parse().unwrap_or(value))
+        Ok(self.digits.as_ref().map_or(value, |digits| digits.keep(value)))
+    }
+
+    /// True where a result needed more digits than are kept.
+    pub fn lacked_digits(&self) -> bool {
+        self.digits.as_ref().is_some_and(FewerDigits::lacked)
     }
 
     /// An operand of arithmetic.

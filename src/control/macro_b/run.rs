@@ -89,7 +89,7 @@ impl<'c> Runner<'c> {
             session: Session::new(library, control, scenario),
             style,
             rules: Rules::new(control),
-            numeric: Numeric::new(control, scenario.digits, &style.alarms),
+            numeric: Numeric::new(control, scenario, &style.alarms),
             loaded: HashMap::new(),
             branches: Vec::new(),
             ways: Vec::new(),
@@ -278,7 +278,8 @@ impl<'c> Runner<'c> {
                 }
             }
         }
-        self.session.finish(halt, self.memory.dump())
+        let lacked_digits = self.numeric.lacked_digits();
+        Run { lacked_digits, ..self.session.finish(halt, self.memory.dump()) }
     }
 
     /// Locals of the running level.
