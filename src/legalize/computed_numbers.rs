@@ -27,7 +27,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     look(module, &mut numbers, context);
-    module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
+    let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
+    if numbers.known.values().any(moves) {
+        module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
+    }
 }
 
 fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {

@@ -5,7 +5,7 @@
 //! wrong: the emitter counts what it has written.
 
 use crate::dialect::Control;
-use crate::ir::{BinOp, Cond, Expr, Relation};
+use crate::ir::{BinOp, Cond, Expr};
 use smallvec::SmallVec;
 
 /// Characters of a register's name.
@@ -36,11 +36,18 @@ impl Size {
 #[derive(Clone, Copy)]
 pub(super) struct Measure<'c> {
     control: &'c Control,
+    /// By operator: higher binds tighter; 0 where nothing confirms what stands beside it.
+    ranks: [u32; 8],
+    comparisons: [u32; 6],
 }
 
 impl<'c> Measure<'c> {
     pub fn new(control: &'c Control) -> Self {
-        Self { control }
+        let rank = |meaning: &str| {
+            let row = control.operator(meaning).filter(|row| row.origin.confirmed);
+            row.map_or(0, |row| row.rank.saturating_add(1))
+        };
+        Self { control, ranks: OPERATORS.map(rank), comparisons: COMPARISONS.map(rank) }
     }
 
     /// The size of an expression to which nothing else is joined.
@@ -69,7 +76,7 @@ impl<'c> Measure<'c> {
                 inner.beside(leaf(1), 0)
             }
             Expr::Binary(op, a, b) => {
-                let rank = self.rank(meaning(*op));
+                let rank = self.rank(*op);
                 let spaces =
                     if matches!(op, BinOp::Add | BinOp::Sub | BinOp::Mul | BinOp::Div) { 1 } else { 5 };
                 let [left, right] = [0, 1].map(|at| operands.get(at).copied().unwrap_or_default());
@@ -93,7 +100,7 @@ impl<'c> Measure<'c> {
     pub fn cond(&self, cond: &Cond) -> Size {
         match cond {
             Cond::Compare(relation, a, b) => {
-                let rank = self.rank(comparison(*relation));
+                let rank = self.comparisons[*relation as usize];
                 let side = |e: &Expr| {
                     let size = self.expr(e);
                     if self.binds_less(e, rank, true) { size.bracketed() } else { size }
@@ -110,17 +117,15 @@ impl<'c> Measure<'c> {
         }
     }
 
-    /// Higher binds tighter; 0 where nothing confirms what stands beside it.
-    fn rank(&self, meaning: &str) -> u32 {
-        let row = self.control.operator(meaning).filter(|row| row.origin.confirmed);
-        row.map_or(0, |row| row.rank.saturating_add(1))
+    fn rank(&self, op: BinOp) -> u32 {
+        self.ranks[op as usize]
     }
 
     /// True for an operand that needs brackets beside an operator of a rank.
     fn binds_less(&self, operand: &Expr, rank: u32, right: bool) -> bool {
         match operand {
             Expr::Binary(op, ..) => {
-                let own = self.rank(meaning(*op));
+                let own = self.rank(*op);
                 rank == 0 || own == 0 || own < rank || (right && own == rank)
             }
             Expr::Call(function, arguments) => {
@@ -144,26 +149,9 @@ fn digits(value: f64) -> usize {
     }
 }
 
-fn meaning(op: BinOp) -> &'static str {
-    match op {
-        BinOp::Add => "add",
-        BinOp::Sub => "subtract",
-        BinOp::Mul => "multiply",
-        BinOp::Div => "divide",
-        BinOp::Mod => "modulo",
-        BinOp::And => "and.bits",
-        BinOp::Or => "or.bits",
-        BinOp::Xor => "xor.bits",
-    }
-}
+/// The names in the tables, in the order of [`BinOp`].
+const OPERATORS: [&str; 8] =
+    ["add", "subtract", "multiply", "divide", "modulo", "and.bits", "or.bits", "xor.bits"];
 
-fn comparison(relation: Relation) -> &'static str {
-    match relation {
-        Relation::Equal => "eq",
-        Relation::NotEqual => "ne",
-        Relation::Less => "lt",
-        Relation::LessEqual => "le",
-        Relation::Greater => "gt",
-        Relation::GreaterEqual => "ge",
-    }
-}
+/// The names in the tables, in the order of [`Relation`](crate::ir::Relation).
+const COMPARISONS: [&str; 6] = ["eq", "ne", "lt", "le", "gt", "ge"];

@@ -149,7 +149,7 @@ impl<'m> Analysis<'m> {
             }
             Rc::make_mut(&mut state).step(stmt);
         }
-        if state == entry {
+        if !Rc::ptr_eq(&state, &entry) && state == entry {
             state = entry;
         }
         match &block.term.kind {
