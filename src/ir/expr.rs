@@ -24,7 +24,7 @@ pub enum Expr {
     /// `-a`.
     Negate(Box<Expr>),
     /// `a op b`.
-    Binary(BinOp, Box<Expr>, Box<Expr>),
+    Binary(BinOp, Box<[Expr; 2]>),
     /// A function.
     Call(Func, ThinVec<Expr>),
     /// 1 where the condition holds, else 0.
@@ -125,6 +125,11 @@ impl Cond {
 }
 
 impl Expr {
+    /// `a op b`.
+    pub fn binary(op: BinOp, a: Expr, b: Expr) -> Self {
+        Expr::Binary(op, Box::new([a, b]))
+    }
+
     /// The constant's value, where the expression is one (a negated constant too).
     pub fn constant(&self) -> Option<f64> {
         match self {
@@ -140,7 +145,7 @@ impl Expr {
             Expr::Number(value) => value.fract() == 0.0,
             Expr::Negate(inner) => inner.is_whole(),
             Expr::Truth(_) | Expr::Vacant => true,
-            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor | BinOp::Mod, _, _) => true,
+            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor | BinOp::Mod, _) => true,
             Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd, _) => true,
             Expr::System(state, _) => {
                 matches!(state, Sys::Input | Sys::InputWord | Sys::Output | Sys::OutputWord)

@@ -17,10 +17,7 @@ macro_rules! visitors {
                     Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
                     Expr::Indirect(_, a) | Expr::Negate(a) => f(a),
                     Expr::System(_, all) | Expr::Call(_, all) => all.$iter().for_each(f),
-                    Expr::Binary(_, a, b) => {
-                        f(a);
-                        f(b);
-                    }
+                    Expr::Binary(_, operands) => operands.$iter().for_each(f),
                     Expr::Truth(cond) => cond.$name(f),
                 }
             }
@@ -126,10 +123,7 @@ impl Expr {
             Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
             Expr::Indirect(_, a) | Expr::Negate(a) => a.walk(f),
             Expr::System(_, all) | Expr::Call(_, all) => all.iter().for_each(|e| e.walk(f)),
-            Expr::Binary(_, a, b) => {
-                a.walk(f);
-                b.walk(f);
-            }
+            Expr::Binary(_, operands) => operands.iter().for_each(|e| e.walk(f)),
             Expr::Truth(cond) => cond.exprs(&mut |e| e.walk(f)),
         }
     }
@@ -234,10 +228,7 @@ impl Expr {
             Expr::Number(_) | Expr::Increments(_) | Expr::Vacant => {}
             Expr::Indirect(_, a) | Expr::Negate(a) => a.variables(f),
             Expr::System(_, all) | Expr::Call(_, all) => all.iter().for_each(|e| e.variables(f)),
-            Expr::Binary(_, a, b) => {
-                a.variables(f);
-                b.variables(f);
-            }
+            Expr::Binary(_, operands) => operands.iter().for_each(|e| e.variables(f)),
             Expr::Truth(cond) => cond.exprs(&mut |e| e.variables(f)),
         }
     }

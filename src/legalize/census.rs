@@ -184,12 +184,11 @@ impl Census {
                 self.add(Thing::Indirect);
                 self.value(index);
             }
-            Expr::Binary(op, a, b) => {
+            Expr::Binary(op, operands) => {
                 if matches!(op, BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor) {
                     self.add(Thing::Function);
                 }
-                self.value(a);
-                self.value(b);
+                operands.iter().for_each(|operand| self.value(operand));
             }
             Expr::Call(_, arguments) => {
                 self.add(Thing::Function);

@@ -72,7 +72,7 @@ fn sweep(first: u32, last: u32, site: &mut dyn FnMut() -> Site, builder: &mut Bu
     builder.start(body);
     let cell = Place::Indirect(Bank::Numbered, Box::new(counter()));
     builder.push(set(cell, Expr::Number(0.0)), site());
-    let next = Expr::Binary(BinOp::Add, Box::new(counter()), Box::new(Expr::Number(1.0)));
+    let next = Expr::binary(BinOp::Add, counter(), Expr::Number(1.0));
     builder.push(set(Place::Var(COUNTER), next), site());
     builder.end(TermKind::Jump(head), Site::default());
     builder.start(behind);

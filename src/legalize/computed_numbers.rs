@@ -319,14 +319,11 @@ fn last_number(control: &Control) -> u32 {
 fn constant_part(number: &Expr) -> Option<f64> {
     match number {
         Expr::Number(value) => Some(*value),
-        Expr::Binary(BinOp::Add, a, b) => match (constant_part(a), constant_part(b)) {
-            (Some(a), Some(b)) => Some(a + b),
-            (a, b) => a.or(b),
-        },
-        Expr::Binary(BinOp::Sub, a, b) => match (constant_part(a), constant_part(b)) {
-            (Some(a), Some(b)) => Some(a - b),
-            (a, b) => a.or(b.map(|b| -b)),
-        },
+        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) => {
+            let [a, b] = [0, 1].map(|at| constant_part(&operands[at]));
+            let b = if *op == BinOp::Sub { b.map(|b| -b) } else { b };
+            if let (Some(a), Some(b)) = (a, b) { Some(a + b) } else { a.or(b) }
+        }
         _ => None,
     }
 }
@@ -367,7 +364,10 @@ fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
         Finding::Counted(state, first, _, from) => {
             let count = match add(number, f64::from(from) - f64::from(first)) {
                 // What is left of the number is the count itself.
-                Expr::Binary(BinOp::Add, zero, count) if *zero == Expr::Number(0.0) => *count,
+                Expr::Binary(BinOp::Add, sum) if sum[0] == Expr::Number(0.0) => {
+                    let [_, count] = *sum;
+                    count
+                }
                 count => count,
             };
             Place::System(state, [count].into())
@@ -391,12 +391,14 @@ fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
 fn add(number: Expr, by: f64) -> Expr {
     match number {
         Expr::Number(value) => Expr::Number(value + by),
-        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), a, b) if constant_part(&a).is_some() => {
-            Expr::Binary(op, Box::new(add(*a, by)), b)
+        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) if constant_part(&operands[0]).is_some() => {
+            let [a, b] = *operands;
+            Expr::binary(op, add(a, by), b)
         }
-        Expr::Binary(BinOp::Add, a, b) if constant_part(&b).is_some() => {
-            Expr::Binary(BinOp::Add, a, Box::new(add(*b, by)))
+        Expr::Binary(BinOp::Add, operands) if constant_part(&operands[1]).is_some() => {
+            let [a, b] = *operands;
+            Expr::binary(BinOp::Add, a, add(b, by))
         }
-        number => Expr::Binary(BinOp::Add, Box::new(number), Box::new(Expr::Number(by))),
+        number => Expr::binary(BinOp::Add, number, Expr::Number(by)),
     }
 }

@@ -158,7 +158,7 @@ impl Temps {
 }
 
 fn add_zero(e: Expr) -> Expr {
-    Expr::Binary(BinOp::Add, Box::new(e), Box::new(Expr::Number(0.0)))
+    Expr::binary(BinOp::Add, e, Expr::Number(0.0))
 }
 
 /// Calls `f` on the parts that are not compound, in order.
@@ -178,9 +178,9 @@ fn can_alarm(e: &Expr) -> bool {
     let mut found = false;
     e.walk(&mut |e| {
         found |= match e {
-            Expr::Binary(BinOp::Div, _, b) => b.constant().is_none_or(|v| v == 0.0),
+            Expr::Binary(BinOp::Div, operands) => operands[1].constant().is_none_or(|v| v == 0.0),
             // Its divisor is rounded.
-            Expr::Binary(BinOp::Mod, _, b) => b.constant().is_none_or(|v| v.round() == 0.0),
+            Expr::Binary(BinOp::Mod, operands) => operands[1].constant().is_none_or(|v| v.round() == 0.0),
             // Their operands must fit a word.
             Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, ..) => true,
             Expr::Call(Func::Sin | Func::Cos, _) => false,

@@ -47,7 +47,7 @@ fn split(value: f64) -> (Expr, f64) {
     let digits: String = mantissa.bytes().filter(u8::is_ascii_digit).map(char::from).collect();
     let part = |from: usize| digits.get(from..from + 8).and_then(|d| d.parse::<f64>().ok()).unwrap_or(0.0);
     let number = |n: f64| Expr::Number(n);
-    let op = |op, a, b| Expr::Binary(op, Box::new(a), Box::new(b));
+    let op = |op, a, b| Expr::binary(op, a, b);
     let (a, b) = (part(0), part(8));
     let mut sum = number(a);
     let mut made = a;

@@ -75,5 +75,5 @@ fn convert(nc: &mut Nc, ms: bool, s: bool) -> bool {
 }
 
 fn scaled(op: BinOp, value: Expr) -> Expr {
-    Expr::Binary(op, Box::new(value), Box::new(Expr::Number(1000.0)))
+    Expr::binary(op, value, Expr::Number(1000.0))
 }

@@ -317,9 +317,9 @@ impl<'c> Found<'c> {
                 self.behaviour("mod.rounds.operands", span);
                 self.behaviour("mod.sign", span);
             }
-            Expr::Binary(BinOp::And, a, b) if is_narrow(a) || is_narrow(b) => self.bits(a, b, span),
-            Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor, a, b) => {
-                if !is_narrow(a) || !is_narrow(b) {
+            Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
+                let [a, b] = &**operands;
+                if !(is_narrow(a) && is_narrow(b) || *op == BinOp::And && (is_narrow(a) || is_narrow(b))) {
                     self.behaviour("bits.width", span);
                 }
                 self.bits(a, b, span);
@@ -385,7 +385,7 @@ impl<'c> Found<'c> {
 /// True where arithmetic takes an operand that may be vacant.
 fn computes_with(e: &Expr, may: &dyn Fn(&Expr) -> bool) -> bool {
     match e {
-        Expr::Binary(_, a, b) => may(a) || may(b),
+        Expr::Binary(_, operands) => operands.iter().any(may),
         Expr::Call(_, arguments) => arguments.iter().any(may),
         _ => false,
     }

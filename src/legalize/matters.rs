@@ -63,7 +63,7 @@ fn both(context: &mut Context<'_>, program: usize, span: Span, name: &'static st
 
 fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
     match e {
-        Expr::Binary(BinOp::Div, _, divisor) if divisor.constant().is_none() => {
+        Expr::Binary(BinOp::Div, operands) if operands[1].constant().is_none() => {
             both(context, index, span, "divide.by.zero");
         }
         Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
@@ -99,8 +99,8 @@ fn never_negative(e: &Expr) -> bool {
     match e {
         Expr::Number(value) => *value >= 0.0,
         Expr::Call(Func::Abs | Func::Sqrt, _) => true,
-        Expr::Binary(BinOp::Mul, a, b) => a == b || (never_negative(a) && never_negative(b)),
-        Expr::Binary(BinOp::Add | BinOp::Div, a, b) => never_negative(a) && never_negative(b),
+        Expr::Binary(BinOp::Mul, factors) if factors[0] == factors[1] => true,
+        Expr::Binary(BinOp::Add | BinOp::Mul | BinOp::Div, operands) => operands.iter().all(never_negative),
         _ => false,
     }
 }

@@ -75,13 +75,13 @@ impl<'c> Measure<'c> {
                 let inner = if matches!(**inner, Expr::Binary(..)) { all(0).bracketed() } else { all(0) };
                 inner.beside(leaf(1), 0)
             }
-            Expr::Binary(op, a, b) => {
+            Expr::Binary(op, sides) => {
                 let rank = self.rank(*op);
                 let spaces =
                     if matches!(op, BinOp::Add | BinOp::Sub | BinOp::Mul | BinOp::Div) { 1 } else { 5 };
                 let [left, right] = [0, 1].map(|at| operands.get(at).copied().unwrap_or_default());
-                let left = if self.binds_less(a, rank, false) { left.bracketed() } else { left };
-                let right = if self.binds_less(b, rank, true) { right.bracketed() } else { right };
+                let left = if self.binds_less(&sides[0], rank, false) { left.bracketed() } else { left };
+                let right = if self.binds_less(&sides[1], rank, true) { right.bracketed() } else { right };
                 left.beside(right, spaces)
             }
             Expr::Call(function, arguments) => {

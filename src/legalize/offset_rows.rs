@@ -79,7 +79,7 @@ fn place(row: &Expr, run: Run) -> Expr {
 }
 
 fn number(row: &Expr, (from, first, step): Run) -> Expr {
-    let binary = |op, a, b| Expr::Binary(op, Box::new(a), Box::new(b));
+    let binary = |op, a, b| Expr::binary(op, a, b);
     let rows = binary(BinOp::Mul, row.clone(), Expr::Number(f64::from(step)));
     let base = f64::from(first) - f64::from(from) * f64::from(step);
     binary(BinOp::Add, rows, Expr::Number(base))

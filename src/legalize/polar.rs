@@ -79,8 +79,8 @@ fn rectangular(nc: &mut Nc, distance: Option<Op>) -> Result<(), &'static str> {
     };
     let part = |function: Func, pole: Var| {
         let turned = Expr::Call(function, [angle.clone()].into());
-        let part = Expr::Binary(BinOp::Mul, Box::new(length.clone()), Box::new(turned));
-        if absolute { Expr::Binary(BinOp::Add, Box::new(Expr::Var(pole)), Box::new(part)) } else { part }
+        let part = Expr::binary(BinOp::Mul, length.clone(), turned);
+        if absolute { Expr::binary(BinOp::Add, Expr::Var(pole), part) } else { part }
     };
     let words = [
         NcItem::Word(Role::X, part(Func::Cos, POLE[0].1)),

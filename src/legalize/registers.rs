@@ -230,7 +230,7 @@ fn point(module: &mut Module, runs: &[(Bank, u32)]) {
     let base_of = |bank: Bank| runs.iter().find(|(b, _)| *b == bank).map(|(_, base)| f64::from(*base));
     let shifted = |index: Expr, base: f64| match index {
         Expr::Number(n) => Expr::Number(n + base),
-        index => Expr::Binary(BinOp::Add, Box::new(Expr::Number(base)), Box::new(index)),
+        index => Expr::binary(BinOp::Add, Expr::Number(base), index),
     };
     for program in &mut module.programs {
         rewrite_program(
@@ -239,10 +239,10 @@ fn point(module: &mut Module, runs: &[(Bank, u32)]) {
             &mut |e, _: Position, _: &mut Rewriter<'_>| match e {
                 Expr::Indirect(bank, index) => match base_of(bank) {
                     // Adding 0 makes a number of what nobody has set, as it is on the source.
-                    Some(base) => Expr::Binary(
+                    Some(base) => Expr::binary(
                         BinOp::Add,
-                        Box::new(Expr::Indirect(Bank::Numbered, Box::new(shifted(*index, base)))),
-                        Box::new(Expr::Number(0.0)),
+                        Expr::Indirect(Bank::Numbered, Box::new(shifted(*index, base))),
+                        Expr::Number(0.0),
                     ),
                     None => Expr::Indirect(bank, index),
                 },

@@ -111,7 +111,7 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         builder.end(TermKind::Branch { cond, yes: body, no: behind }, Site::default());
         builder.start(body);
         builder.push(StmtKind::Nc(nc), stmt.site);
-        let one_less = Expr::Binary(BinOp::Sub, Box::new(Expr::Var(left)), Box::new(Expr::Number(1.0)));
+        let one_less = Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0));
         builder.push(set(one_less), Site::default());
         builder.end(TermKind::Jump(head), Site::default());
         builder.start(behind);

@@ -66,9 +66,7 @@ impl Rewriter<'_> {
         let temp = self.temp();
         let value = match value {
             Expr::Vacant => Expr::Number(0.0),
-            value if value.may_be_vacant() => {
-                Expr::Binary(BinOp::Add, Box::new(value), Box::new(Expr::Number(0.0)))
-            }
+            value if value.may_be_vacant() => Expr::binary(BinOp::Add, value, Expr::Number(0.0)),
             value => value,
         };
         self.first(Prelude::Assign(temp, value));
@@ -226,10 +224,7 @@ fn map(
     let mut part = |e: &mut Expr, position| map(e, position, wanted, rewrite, rewriter);
     match e {
         Expr::Negate(a) => part(a, position),
-        Expr::Binary(_, a, b) => {
-            part(a, position);
-            part(b, position);
-        }
+        Expr::Binary(_, operands) => operands.iter_mut().for_each(|a| part(a, position)),
         Expr::Indirect(_, index) => part(index, Position::Subscript),
         Expr::System(_, subscripts) => subscripts.iter_mut().for_each(|s| part(s, Position::Subscript)),
         Expr::Call(_, arguments) => arguments.iter_mut().for_each(|a| part(a, position)),

@@ -255,7 +255,7 @@ fn scaled(value: Expr, factor: f64) -> Expr {
 }
 
 fn binary(op: BinOp, a: Expr, b: f64) -> Expr {
-    Expr::Binary(op, Box::new(a), Box::new(Expr::Number(b)))
+    Expr::binary(op, a, Expr::Number(b))
 }
 
 fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Vec<(Span, Finding)>) {

@@ -80,7 +80,7 @@ fn is_tap(op: Op) -> bool {
 fn set_feed(nc: &mut Nc, speed: Expr, lead: Expr) {
     let feed = match (speed.constant(), lead.constant()) {
         (Some(speed), Some(lead)) => Expr::Number(speed * lead),
-        _ => Expr::Binary(BinOp::Mul, Box::new(speed), Box::new(lead)),
+        _ => Expr::binary(BinOp::Mul, speed, lead),
     };
     for item in &mut nc.items {
         match item {

@@ -30,7 +30,7 @@ fn folding_keeps_every_value() {
         Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, [a.clone()].into())));
         for b in operands() {
             for op in ops {
-                folds_alike(Expr::Binary(op, Box::new(a.clone()), Box::new(b.clone())));
+                folds_alike(Expr::binary(op, a.clone(), b.clone()));
             }
             Func::ALL.iter().for_each(|f| folds_alike(Expr::Call(*f, [a.clone(), b.clone()].into())));
             let cond = Cond::Compare(Relation::Equal, a.clone(), b.clone());

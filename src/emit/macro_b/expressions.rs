@@ -94,7 +94,7 @@ impl Emitter<'_> {
                 self.push('-');
                 self.signed(inner);
             }
-            Expr::Binary(op, a, b) => self.binary(*op, a, b, spot),
+            Expr::Binary(op, operands) => self.binary(*op, operands, spot),
             Expr::Call(function, arguments) => self.call(*function, arguments, spot),
             Expr::Truth(condition) if self.control.is("comparison.is.value") => {
                 self.open();
@@ -115,7 +115,7 @@ impl Emitter<'_> {
     }
 
     /// A negative constant is added by taking its opposite away, which rounds alike.
-    fn binary(&mut self, op: BinOp, a: &Expr, b: &Expr, spot: Spot) {
+    fn binary(&mut self, op: BinOp, [a, b]: &[Expr; 2], spot: Spot) {
         if let (BinOp::Add | BinOp::Sub, Expr::Number(number)) = (op, b)
             && number.is_sign_negative()
         {

@@ -43,10 +43,10 @@ impl Emitter<'_> {
         for (step, subscript) in terms {
             let term = match step {
                 1 => subscript.clone(),
-                _ => binary(BinOp::Mul, Expr::Number(f64::from(step)), subscript.clone()),
+                _ => Expr::binary(BinOp::Mul, Expr::Number(f64::from(step)), subscript.clone()),
             };
             sum = Some(match sum {
-                Some(sum) => binary(BinOp::Add, sum, term),
+                Some(sum) => Expr::binary(BinOp::Add, sum, term),
                 None => term,
             });
         }
@@ -57,10 +57,6 @@ impl Emitter<'_> {
 
 fn allows(row: &SystemVariable, written: bool) -> bool {
     row.access.contains(if written { 'w' } else { 'r' })
-}
-
-fn binary(op: BinOp, a: Expr, b: Expr) -> Expr {
-    Expr::Binary(op, Box::new(a), Box::new(b))
 }
 
 /// A subscript that is a whole number.

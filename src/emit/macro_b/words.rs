@@ -243,8 +243,8 @@ impl<'p> Emitter<'p> {
 /// A value without the constant that is added to it last, and that constant.
 fn split_sum(value: &Expr) -> (&Expr, f64) {
     match value {
-        Expr::Binary(BinOp::Add, base, add) => match **add {
-            Expr::Number(add) => (base, add),
+        Expr::Binary(BinOp::Add, sum) => match &**sum {
+            [base, Expr::Number(add)] => (base, *add),
             _ => (value, 0.0),
         },
         _ => (value, 0.0),

@@ -169,7 +169,7 @@ fn value(expr: &Expr, env: &dyn Env, depth: usize) -> Result<Value, Alarm> {
         Expr::System(Sys::Euler, _) => std::f64::consts::E,
         Expr::System(state, subscripts) => return env.system(*state, &numbers(subscripts)?),
         Expr::Negate(a) => -number(a)?,
-        Expr::Binary(op, a, b) => binary(*op, number(a)?, number(b)?)?,
+        Expr::Binary(op, operands) => binary(*op, number(&operands[0])?, number(&operands[1])?)?,
         Expr::Call(func, arguments) => function(*func, &numbers(arguments)?, env)?,
         Expr::Truth(cond) => f64::from(u8::from(truth(cond, env, depth)?)),
     }))

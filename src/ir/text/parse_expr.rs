@@ -22,7 +22,7 @@ impl Parser<'_> {
             {
                 p.next();
                 let right = p.operation(rank + 1)?;
-                left = Expr::Binary(*op, Box::new(left), Box::new(right));
+                left = Expr::binary(*op, left, right);
                 // A chain makes the tree higher at each step.
                 p.height += 1;
                 p.limit(p.height)?;

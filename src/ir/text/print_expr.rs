@@ -115,7 +115,8 @@ fn expr(f: &mut Formatter<'_>, e: &Expr, least: u8) -> Result {
             f.write_str("-")?;
             expr(f, a, TIGHT)
         }
-        Expr::Binary(op, a, b) => {
+        Expr::Binary(op, operands) => {
+            let [a, b] = &**operands;
             let row = OPERATORS.iter().find(|(o, ..)| o == op);
             let (name, rank) = row.map_or(("", 0), |(_, name, rank)| (*name, *rank));
             let fence = rank < least;

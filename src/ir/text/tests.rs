@@ -127,11 +127,7 @@ fn exprs() -> impl Strategy<Value = Expr> {
         let cond = compare.prop_map(|(r, a, b)| Cond::Compare(r, a, b));
         prop_oneof![
             inner.clone().prop_map(|a| Expr::Negate(Box::new(a))),
-            (ops.clone(), inner.clone(), inner.clone()).prop_map(|(op, a, b)| Expr::Binary(
-                op,
-                Box::new(a),
-                Box::new(b)
-            )),
+            (ops.clone(), inner.clone(), inner.clone()).prop_map(|(op, a, b)| Expr::binary(op, a, b)),
             (prop::sample::select(Func::ALL), list.clone()).prop_map(|(f, a)| Expr::Call(f, a.into())),
             (prop::sample::select(Sys::ALL), list).prop_map(|(s, a)| Expr::System(s, a.into())),
             (banks.clone(), inner.clone()).prop_map(|(b, a)| Expr::Indirect(b, Box::new(a))),

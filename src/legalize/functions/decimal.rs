@@ -1,6 +1,6 @@
 //! BIN and BCD, for whole numbers of up to eight digits.
 
-use super::{Emulated, apply, binary, number};
+use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::ir::{BinOp, Expr};
 use crate::legalize::Rewriter;
@@ -28,8 +28,8 @@ pub fn bin(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 fn digits(a: Expr, rewriter: &mut Rewriter<'_>, op: BinOp, base: f64, weight: impl Fn(i32) -> f64) -> Expr {
     let a = rewriter.held(a);
     (1..DIGITS).fold(a.clone(), |sum, i| {
-        let higher = apply(Func::Fix, binary(BinOp::Div, a.clone(), number(base.powi(i))));
+        let higher = apply(Func::Fix, Expr::binary(BinOp::Div, a.clone(), number(base.powi(i))));
         // One term a statement keeps lines short.
-        Expr::Var(rewriter.hold(binary(op, sum, binary(BinOp::Mul, higher, number(weight(i))))))
+        Expr::Var(rewriter.hold(Expr::binary(op, sum, Expr::binary(BinOp::Mul, higher, number(weight(i))))))
     })
 }

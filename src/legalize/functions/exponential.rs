@@ -1,6 +1,6 @@
 //! EXP, LN and POW by series that need no loop.
 
-use super::{Emulated, apply, binary, number};
+use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Expr};
@@ -12,13 +12,15 @@ const HALVINGS: i32 = 10;
 /// Law: `EXP[a] = EXP[a/1024]^1024`, the inner one by its series to the seventh power. For `a` from
 /// -20 to 20 the relative difference is below 1e-12 in binary64.
 pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
-    let small = rewriter.hold(binary(BinOp::Div, a, number(2f64.powi(HALVINGS))));
+    let small = rewriter.hold(Expr::binary(BinOp::Div, a, number(2f64.powi(HALVINGS))));
     // Horner: 1 + s(1 + s/2(1 + s/3(..))).
     let series = (1..=7).rev().fold(number(1.0), |inner, k| {
-        let term = binary(BinOp::Div, binary(BinOp::Mul, Expr::Var(small), inner), number(f64::from(k)));
-        Expr::Var(rewriter.hold(binary(BinOp::Add, number(1.0), term)))
+        let term =
+            Expr::binary(BinOp::Div, Expr::binary(BinOp::Mul, Expr::Var(small), inner), number(f64::from(k)));
+        Expr::Var(rewriter.hold(Expr::binary(BinOp::Add, number(1.0), term)))
     });
-    let value = (0..HALVINGS).fold(series, |v, _| Expr::Var(rewriter.hold(binary(BinOp::Mul, v.clone(), v))));
+    let value =
+        (0..HALVINGS).fold(series, |v, _| Expr::Var(rewriter.hold(Expr::binary(BinOp::Mul, v.clone(), v))));
     Emulated::Near(value, "by its series, within a 1e-12th part for arguments from -20 to 20".into())
 }
 
@@ -27,15 +29,15 @@ pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 pub fn ln(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let root = (0..HALVINGS).fold(a, |v, _| Expr::Var(rewriter.hold(apply(Func::Sqrt, v))));
     let (below, above) =
-        (binary(BinOp::Sub, root.clone(), number(1.0)), binary(BinOp::Add, root, number(1.0)));
-    let w = Expr::Var(rewriter.hold(binary(BinOp::Div, below, above)));
-    let square = Expr::Var(rewriter.hold(binary(BinOp::Mul, w.clone(), w.clone())));
+        (Expr::binary(BinOp::Sub, root.clone(), number(1.0)), Expr::binary(BinOp::Add, root, number(1.0)));
+    let w = Expr::Var(rewriter.hold(Expr::binary(BinOp::Div, below, above)));
+    let square = Expr::Var(rewriter.hold(Expr::binary(BinOp::Mul, w.clone(), w.clone())));
     let series = [5.0, 3.0, 1.0].into_iter().fold(number(1.0 / 7.0), |inner, k| {
-        let step = binary(BinOp::Add, number(1.0 / k), binary(BinOp::Mul, square.clone(), inner));
+        let step = Expr::binary(BinOp::Add, number(1.0 / k), Expr::binary(BinOp::Mul, square.clone(), inner));
         Expr::Var(rewriter.hold(step))
     });
     let scale = number(2f64.powi(HALVINGS + 1));
-    let value = rewriter.hold(binary(BinOp::Mul, scale, binary(BinOp::Mul, w, series)));
+    let value = rewriter.hold(Expr::binary(BinOp::Mul, scale, Expr::binary(BinOp::Mul, w, series)));
     Emulated::Near(
         Expr::Var(value),
         "by its series, within 1e-11 for arguments from 1e-9 to 1e9; zero does not alarm".into(),
@@ -46,12 +48,12 @@ pub fn ln(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 pub fn pow(a: Expr, power: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Emulated {
     if let Some(n) = power.constant().filter(|n| n.fract() == 0.0 && (1.0..=8.0).contains(n)) {
         let a = rewriter.held(a);
-        let product = (1..n as u32).fold(a.clone(), |p, _| binary(BinOp::Mul, p, a.clone()));
+        let product = (1..n as u32).fold(a.clone(), |p, _| Expr::binary(BinOp::Mul, p, a.clone()));
         return Emulated::Near(product, "as a product; the last digit may differ".into());
     }
     let native = target.function(Func::Ln, 1).is_some() && target.function(Func::Exp, 1).is_some();
     let log = if native { apply(Func::Ln, a) } else { value(ln(a, rewriter)) };
-    let product = binary(BinOp::Mul, power, log);
+    let product = Expr::binary(BinOp::Mul, power, log);
     let result = if native { apply(Func::Exp, product) } else { value(exp(product, rewriter)) };
     Emulated::Near(result, "as EXP[b*LN[a]], for bases above zero only".into())
 }

@@ -38,11 +38,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 Expr::Call(function, arguments) => {
                     (function.name(), call(function, arguments, position, rewriter, source, target))
                 }
-                Expr::Binary(BinOp::Mod, a, b) if !modulo::is_native(&a, &b, target) => {
-                    ("mod", modulo::by_division(*a, *b, rewriter, target))
+                Expr::Binary(BinOp::Mod, operands) if !modulo::is_native(&operands, target) => {
+                    let [a, b] = *operands;
+                    ("mod", modulo::by_division(a, b, rewriter, target))
                 }
-                Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), a, b) => {
-                    ("bits", Emulated::Exact(rounding::bits(op, *a, *b, position, rewriter, target)))
+                Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
+                    let [a, b] = *operands;
+                    ("bits", Emulated::Exact(rounding::bits(op, a, b, position, rewriter, target)))
                 }
                 other => return other,
             };
@@ -118,11 +120,6 @@ fn call(
 fn missing(function: &str, target: &Control) -> Emulated {
     let title = &target.dialect().title;
     Emulated::Missing(format!("{title} has no function '{function}', and arithmetic does not give it"))
-}
-
-/// `a op b`.
-fn binary(op: BinOp, a: Expr, b: Expr) -> Expr {
-    Expr::Binary(op, Box::new(a), Box::new(b))
 }
 
 /// The function of one argument.

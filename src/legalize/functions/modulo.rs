@@ -3,20 +3,21 @@
 //! Law: with a and b rounded to whole numbers, `a - FIX[a/b]*b` has the dividend's sign and is the remainder. Exact for
 //! whole numbers up to 2^53; a divisor of 0 stops the machine in the quotient as it does in MOD.
 
-use super::{Emulated, apply, binary, missing, number, rounding};
+use super::{Emulated, apply, missing, number, rounding};
 use crate::canon::Func;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Expr};
 use crate::legalize::Rewriter;
 
 /// True where the target's MOD is the one of the intermediate form for these operands.
-pub fn is_native(a: &Expr, b: &Expr, target: &Control) -> bool {
+pub fn is_native(operands: &[Expr; 2], target: &Control) -> bool {
     let answer = |name: &str, value: &str| {
         target.behaviour(name).is_some_and(|row| row.value == value && row.origin.confirmed)
     };
     let whole = |e: &Expr| e.constant().is_some_and(|v| v >= 0.0 && v.fract() == 0.0);
     target.operator("modulo").is_some()
-        && (whole(a) && whole(b) || answer("mod.rounds.operands", "true") && answer("mod.sign", "dividend"))
+        && (operands.iter().all(whole)
+            || answer("mod.rounds.operands", "true") && answer("mod.sign", "dividend"))
 }
 
 /// The remainder by division.
@@ -29,6 +30,6 @@ pub fn by_division(a: Expr, b: Expr, rewriter: &mut Rewriter<'_>, target: &Contr
         None => rounding::nearest(e, rewriter, target),
     };
     let (a, b) = (whole(a), whole(b));
-    let times = apply(Func::Fix, binary(BinOp::Div, a.clone(), b.clone()));
-    Emulated::Exact(binary(BinOp::Sub, a, binary(BinOp::Mul, times, b)))
+    let times = apply(Func::Fix, Expr::binary(BinOp::Div, a.clone(), b.clone()));
+    Emulated::Exact(Expr::binary(BinOp::Sub, a, Expr::binary(BinOp::Mul, times, b)))
 }

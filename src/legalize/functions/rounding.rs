@@ -1,6 +1,6 @@
 //! SGN, FUP, ROUND and rounding to places.
 
-use super::{Emulated, apply, binary, number};
+use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr, Relation};
@@ -22,7 +22,7 @@ pub fn fup(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let r = rewriter.hold(f.clone());
     for (relation, step) in [(Relation::Greater, 1.0), (Relation::Less, -1.0)] {
         let cond = Cond::Compare(relation, a.clone(), f.clone());
-        rewriter.first(Prelude::When(cond, r, binary(BinOp::Add, f.clone(), number(step))));
+        rewriter.first(Prelude::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
     }
     Emulated::Exact(Expr::Var(r))
 }
@@ -36,11 +36,11 @@ pub fn nearest(a: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
     }
     let a = rewriter.held(a);
     let f = Expr::Var(rewriter.hold(apply(Func::Fix, a.clone())));
-    let rest = Expr::Var(rewriter.hold(binary(BinOp::Sub, a, f.clone())));
+    let rest = Expr::Var(rewriter.hold(Expr::binary(BinOp::Sub, a, f.clone())));
     let r = rewriter.hold(f.clone());
     for (relation, half, step) in [(Relation::GreaterEqual, 0.5, 1.0), (Relation::LessEqual, -0.5, -1.0)] {
         let cond = Cond::Compare(relation, rest.clone(), number(half));
-        rewriter.first(Prelude::When(cond, r, binary(BinOp::Add, f.clone(), number(step))));
+        rewriter.first(Prelude::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
     }
     Expr::Var(r)
 }
@@ -66,7 +66,7 @@ pub fn bits(
         None => nearest(e, rewriter, target),
     };
     let (a, b) = (whole(a), whole(b));
-    binary(op, a, b)
+    Expr::binary(op, a, b)
 }
 
 /// Law: `ROUND[a*10^n]/10^n`. The product is rounded once more than the original's, so a
@@ -80,9 +80,9 @@ pub fn round_places(a: Expr, places: &Expr, rewriter: &mut Rewriter<'_>, target:
         return super::missing(Func::Round.name(), target);
     }
     let scale = number(10f64.powi(places as i32));
-    let scaled = rewriter.hold(binary(BinOp::Mul, a, scale.clone()));
+    let scaled = rewriter.hold(Expr::binary(BinOp::Mul, a, scale.clone()));
     let rounded = nearest(Expr::Var(scaled), rewriter, target);
-    let value = binary(BinOp::Div, rounded, scale);
+    let value = Expr::binary(BinOp::Div, rounded, scale);
     Emulated::Near(
         value,
         format!("rounding to {places} places; a half within the last digit may go the other way"),

@@ -1,6 +1,6 @@
 //! TAN, ASIN, ACOS and the two-argument ATAN.
 
-use super::{Emulated, apply, binary, number};
+use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr, Relation};
@@ -10,7 +10,7 @@ use crate::legalize::{Prelude, Rewriter};
 /// what the control has for `COS[90]`, as the tangent itself would.
 pub fn tan(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let a = rewriter.held(a);
-    Emulated::Exact(binary(BinOp::Div, apply(Func::Sin, a.clone()), apply(Func::Cos, a)))
+    Emulated::Exact(Expr::binary(BinOp::Div, apply(Func::Sin, a.clone()), apply(Func::Cos, a)))
 }
 
 /// ASIN and ACOS: the target's own where their ranges agree, else by the arc tangent.
@@ -38,19 +38,19 @@ pub fn inverse(
         };
     }
     let x = rewriter.held(a);
-    let square = binary(BinOp::Mul, x.clone(), x.clone());
-    let root = rewriter.hold(apply(Func::Sqrt, binary(BinOp::Sub, number(1.0), square)));
+    let square = Expr::binary(BinOp::Mul, x.clone(), x.clone());
+    let root = rewriter.hold(apply(Func::Sqrt, Expr::binary(BinOp::Sub, number(1.0), square)));
     let zero = Cond::Compare(Relation::Equal, Expr::Var(root), number(0.0));
-    let asin = rewriter.hold(binary(BinOp::Mul, number(90.0), x.clone()));
+    let asin = rewriter.hold(Expr::binary(BinOp::Mul, number(90.0), x.clone()));
     // The divisor is made 1 where it would be 0; the quotient is not used there.
     let divisor = rewriter.hold(Expr::Var(root));
     rewriter.first(Prelude::When(zero.clone(), divisor, number(1.0)));
-    let inside = apply(Func::Atan, binary(BinOp::Div, x, Expr::Var(divisor)));
+    let inside = apply(Func::Atan, Expr::binary(BinOp::Div, x, Expr::Var(divisor)));
     rewriter.first(Prelude::When(zero.negated(), asin, inside));
     let value = match function {
         Func::Asin if wanted == "270..90" => wrapped(Expr::Var(asin), rewriter),
         Func::Asin => Expr::Var(asin),
-        _ => binary(BinOp::Sub, number(90.0), Expr::Var(asin)),
+        _ => Expr::binary(BinOp::Sub, number(90.0), Expr::Var(asin)),
     };
     Emulated::Near(value, "by the arc tangent, within 1e-7 degrees".into())
 }
@@ -59,7 +59,7 @@ pub fn inverse(
 fn wrapped(angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
     let angle = rewriter.hold(angle);
     let below = Cond::Compare(Relation::Less, Expr::Var(angle), number(0.0));
-    let turned = binary(BinOp::Add, Expr::Var(angle), number(360.0));
+    let turned = Expr::binary(BinOp::Add, Expr::Var(angle), number(360.0));
     rewriter.first(Prelude::When(below, angle, turned));
     Expr::Var(angle)
 }
@@ -84,8 +84,8 @@ pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, ta
     let compare = |relation, a: &Expr| Cond::Compare(relation, a.clone(), number(0.0));
     let divisor = rewriter.hold(x.clone());
     rewriter.first(Prelude::When(compare(Relation::Equal, &x), divisor, y.clone()));
-    let angle = rewriter.hold(apply(Func::Atan, binary(BinOp::Div, y.clone(), Expr::Var(divisor))));
-    let turned = |by: f64| binary(BinOp::Add, Expr::Var(angle), number(by));
+    let angle = rewriter.hold(apply(Func::Atan, Expr::binary(BinOp::Div, y.clone(), Expr::Var(divisor))));
+    let turned = |by: f64| Expr::binary(BinOp::Add, Expr::Var(angle), number(by));
     rewriter.first(Prelude::When(compare(Relation::Less, &x), angle, turned(180.0)));
     let upright = |relation| Cond::And(vec![compare(Relation::Equal, &x), compare(relation, &y)]);
     if x.constant().is_none_or(|x| x == 0.0) {

@@ -106,7 +106,7 @@ impl Lowering<'_> {
                 if let Some(target) = self.variable(target) {
                     let whole = Expr::Call(Func::Fix, [Expr::Var(target)].into());
                     let op = if *down { BinOp::Sub } else { BinOp::Add };
-                    let value = Expr::Binary(op, Box::new(whole), Box::new(Expr::Number(1.0)));
+                    let value = Expr::binary(op, whole, Expr::Number(1.0));
                     self.assign(target, value, site);
                     self.set_register(Source::Arithmetic, Expr::Var(target), site);
                 }

@@ -46,7 +46,7 @@ impl Lowering<'_> {
             ("TRF", Row::Variable(row)) => {
                 let row = self.row(row, cells, site)?;
                 let before = Expr::Number(self.before_shifts()?);
-                Some(Store::Shift(Expr::Binary(BinOp::Sub, Box::new(row), Box::new(before))))
+                Some(Store::Shift(Expr::binary(BinOp::Sub, row, before)))
             }
             ("TRF", Row::Word('G', number)) => Some(Store::Code(*number)),
             _ => {

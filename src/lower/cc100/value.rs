@@ -113,6 +113,6 @@ fn binary(op: BinOp, a: Expr, b: Expr) -> Expr {
     match (op, &a, &b) {
         (BinOp::Mul, Expr::Var(_), Expr::Number(n)) if *n == -1.0 => Expr::Negate(Box::new(a)),
         (BinOp::Mul, Expr::Number(n), Expr::Var(_)) if *n == -1.0 => Expr::Negate(Box::new(b)),
-        _ => Expr::Binary(op, Box::new(a), Box::new(b)),
+        _ => Expr::binary(op, a, b),
     }
 }

@@ -24,7 +24,9 @@ fn is_whole(value: &Expr, known: Wholes) -> bool {
         Expr::Var(var) => known & bit(*var) != 0,
         Expr::Negate(inner) => is_whole(inner, known),
         Expr::Call(Func::Fix, _) => true,
-        Expr::Binary(BinOp::Add | BinOp::Sub | BinOp::Mul, a, b) => is_whole(a, known) && is_whole(b, known),
+        Expr::Binary(BinOp::Add | BinOp::Sub | BinOp::Mul, operands) => {
+            operands.iter().all(|operand| is_whole(operand, known))
+        }
         _ => false,
     }
 }
@@ -51,12 +53,13 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
     for (block, mut known) in program.blocks.iter_mut().zip(starts) {
         for stmt in &mut block.stmts {
             let span = stmt.site.span;
-            if let StmtKind::Assign { target: Place::Var(var), value: Expr::Binary(_, counted, _) } =
+            if let StmtKind::Assign { target: Place::Var(var), value: Expr::Binary(_, operands) } =
                 &mut stmt.kind
-                && **counted == Expr::Call(Func::Fix, [Expr::Var(*var)].into())
+                && let [counted, _] = &mut **operands
+                && *counted == Expr::Call(Func::Fix, [Expr::Var(*var)].into())
             {
                 if known & bit(*var) != 0 {
-                    **counted = Expr::Var(*var);
+                    *counted = Expr::Var(*var);
                 } else if findings.behaviour("step.drops.fraction", span) != Some("true") {
                     findings.not_understood(span, "no source says what a step does with a fraction");
                 } else {

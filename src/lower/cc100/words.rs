@@ -242,7 +242,7 @@ impl<'a> Lowering<'a> {
         Some(match self.operand(word.value.as_ref()?)? {
             Expr::Number(again) => Expr::Number(again + first),
             again if first == 0.0 => again,
-            again => Expr::Binary(BinOp::Add, Box::new(again), Box::new(Expr::Number(first))),
+            again => Expr::binary(BinOp::Add, again, Expr::Number(first)),
         })
     }
 }

@@ -313,7 +313,7 @@ fn note_reads(value: &Expr, read: &mut Vec<Var>) {
     match value {
         Expr::Var(var) => read.push(*var),
         Expr::Negate(inner) => note_reads(inner, read),
-        Expr::Binary(_, a, _) => note_reads(a, read),
+        Expr::Binary(_, operands) => note_reads(&operands[0], read),
         _ => {}
     }
 }

@@ -194,7 +194,7 @@ impl<'b> Lowering<'b> {
         let value = self.nc_value(value, None)?;
         let count = |value: Expr, sub: u32| {
             let base = Box::new(Expr::Number(f64::from(sub * 100)));
-            Some(Expr::Binary(BinOp::Sub, Box::new(value), base))
+            Some(Expr::binary(BinOp::Sub, value, *base))
         };
         if let ([number], false) = (subs, others) {
             let callee = self.callee(f64::from(number * 100 + 1), Span::default())?;

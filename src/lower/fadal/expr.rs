@@ -41,7 +41,7 @@ impl<'b> Lowering<'b> {
                 }
                 let a = self.nested(a, depth + 1)?;
                 let b = self.nested(b, depth + 1)?;
-                Expr::Binary(op, Box::new(a), Box::new(b))
+                Expr::binary(op, a, b)
             }
             ExprKind::Call { function, arguments, .. } => {
                 let mut values = ThinVec::with_capacity(arguments.len());
@@ -151,7 +151,7 @@ pub fn negate(value: Expr) -> Expr {
 }
 
 fn scale(value: Expr, factor: f64) -> Expr {
-    Expr::Binary(BinOp::Mul, Box::new(value), Box::new(Expr::Number(factor)))
+    Expr::binary(BinOp::Mul, value, Expr::Number(factor))
 }
 
 fn arithmetic(op: BinaryOp) -> Option<BinOp> {

@@ -144,9 +144,9 @@ pub fn piecewise(value: Expr, pieces: impl Iterator<Item = (f64, f64)>) -> Expr 
             step
         } else {
             let here = Cond::Compare(Relation::GreaterEqual, value.clone(), Expr::Number(first));
-            Expr::Binary(BinOp::Mul, Box::new(step), Box::new(Expr::Truth(Box::new(here))))
+            Expr::binary(BinOp::Mul, step, Expr::Truth(Box::new(here)))
         };
-        out = Expr::Binary(BinOp::Add, Box::new(out), Box::new(term));
+        out = Expr::binary(BinOp::Add, out, term);
     }
     out
 }

@@ -147,7 +147,7 @@ impl<'a> Lowering<'a> {
             Some(count) => count,
             None => match self.part(parts, Role::CallAgain)? {
                 Expr::Number(again) => Expr::Number(again + 1.0),
-                again => Expr::Binary(BinOp::Add, Box::new(again), Box::new(Expr::Number(1.0))),
+                again => Expr::binary(BinOp::Add, again, Expr::Number(1.0)),
             },
         };
         if count.constant() == Some(0.0) {

@@ -111,7 +111,7 @@ impl<'a> Lowering<'a> {
         let fact = "behaviour:number.is.condition".into();
         let note = "a vacant variable as a condition is taken for false";
         self.findings.unconfirmed(fact, Some(note), span);
-        Expr::Binary(BinOp::Add, Box::new(value), Box::new(Expr::Number(0.0)))
+        Expr::binary(BinOp::Add, value, Expr::Number(0.0))
     }
 }
 

@@ -92,7 +92,7 @@ impl<'a> Lowering<'a> {
             BinOp::And | BinOp::Or | BinOp::Xor => return self.bits(op, x, y, whole.span),
             _ => {}
         }
-        Expr::Binary(op, Box::new(x), Box::new(y))
+        Expr::binary(op, x, y)
     }
 
     /// The rank of an operator matters where an operand is another operation without brackets. `joins`
@@ -152,7 +152,7 @@ impl<'a> Lowering<'a> {
                 (a, b)
             }
         };
-        Expr::Binary(op, Box::new(a), Box::new(b))
+        Expr::binary(op, a, b)
     }
 
     /// A condition as a value: 1 or 0.

@@ -43,7 +43,7 @@ impl<'a> Lowering<'a> {
             let hub = *self.hub.get_or_insert_with(|| (self.builder.fresh(), span));
             // A temporary is never vacant; what is vacant finds no block, as 0 does not.
             let value = match value.may_be_vacant() {
-                true => Expr::Binary(BinOp::Add, Box::new(value), Box::new(Expr::Number(0.0))),
+                true => Expr::binary(BinOp::Add, value, Expr::Number(0.0)),
                 false => value,
             };
             self.builder.push(StmtKind::Assign { target: Place::Var(HUB), value }, site.clone());

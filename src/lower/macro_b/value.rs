@@ -110,9 +110,7 @@ impl<'a> Lowering<'a> {
                 Expr::Number(self.control.canonical(code, role, number.round()))
             }
             (lowered, None | Some([])) => lowered,
-            (lowered, Some([one])) => {
-                Expr::Binary(BinOp::Add, Box::new(lowered), Box::new(Expr::Number(one.add as f64)))
-            }
+            (lowered, Some([one])) => Expr::binary(BinOp::Add, lowered, Expr::Number(one.add as f64)),
             (lowered, Some(_)) => {
                 self.findings.not_understood(span, "a computed number in a run with several parts");
                 lowered
@@ -186,7 +184,7 @@ impl<'a> Lowering<'a> {
             Some("seconds") if role == Role::DwellMs => Some((Role::DwellS, lowered)),
             Some("seconds") => {
                 let thousand = Box::new(Expr::Number(1000.0));
-                Some((role, Expr::Binary(BinOp::Mul, Box::new(lowered), thousand)))
+                Some((role, Expr::binary(BinOp::Mul, lowered, *thousand)))
             }
             Some(_) => Some((role, lowered)),
             None => {

@@ -187,7 +187,7 @@ impl<'a> Lowering<'a> {
         let note = format!("the fraction in #{number}.{bit} is taken for the number of a bit");
         self.findings.unconfirmed("statement:read.bit".into(), Some(&note), span);
         let mask = Expr::Number(2f64.powi(bit as i32));
-        let masked = Expr::Binary(BinOp::And, Box::new(whole), Box::new(mask));
+        let masked = Expr::binary(BinOp::And, whole, mask);
         Expr::Truth(Box::new(Cond::Compare(Relation::NotEqual, masked, Expr::Number(0.0))))
     }
 

@@ -96,7 +96,7 @@ fn n(value: f64) -> Expr {
 }
 
 fn bin(op: BinOp, a: Expr, b: Expr) -> Expr {
-    Expr::Binary(op, Box::new(a), Box::new(b))
+    Expr::binary(op, a, b)
 }
 
 fn add(a: Expr, b: Expr) -> Expr {
