@@ -5,11 +5,11 @@
 //! is looked up. Counter-example: `V(101)`, which the source does not have, and which is on the target what stands behind the run.
 
 use super::Context;
-use super::computed_numbers::{all_numbers, each_index};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::analysis::{Summaries, values_at};
-use crate::ir::{Bank, Expr, Module};
+use crate::ir::analysis::{Constant, Summaries, values_at};
+use crate::ir::eval::whole;
+use crate::ir::{Bank, BlockId, Expr, Module, Program};
 use crate::text::Span;
 
 /// Reports computed numbers that may lie outside of their space.
@@ -61,5 +61,34 @@ impl Space {
 
     fn holds(&self, number: u32) -> bool {
         (self.first..=self.last).contains(&number)
+    }
+}
+
+/// The whole numbers that constants are; none where one is something else.
+pub(super) fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
+    let number = |constant| match constant {
+        Constant::Number(value) if value.fract() == 0.0 => whole(value),
+        _ => None,
+    };
+    constants.into_iter().map(number).collect()
+}
+
+/// Calls `f` on each computed number, with its space, its place and the statement that it stands in.
+pub(super) fn each_index(program: &Program, f: &mut dyn FnMut(Bank, &Expr, Span, BlockId, usize)) {
+    for (id, block) in program.ids().zip(&program.blocks) {
+        let mut look = |e: &Expr, span: Span, at: usize| {
+            e.walk(&mut |e| {
+                if let Expr::Indirect(bank, number) = e {
+                    f(*bank, number, span, id, at);
+                }
+            });
+        };
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            stmt.kind.exprs(&mut |e| look(e, stmt.site.span, at));
+            if let Some(place) = stmt.kind.target() {
+                look(&place.read(), stmt.site.span, at);
+            }
+        }
+        block.term.kind.exprs(&mut |e| look(e, block.term.site.span, block.stmts.len()));
     }
 }

@@ -6,13 +6,14 @@
 //! condition, for a reviewer: the number stays in the run in which its constant part lies.
 //! Counter-example: `#[2000+#1]` with `#1` = 3 is a length offset on one control and a wear on another.
 
+use super::banks::{all_numbers, each_index};
 use super::{Context, rewrite_program};
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side, SystemVariable};
-use crate::ir::analysis::{Constant, Summaries, values_at};
+use crate::ir::analysis::{Summaries, values_at};
 use crate::ir::eval::whole;
-use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Place, Program, StmtKind};
+use crate::ir::{Bank, BinOp, Expr, Module, Place, Program, StmtKind};
 use crate::text::Span;
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -325,35 +326,6 @@ fn constant_part(number: &Expr) -> Option<f64> {
             if let (Some(a), Some(b)) = (a, b) { Some(a + b) } else { a.or(b) }
         }
         _ => None,
-    }
-}
-
-/// The whole numbers that constants are; none where one is something else.
-pub(super) fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
-    let number = |constant| match constant {
-        Constant::Number(value) if value.fract() == 0.0 => whole(value),
-        _ => None,
-    };
-    constants.into_iter().map(number).collect()
-}
-
-/// Calls `f` on each computed number, with its space, its place and the statement that it stands in.
-pub(super) fn each_index(program: &Program, f: &mut dyn FnMut(Bank, &Expr, Span, BlockId, usize)) {
-    for (id, block) in program.ids().zip(&program.blocks) {
-        let mut look = |e: &Expr, span: Span, at: usize| {
-            e.walk(&mut |e| {
-                if let Expr::Indirect(bank, number) = e {
-                    f(*bank, number, span, id, at);
-                }
-            });
-        };
-        for (at, stmt) in block.stmts.iter().enumerate() {
-            stmt.kind.exprs(&mut |e| look(e, stmt.site.span, at));
-            if let Some(place) = stmt.kind.target() {
-                look(&place.read(), stmt.site.span, at);
-            }
-        }
-        block.term.kind.exprs(&mut |e| look(e, block.term.site.span, block.stmts.len()));
     }
 }
 
