@@ -12,12 +12,12 @@ macro_rules! visitors {
     ($name:ident, $iter:ident $(, $mut:tt)?) => {
         impl Expr {
             #[doc = "Visits the operands, those in conditions included, not theirs."]
-            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+            pub fn $name<'e, F: FnMut(&'e $($mut)? Expr) + ?Sized>(&'e $($mut)? self, f: &mut F) {
                 match self {
                     Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
                     Expr::Indirect(_, a) | Expr::Negate(a) => f(a),
-                    Expr::System(_, all) | Expr::Call(_, all) => all.$iter().for_each(f),
-                    Expr::Binary(_, operands) => operands.$iter().for_each(f),
+                    Expr::System(_, all) | Expr::Call(_, all) => all.$iter().for_each(|e| f(e)),
+                    Expr::Binary(_, operands) => operands.$iter().for_each(|e| f(e)),
                     Expr::Truth(cond) => cond.$name(f),
                 }
             }
@@ -25,7 +25,7 @@ macro_rules! visitors {
 
         impl Cond {
             #[doc = "Visits the outermost expressions."]
-            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+            pub fn $name<'e, F: FnMut(&'e $($mut)? Expr) + ?Sized>(&'e $($mut)? self, f: &mut F) {
                 match self {
                     Cond::Compare(_, a, b) => {
                         f(a);
@@ -40,29 +40,29 @@ macro_rules! visitors {
 
         impl Place {
             #[doc = "Visits the outermost expressions that say which place it is."]
-            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+            pub fn $name<'e, F: FnMut(&'e $($mut)? Expr) + ?Sized>(&'e $($mut)? self, f: &mut F) {
                 match self {
                     Place::Var(_) => {}
                     Place::Indirect(_, index) => f(index),
-                    Place::System(_, subscripts) => subscripts.$iter().for_each(f),
+                    Place::System(_, subscripts) => subscripts.$iter().for_each(|e| f(e)),
                 }
             }
         }
 
         impl Call {
             #[doc = "Visits the outermost expressions: callee, arguments, count."]
-            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+            pub fn $name<'e, F: FnMut(&'e $($mut)? Expr) + ?Sized>(&'e $($mut)? self, f: &mut F) {
                 if let Callee::Computed(number) = &$($mut)? self.callee {
                     f(number);
                 }
                 self.arguments.$iter().for_each(|argument| f(&$($mut)? argument.value));
-                self.count.$iter().for_each(f);
+                self.count.$iter().for_each(|e| f(e));
             }
         }
 
         impl StmtKind {
             #[doc = "Visits the outermost expressions, those of a written place included."]
-            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+            pub fn $name<'e, F: FnMut(&'e $($mut)? Expr) + ?Sized>(&'e $($mut)? self, f: &mut F) {
                 match self {
                     StmtKind::Assign { target, value } => {
                         target.$name(f);
@@ -99,12 +99,12 @@ macro_rules! visitors {
 
         impl TermKind {
             #[doc = "Visits the outermost expressions, those of a condition included."]
-            pub fn $name<'e>(&'e $($mut)? self, f: &mut dyn FnMut(&'e $($mut)? Expr)) {
+            pub fn $name<'e, F: FnMut(&'e $($mut)? Expr) + ?Sized>(&'e $($mut)? self, f: &mut F) {
                 match self {
                     TermKind::Branch { cond, .. } => cond.$name(f),
                     TermKind::Computed { value, .. } => f(value),
                     TermKind::Call { call, .. } => call.$name(f),
-                    TermKind::Return { to } => to.$iter().for_each(f),
+                    TermKind::Return { to } => to.$iter().for_each(|e| f(e)),
                     TermKind::Jump(_) | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {}
                 }
             }
@@ -117,7 +117,7 @@ visitors!(exprs_mut, iter_mut, mut);
 
 impl Expr {
     /// Visits the expression and everything in it. Bounded by the validator's depth limit.
-    pub fn walk<'e>(&'e self, f: &mut dyn FnMut(&'e Expr)) {
+    pub fn walk<'e, F: FnMut(&'e Expr) + ?Sized>(&'e self, f: &mut F) {
         f(self);
         match self {
             Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => {}
@@ -203,7 +203,7 @@ impl Program {
     }
 
     /// Visits every variable that the program names, as often as it does.
-    pub fn variables(&self, f: &mut dyn FnMut(Var)) {
+    pub fn variables<F: FnMut(Var) + ?Sized>(&self, f: &mut F) {
         let mut read = |e: &Expr| e.variables(f);
         for block in &self.blocks {
             for stmt in &block.stmts {
@@ -222,7 +222,7 @@ impl Program {
 
 impl Expr {
     /// Visits every variable in the expression.
-    pub fn variables(&self, f: &mut dyn FnMut(Var)) {
+    pub fn variables<F: FnMut(Var) + ?Sized>(&self, f: &mut F) {
         match self {
             Expr::Var(var) => f(*var),
             Expr::Number(_) | Expr::Increments(_) | Expr::Vacant => {}

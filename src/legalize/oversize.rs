@@ -91,6 +91,9 @@ impl Cutter<'_> {
 
     /// Puts what was taken out before the statement; how many statements that is.
     fn lay(&mut self, stmts: &mut Vec<Stmt>, at: usize, skip: Option<u8>) -> usize {
+        if self.before.is_empty() {
+            return 0;
+        }
         let count = self.before.len();
         let assigns = self.before.drain(..).map(|(var, value)| Stmt {
             kind: StmtKind::Assign { target: Place::Var(var), value },
@@ -171,15 +174,17 @@ impl Cutter<'_> {
     /// Takes the longest values out of a block that is longer than a line.
     fn words(&mut self, items: &mut [NcItem]) {
         loop {
+            let lengths = items.iter().map(|item| match item {
+                NcItem::Word(_, value) => self.measure.expr(value).length + 4,
+                _ => 4,
+            });
+            if lengths.sum::<usize>() <= self.room {
+                return;
+            }
             let mut longest: Option<(usize, usize)> = None;
-            let mut total = 0;
             for (at, item) in items.iter().enumerate() {
-                let NcItem::Word(role, value) = item else {
-                    total += 4;
-                    continue;
-                };
+                let NcItem::Word(role, value) = item else { continue };
                 let length = self.measure.expr(value).length;
-                total += length + 4;
                 let movable = !is_leaf(value)
                     && !value.may_be_vacant()
                     && is_free_all(value, true)
@@ -188,7 +193,7 @@ impl Cutter<'_> {
                     longest = Some((at, length));
                 }
             }
-            let Some((at, _)) = longest.filter(|_| total > self.room) else { return };
+            let Some((at, _)) = longest else { return };
             let Some(NcItem::Word(_, value)) = items.get_mut(at) else { return };
             let taken = std::mem::replace(value, Expr::Vacant);
             *value = Expr::Var(self.hold(taken));
