@@ -3,6 +3,7 @@
 //! Law: n increments are `n * increment` of the unit in force, for an angle of a degree. Side condition: the unit is known, from the
 //! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
 
+use super::units::names_unit;
 use super::{Context, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -16,7 +17,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), source.units()) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
     }
-    let facts = ModalFacts::of(module, &entry);
+    // Where no program names a unit, it is the machine's all through.
+    let known = context.entry.op(Group::Units).is_some() || names_unit(module);
+    let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
     // The machine's unit is in force all through only where no program of the library names the other one.
     let machine = source.units().filter(|units| {
         let mut ops = module.programs.iter().flat_map(units_named);

@@ -26,6 +26,11 @@ impl ModalFacts {
         Analysis::new(module, false).run(entry)
     }
 
+    /// Nothing known anywhere.
+    pub fn unknown() -> Self {
+        Self { entries: Vec::new() }
+    }
+
     /// The same where the macro of a modal call that stands inside another is a copy of its own: then its
     /// program runs only where something else calls it.
     pub fn with_copies(module: &Module, entry: &Modal) -> Self {

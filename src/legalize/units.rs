@@ -45,7 +45,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let one_unit = leaves_one_unit(module, context.source);
     let mut entry = context.entry.clone();
     entry.one_unit = one_unit;
-    let facts = ModalFacts::of(module, &entry);
+    let known = entry.op(Group::Units).is_some() || names_unit(module);
+    let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
     let open = open(module, &facts);
     for root in mains(module).into_iter().filter(|&root| open[root]) {
         let Some(units) = ours.or(checked[root]) else {
@@ -69,6 +70,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
         head(&mut module.programs[root], op);
     }
+}
+
+/// True where anything in a library selects a unit.
+pub(super) fn names_unit(module: &Module) -> bool {
+    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let names =
+        |stmt: &Stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(|op| op.group() == Group::Units));
+    stmts.into_iter().any(names)
 }
 
 /// Takes the checks of the unit out of a program; the unit that all of them check.
