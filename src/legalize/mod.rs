@@ -95,9 +95,11 @@ pub struct Pass {
 enum Run {
     /// Only has something to say.
     Reports(fn(&Module, &mut Context<'_>)),
+    /// Brings in nothing of a kind that was not there.
+    Narrows(fn(&mut Module, &mut Context<'_>)),
     Rewrites(fn(&mut Module, &mut Context<'_>)),
 }
-use Run::{Reports, Rewrites};
+use Run::{Narrows, Reports, Rewrites};
 
 impl Pass {
     /// Runs it where anything concerns it.
@@ -105,15 +107,17 @@ impl Pass {
         self.apply_to(&Census::of(&module.programs), module, context);
     }
 
-    /// As [`Pass::apply`]; true where that may have changed the library.
+    /// As [`Pass::apply`]; true where that may have brought in what the census does not have.
     fn apply_to(&self, census: &Census, module: &mut Module, context: &mut Context<'_>) -> bool {
         if !(self.concerns)(census, context) {
             return false;
         }
         match self.run {
             Reports(run) => run(module, context),
-            Rewrites(run) => run(module, context),
+            Narrows(run) | Rewrites(run) => run(module, context),
         }
+        let narrows = matches!(self.run, Narrows(_));
+        debug_assert!(!narrows || census.holds(&Census::of(&module.programs)), "{}", self.name);
         matches!(self.run, Rewrites(_))
     }
 }
@@ -127,7 +131,7 @@ pub const PASSES: &[Pass] = &[
     Pass {
         name: "link",
         concerns: |c, _| c.has(Thing::Call) || c.has(Thing::Chain),
-        run: Rewrites(link::run),
+        run: Narrows(link::run),
     },
     Pass { name: "outline", concerns: |c, _| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
     Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
@@ -202,7 +206,7 @@ pub const PASSES: &[Pass] = &[
         run: Rewrites(cycle_words::run),
     },
     Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Rewrites(substitutes::run) },
-    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Rewrites(machine_codes::run) },
+    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Narrows(machine_codes::run) },
     Pass { name: "missing", concerns: missing::concerns, run: Reports(missing::run) },
     Pass { name: "functions", concerns: |c, _| c.has(Thing::Function), run: Rewrites(functions::run) },
     Pass { name: "truth", concerns: truth::concerns, run: Rewrites(truth::run) },

@@ -10,7 +10,7 @@ pub struct Universe {
 }
 
 /// A subset of a [`Universe`].
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub struct Row {
     /// Two words are as large as what points to more.
     bits: SmallVec<[u64; 2]>,
@@ -58,6 +58,13 @@ impl Universe {
     /// The variables, in order.
     pub fn vars(&self) -> &[Var] {
         &self.vars
+    }
+}
+
+impl Clone for Row {
+    // The derived one copies word by word.
+    fn clone(&self) -> Self {
+        Self { bits: SmallVec::from_slice(&self.bits) }
     }
 }
 
