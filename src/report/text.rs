@@ -3,15 +3,56 @@
 use super::{Part, Totals};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::library::Outcome;
-use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents};
+use miette::{Report, SourceCode, SourceSpan, SpanContents};
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// A source file to draw diagnostics on.
 pub struct Sheet {
+    source: Arc<Lines>,
+    handler: GraphicalReportHandler,
+}
+
+/// The text of a file that is found by its lines: a place costs what stands around it, not what stands before it.
+struct Lines {
     name: String,
     text: String,
-    handler: GraphicalReportHandler,
+    /// Where each line begins.
+    starts: Vec<usize>,
+}
+
+impl Lines {
+    /// The line of an offset, from 0.
+    fn line(&self, offset: usize) -> usize {
+        self.starts.partition_point(|start| *start <= offset).saturating_sub(1)
+    }
+}
+
+impl SourceCode for Lines {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        // An empty place at the start of a line is looked for from the end of the one before.
+        let first = self.line(span.offset()).saturating_sub(before + 1);
+        let start = self.starts.get(first).copied().unwrap_or(0);
+        let last = self.line(span.offset().saturating_add(span.len())).saturating_add(after + 2);
+        let end = self.starts.get(last).copied().unwrap_or(self.text.len());
+        let around = self.text.as_bytes().get(start..end).ok_or(MietteError::OutOfBounds)?;
+        let inside = SourceSpan::from((span.offset().saturating_sub(start), span.len()));
+        let (at, line, column, count) = {
+            let found = around.read_span(&inside, before, after)?;
+            (*found.span(), found.line(), found.column(), found.line_count())
+        };
+        let data = around.get(at.offset()..at.offset() + at.len()).ok_or(MietteError::OutOfBounds)?;
+        let at = SourceSpan::from((at.offset() + start, at.len()));
+        let name = self.name.clone();
+        Ok(Box::new(MietteSpanContents::new_named(name, data, at, line + first, column, count + first)))
+    }
 }
 
 impl Sheet {
@@ -25,17 +66,19 @@ impl Sheet {
             0x20..=0x7e => byte as char,
             _ => '?',
         };
-        let text = bytes.iter().enumerate().map(draw).collect();
-        Self { name: name.into(), text, handler: handler() }
+        let text: String = bytes.iter().enumerate().map(draw).collect();
+        let starts =
+            [0].into_iter().chain(memchr::memchr_iter(b'\n', text.as_bytes()).map(|at| at + 1)).collect();
+        Self { source: Arc::new(Lines { name: name.into(), text, starts }), handler: handler() }
     }
 
     /// A diagnostic, drawn.
     pub fn draw(&self, diagnostic: &Diagnostic) -> String {
-        let span = diagnostic.span;
-        let start = (span.start as usize).min(self.text.len());
+        let (span, text) = (diagnostic.span, &self.source.text);
+        let start = (span.start as usize).min(text.len());
         // Only the first line of a place is drawn.
-        let end = (span.end as usize).clamp(start, self.text.len());
-        let end = start + self.text[start..end].find('\n').unwrap_or(end - start);
+        let end = (span.end as usize).clamp(start, text.len());
+        let end = start + text[start..end].find('\n').unwrap_or(end - start);
         let severity = match diagnostic.severity() {
             Severity::Error => miette::Severity::Error,
             Severity::Review => miette::Severity::Warning,
@@ -48,12 +91,11 @@ impl Sheet {
         if let Some(help) = &diagnostic.help {
             drawn = drawn.with_help(help.to_string());
         }
-        let report =
-            Report::new(drawn).with_source_code(NamedSource::new(self.name.clone(), self.text.clone()));
+        let report = Report::new(drawn).with_source_code(Arc::clone(&self.source));
         let mut out = String::new();
         match self.handler.render_report(&mut out, report.as_ref()) {
             Ok(()) => out,
-            Err(_) => format!("{}: {}: {}\n", self.name, diagnostic.code.number(), diagnostic.message),
+            Err(_) => format!("{}: {}: {}\n", self.source.name, diagnostic.code.number(), diagnostic.message),
         }
     }
 }
@@ -102,5 +144,29 @@ fn list(out: &mut String, part: &Part<'_>) {
         let name = program.name.as_deref().unwrap_or("-");
         let file = &part.inputs[program.file].name;
         let _ = writeln!(out, "{}", format!("{outcome:<9}  {file:<width$}  {name:<6} {codes}").trim_end());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_read_as_from_the_whole_text() {
+        let text = "O1\n\nG1 X1.\nM98 P2 L3\n \n\nM30\n%";
+        let sheet = Sheet::new("a.nc", text.as_bytes());
+        let told = |contents: Result<Box<dyn SpanContents<'_> + '_>, MietteError>| {
+            contents.ok().map(|found| {
+                let place = (*found.span(), found.line(), found.column(), found.line_count());
+                (found.data().to_vec(), place)
+            })
+        };
+        for (start, length) in (0..=text.len()).flat_map(|at| (0..=text.len() - at).map(move |n| (at, n))) {
+            for (before, after) in [(0, 0), (1, 1), (2, 0), (0, 3), (9, 9)] {
+                let span = SourceSpan::from((start, length));
+                let ours = told(sheet.source.read_span(&span, before, after));
+                assert_eq!(ours, told(text.read_span(&span, before, after)), "{span:?} {before} {after}");
+            }
+        }
     }
 }
