@@ -2,7 +2,7 @@
 
 use super::machine::Left;
 use super::trace::{Event, Place, Program};
-use crate::canon::Op;
+use crate::canon::{Func, Op};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,6 +36,9 @@ pub struct Run {
     /// The numbers of variables that it computed, and how many events came before.
     #[serde(skip)]
     pub computed_numbers: Vec<(u32, usize)>,
+    /// The arguments that it gave functions which few controls have, and how many events came before.
+    #[serde(skip)]
+    pub arguments: Vec<(Func, [f64; 2], usize)>,
 }
 
 /// How a run ended.

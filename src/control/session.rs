@@ -241,6 +241,7 @@ impl<'r, 'f> Session<'r, 'f> {
         Run {
             computed_codes: self.trace.computed_codes(),
             computed_numbers: self.trace.computed_numbers(),
+            arguments: self.trace.arguments(),
             events: self.trace.events,
             programs: self.programs,
             variables,

@@ -9,7 +9,7 @@ mod happening;
 pub use happening::*;
 
 use super::outcome::Stop;
-use crate::canon::Op;
+use crate::canon::{Func, Op};
 use crate::dialect::Row;
 use crate::text::Span;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
@@ -63,7 +63,7 @@ pub struct Program {
 /// Computed codes that a run remembers.
 const MOST_CODES: usize = 64;
 
-/// Computed numbers of variables that a run remembers.
+/// Computed numbers of variables, and arguments of functions, that a run remembers.
 const MOST_NUMBERS: usize = 1024;
 
 /// The events of a run in the making.
@@ -82,6 +82,8 @@ pub struct Trace {
     computed_codes: BTreeMap<(char, u64), usize>,
     /// Numbers of variables that were computed, and how many events came before each.
     computed_numbers: BTreeMap<u32, usize>,
+    /// Arguments of functions that few controls have, and how many events came before each.
+    arguments: BTreeMap<(Func, u64, u64), usize>,
     /// Matters that the machine's profile confirms.
     confirmed: Vec<String>,
 }
@@ -98,6 +100,7 @@ impl Trace {
             doubted: HashSet::new(),
             computed_codes: BTreeMap::new(),
             computed_numbers: BTreeMap::new(),
+            arguments: BTreeMap::new(),
             confirmed: confirmed.to_vec(),
         }
     }
@@ -138,6 +141,21 @@ impl Trace {
     /// The numbers of variables that were computed, with how many events came before each.
     pub fn computed_numbers(&self) -> Vec<(u32, usize)> {
         self.computed_numbers.iter().map(|(number, at)| (*number, *at)).collect()
+    }
+
+    /// Records the arguments of a function; of one with a single one, the second is 0.
+    pub fn argument(&mut self, function: Func, a: f64, b: f64) {
+        if self.arguments.len() < MOST_NUMBERS {
+            self.arguments.entry((function, a.to_bits(), b.to_bits())).or_insert(self.events.len());
+        }
+    }
+
+    /// The arguments of functions, with how many events came before each.
+    pub fn arguments(&self) -> Vec<(Func, [f64; 2], usize)> {
+        let value = |((function, a, b), at): (&(Func, u64, u64), &usize)| {
+            (*function, [*a, *b].map(f64::from_bits), *at)
+        };
+        self.arguments.iter().map(value).collect()
     }
 
     /// Records that a fact mattered that nobody confirmed; once for each block.

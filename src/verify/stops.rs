@@ -3,11 +3,15 @@
 
 use super::compare::Difference;
 use super::names::Side;
+use crate::canon::Func;
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, Run};
 
 /// How the facts begin that say which numbers a computed variable must have.
 const NUMBERS: &str = "numbers:";
+
+/// How the facts begin that say which arguments a function must have; its name follows.
+const ARGUMENTS: &str = "arguments:";
 
 /// How far the end of an arc may lie off its circle, millimetres, to be an arc at all.
 const MOST_OFF: f64 = 0.05;
@@ -66,7 +70,12 @@ pub fn breaks_a_condition<'r>(
         let text = "which does not mean the same on the target: it must never do that";
         return Some(format!("a run computes the code {code}, {text}"));
     }
-    let number = leaves_its_numbers(source.1, difference, reported)?;
+    let reported: Vec<&str> = reported.collect();
+    if let Some(call) = leaves_its_domain(source.1, difference, &reported) {
+        let text = "for which the conversion does not hold: it must never do that";
+        return Some(format!("a run computes {call}, {text}"));
+    }
+    let number = leaves_its_numbers(source.1, difference, reported.into_iter())?;
     let text = "which is none of those that the conversion takes it to be: it must never do that";
     Some(format!("a run computes the variable #{number}, {text}"))
 }
@@ -74,6 +83,43 @@ pub fn breaks_a_condition<'r>(
 /// How many events come before a difference; none where the source came to its end before.
 fn place(run: &Run, difference: &Difference<'_>) -> Option<usize> {
     difference.source.and_then(|event| run.events.iter().position(|e| std::ptr::eq(e, event)))
+}
+
+/// The function that the source gave arguments before a difference which are none of those reported.
+fn leaves_its_domain(run: &Run, difference: &Difference<'_>, reported: &[&str]) -> Option<String> {
+    let at = place(run, difference);
+    let before = run.arguments.iter().filter(|(.., before)| at.is_none_or(|at| *before <= at));
+    before.into_iter().find_map(|(function, [a, b], _)| {
+        let prefix = format!("{ARGUMENTS}{}:", function.name());
+        let outside = reported
+            .iter()
+            .any(|fact| fact.strip_prefix(prefix.as_str()).is_some_and(|kind| !is_inside(kind, [*a, *b])));
+        let call = if *function == Func::Pow {
+            format!("POW[{a},{b}]")
+        } else {
+            format!("{}[{a}]", function.name().to_uppercase())
+        };
+        outside.then_some(call)
+    })
+}
+
+/// True for arguments of a kind: a range; `digits`, eight of them; a `word` of eight BCD digits; or a range of the base and
+/// one of the power times its logarithm.
+fn is_inside(kind: &str, [a, b]: [f64; 2]) -> bool {
+    let within = |range: &str, value: f64| {
+        let (from, to) = range.split_once("..").unwrap_or((range, range));
+        let bound = |text: &str| text.parse().unwrap_or(f64::NAN);
+        (bound(from)..=bound(to)).contains(&value)
+    };
+    match kind.split_once(' ') {
+        Some((base, power)) => within(base, a) && within(power, b * a.ln()),
+        None if kind == "digits" => a.fract() == 0.0 && (0.0..=99_999_999.0).contains(&a),
+        None if kind == "word" => {
+            let digit = |at: u32| (a as u64 >> (4 * at)) & 15 <= 9;
+            a.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&a) && (0..8).all(digit)
+        }
+        None => within(kind, a),
+    }
 }
 
 /// The number of a variable that the source computed before a difference and that is none of those reported.

@@ -1,5 +1,6 @@
 //! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
 
+mod arguments;
 mod callers;
 mod codes;
 mod edited;

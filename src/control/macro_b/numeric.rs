@@ -208,6 +208,9 @@ impl Numeric {
     /// A function of one argument.
     pub fn call(&self, function: Func, value: Value, trace: &mut Trace) -> Result<f64, Stop> {
         let x = self.number(value, trace);
+        if matches!(function, Func::Ln | Func::Exp | Func::Bin | Func::Bcd) {
+            trace.argument(function, x, 0.0);
+        }
         let domain = |inside: bool| {
             if inside { Ok(()) } else { Err(Stop::alarm(self.alarms.domain, format!("{function} of {x}"))) }
         };
@@ -299,6 +302,7 @@ impl Numeric {
                 self.keep(if angle < 0.0 && self.atan2_full_turn.ask(trace) { angle + 360.0 } else { angle })
             }
             Func::Pow => {
+                trace.argument(function, a, b);
                 let result = a.powf(b);
                 if result.is_nan() {
                     return Err(Stop::alarm(self.alarms.domain, format!("{a} to the power of {b}")));

@@ -21,7 +21,8 @@ pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     });
     let value =
         (0..HALVINGS).fold(series, |v, _| Expr::Var(rewriter.hold(Expr::binary(BinOp::Mul, v.clone(), v))));
-    Emulated::Near(value, "by its series, within a 1e-12th part for arguments from -20 to 20".into())
+    let why = "by its series, within a 1e-12th part for arguments from -20 to 20";
+    Emulated::Inside(value, why.into(), "-20..20")
 }
 
 /// Law: `LN[a] = 1024*LN[z]` with z the root of a taken ten times, and `LN[z] = 2*(w + w^3/3 + w^5/5 + w^7/7)`
@@ -38,10 +39,8 @@ pub fn ln(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     });
     let scale = number(2f64.powi(HALVINGS + 1));
     let value = rewriter.hold(Expr::binary(BinOp::Mul, scale, Expr::binary(BinOp::Mul, w, series)));
-    Emulated::Near(
-        Expr::Var(value),
-        "by its series, within 1e-11 for arguments from 1e-9 to 1e9; zero does not alarm".into(),
-    )
+    let why = "by its series, within 1e-11 for arguments from 1e-9 to 1e9; zero does not alarm";
+    Emulated::Inside(Expr::Var(value), why.into(), "1e-9..1e9")
 }
 
 /// Law: a product for a small whole constant power; else `EXP[b*LN[a]]`, for a above zero.
@@ -55,12 +54,14 @@ pub fn pow(a: Expr, power: Expr, rewriter: &mut Rewriter<'_>, target: &Control) 
     let log = if native { apply(Func::Ln, a) } else { value(ln(a, rewriter)) };
     let product = Expr::binary(BinOp::Mul, power, log);
     let result = if native { apply(Func::Exp, product) } else { value(exp(product, rewriter)) };
-    Emulated::Near(result, "as EXP[b*LN[a]], for bases above zero only".into())
+    // What the series hold for: the base, and the power times its logarithm.
+    let arguments = if native { "1e-300..1e300" } else { "1e-9..1e9 -20..20" };
+    Emulated::Inside(result, "as EXP[b*LN[a]], for bases above zero only".into(), arguments)
 }
 
 fn value(emulated: Emulated) -> Expr {
     match emulated {
-        Emulated::Exact(e) | Emulated::Near(e, _) => e,
+        Emulated::Exact(e) | Emulated::Near(e, _) | Emulated::Inside(e, ..) => e,
         Emulated::Missing(_) => number(0.0),
     }
 }

@@ -23,6 +23,9 @@ enum Emulated {
     Exact(Expr),
     /// The same value within a bound, or inside a domain: the text says which.
     Near(Expr, String),
+    /// As near, for such arguments only: a range, `digits`, a BCD `word`, or ranges of the base and of the power
+    /// times its logarithm.
+    Inside(Expr, String, &'static str),
     /// Not to be had: why.
     Missing(String),
 }
@@ -51,18 +54,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             match emulated {
                 Emulated::Exact(value) => value,
                 Emulated::Near(value, why) => {
-                    found.push((Code::NearlyEqual, span, format!("{name}: {why}")));
+                    found.push((Code::NearlyEqual, span, format!("{name}: {why}"), None));
+                    value
+                }
+                Emulated::Inside(value, why, arguments) => {
+                    let fact = format!("arguments:{name}:{arguments}");
+                    found.push((Code::NearlyEqual, span, format!("{name}: {why}"), Some(fact)));
                     value
                 }
                 Emulated::Missing(why) => {
-                    found.push((Code::NoEquivalent, span, why));
+                    found.push((Code::NoEquivalent, span, why, None));
                     Expr::Number(0.0)
                 }
             }
         });
-        for (code, span, message) in found {
-            let fact = format!("{}{message}", code.number());
-            context.add_once(index, &fact, Diagnostic::new(code, span, message));
+        for (code, span, message, fact) in found {
+            let once = format!("{}{message}", code.number());
+            let finding = Diagnostic::new(code, span, message);
+            let finding = if let Some(fact) = fact { finding.with_fact(fact) } else { finding };
+            context.add_once(index, &once, finding);
         }
     }
 }
