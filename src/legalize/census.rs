@@ -73,12 +73,6 @@ impl Census {
         census
     }
 
-    /// True where it has all that another has.
-    pub fn holds(&self, other: &Self) -> bool {
-        let within = |mine: &[u64; 4], theirs: &[u64; 4]| mine.iter().zip(theirs).all(|(a, b)| b & !a == 0);
-        within(&self.ops, &other.ops) && within(&self.roles, &other.roles) && other.things & !self.things == 0
-    }
-
     /// True where there is one.
     pub fn has(&self, thing: Thing) -> bool {
         self.things >> thing as u32 & 1 == 1

@@ -95,11 +95,9 @@ pub struct Pass {
 enum Run {
     /// Only has something to say.
     Reports(fn(&Module, &mut Context<'_>)),
-    /// Brings in nothing of a kind that was not there.
-    Narrows(fn(&mut Module, &mut Context<'_>)),
     Rewrites(fn(&mut Module, &mut Context<'_>)),
 }
-use Run::{Narrows, Reports, Rewrites};
+use Run::{Reports, Rewrites};
 
 impl Pass {
     /// Runs it where anything concerns it.
@@ -107,17 +105,15 @@ impl Pass {
         self.apply_to(&Census::of(&module.programs), module, context);
     }
 
-    /// As [`Pass::apply`]; true where that may have brought in what the census does not have.
+    /// As [`Pass::apply`]; true where that may have changed the library.
     fn apply_to(&self, census: &Census, module: &mut Module, context: &mut Context<'_>) -> bool {
         if !(self.concerns)(census, context) {
             return false;
         }
         match self.run {
             Reports(run) => run(module, context),
-            Narrows(run) | Rewrites(run) => run(module, context),
+            Rewrites(run) => run(module, context),
         }
-        let narrows = matches!(self.run, Narrows(_));
-        debug_assert!(!narrows || census.holds(&Census::of(&module.programs)), "{}", self.name);
         matches!(self.run, Rewrites(_))
     }
 }
@@ -131,7 +127,7 @@ pub const PASSES: &[Pass] = &[
     Pass {
         name: "link",
         concerns: |c, _| c.has(Thing::Call) || c.has(Thing::Chain),
-        run: Narrows(link::run),
+        run: Rewrites(link::run),
     },
     Pass { name: "outline", concerns: |c, _| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
     Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
@@ -206,7 +202,7 @@ pub const PASSES: &[Pass] = &[
         run: Rewrites(cycle_words::run),
     },
     Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Rewrites(substitutes::run) },
-    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Narrows(machine_codes::run) },
+    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Rewrites(machine_codes::run) },
     Pass { name: "missing", concerns: missing::concerns, run: Reports(missing::run) },
     Pass { name: "functions", concerns: |c, _| c.has(Thing::Function), run: Rewrites(functions::run) },
     Pass { name: "truth", concerns: truth::concerns, run: Rewrites(truth::run) },

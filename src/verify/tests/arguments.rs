@@ -7,7 +7,10 @@ use crate::verify::{Outcome, Why};
 fn by_arithmetic(six: u32) -> String {
     let terms =
         (2..8).map(|i| format!("#161=#161+FIX[#1/1{}]*{}\n", "0".repeat(i), 6 * 16u32.pow(i as u32 - 1)));
-    format!("O1\nG21G90\nIF[#1LT12]GOTO9\n#161=#1+FIX[#1/10]*{six}\n{}G0X#161\nN9M30\n", terms.collect::<String>())
+    format!(
+        "O1\nG21G90\nIF[#1LT12]GOTO9\n#161=#1+FIX[#1/10]*{six}\n{}G0X#161\nN9M30\n",
+        terms.collect::<String>()
+    )
 }
 
 #[test]
