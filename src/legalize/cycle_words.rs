@@ -4,14 +4,15 @@
 //! a word that its code does not take. So where only the target's code takes a dwell, it is told one of 0, and the
 //! dwell of before is told again where the next code that takes one has none of its own. A word that only the
 //! source's code takes is refused, and so is a dwell of before that only the source's code takes; a dwell of 0 is left
-//! out. Side condition: which cycle is in force is known. Counter-example: `G82 P500 .. G83`, where the source's G83
-//! takes no P and the target's waits half a second.
+//! out. Side condition: which cycle is in force is known, and which dwell lasts into it on every way. Counter-example:
+//! `G82 P500 .. G83`, where the source's G83 takes no P and the target's waits half a second.
 
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
+use crate::ir::analysis::Cfg;
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use std::collections::BTreeMap;
 
 /// The words of a cycle but for its planes, which every cycle has.
@@ -29,49 +30,54 @@ pub const ROLES: [Role; 8] = [
 /// Fits the words of cycles to what the target's codes take.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
+    let parts = parts(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        // The dwell of before in the order of the text, and whether it was taken away on the target.
-        let (mut last, mut away): (Option<Expr>, bool) = (None, false);
-        for (at, block) in program.blocks.iter_mut().enumerate() {
+        let starts = starts(program, index, &facts, parts, context);
+        for ((at, block), start) in program.blocks.iter_mut().enumerate().zip(starts) {
             let mut state = facts.at(index, BlockId(at as u32));
+            let mut lasting = start.unwrap_or_default();
             for stmt in &mut block.stmts {
                 let before = state.op(Group::Cycle);
                 state.step(stmt);
+                let here = lasting.clone();
+                lasting.step(stmt, before, state.op(Group::Cycle), context);
                 let span = stmt.site.span;
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                let Some(op) = state.op(Group::Cycle) else { continue };
-                if !op.is_cycle() {
-                    (last, away) = (None, false);
-                    continue;
-                }
-                if before == Some(Op::CycleOff) {
-                    (last, away) = (None, false);
-                }
+                let Some(op) = state.op(Group::Cycle).filter(|op| op.is_cycle()) else { continue };
+                let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
+                let begins = begins(nc);
                 for role in untaken(nc, op, context.target) {
                     let what = format!("the target's code for this cycle ({op}) takes no such word ({role})");
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                 }
-                last = nc.word(Role::CycleDwell).cloned().or(last);
-                let [own, others] =
-                    [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell));
-                let begins = nc.ops().any(Op::is_cycle) && nc.word(Role::CycleDwell).is_none();
-                let waits = last.as_ref().is_some_and(|dwell| dwell.constant() != Some(0.0));
-                if begins && own && !others && waits {
-                    let what = format!(
-                        "the dwell of the cycle before lasts into this one ({op}), and the target's code takes none"
-                    );
-                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
-                }
-                if !begins || !others {
-                    away &= nc.word(Role::CycleDwell).is_none();
+                if !begins {
                     continue;
                 }
-                let dwell = match (own, &last) {
-                    (false, _) if before != Some(Op::CycleOff) => Expr::Number(0.0),
-                    (true, Some(last)) if away => last.clone(),
+                let [own, others] = sides(op, context);
+                let dwell = match (own, others, here.dwell) {
+                    (true, false, Dwell::Is(Some(dwell))) if dwell.constant() != Some(0.0) => {
+                        let what = format!(
+                            "the dwell of the cycle before lasts into this one ({op}), and the target's code takes none"
+                        );
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                        continue;
+                    }
+                    (true, false, Dwell::Many) => {
+                        let what = format!(
+                            "the dwell of a cycle before may last into this one ({op}), and the target's code takes none: it must be 0"
+                        );
+                        context.add(index, Diagnostic::new(Code::Conditional, span, what));
+                        continue;
+                    }
+                    (false, true, _) if before != Some(Op::CycleOff) => Expr::Number(0.0),
+                    (true, true, Dwell::Is(Some(dwell))) if here.away => dwell,
+                    (true, true, Dwell::Many) if here.away => {
+                        let what = "which dwell of the cycles before lasts into this one is known only when the program runs";
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                        continue;
+                    }
                     _ => continue,
                 };
-                away = !own;
                 if own && dwell.constant().is_none() {
                     let what = "the dwell of the cycle before it: what it is computed from may have changed";
                     context.add(index, Diagnostic::new(Code::Conditional, span, what));
@@ -80,6 +86,139 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+/// The dwell that cycles were told before.
+#[derive(Clone, Debug, PartialEq)]
+enum Dwell {
+    /// This one, or none.
+    Is(Option<Expr>),
+    /// Not the same on all ways here.
+    Many,
+}
+
+/// What lasts from cycle to cycle.
+#[derive(Clone, Debug, PartialEq)]
+struct Lasting {
+    dwell: Dwell,
+    /// True where the target may have been told another one.
+    away: bool,
+}
+
+impl Default for Lasting {
+    fn default() -> Self {
+        Self { dwell: Dwell::Is(None), away: false }
+    }
+}
+
+impl Lasting {
+    /// Takes a statement's effect; the cycles in force before and behind it are known or not.
+    fn step(&mut self, stmt: &Stmt, before: Option<Op>, behind: Option<Op>, context: &Context<'_>) {
+        let StmtKind::Nc(nc) = &stmt.kind else { return };
+        let old = stmt.site.skip.map(|_| self.clone());
+        match behind {
+            Some(op) if op.is_cycle() => {
+                if before == Some(Op::CycleOff) {
+                    *self = Self::default();
+                }
+                let [own, others] = sides(op, context);
+                if let Some(dwell) = nc.word(Role::CycleDwell) {
+                    // What the target's code does not take, it does not keep.
+                    *self = Self { dwell: Dwell::Is(Some(dwell.clone())), away: !others };
+                } else if begins(nc) && others && (own || before != Some(Op::CycleOff)) {
+                    self.away = !own;
+                }
+            }
+            Some(_) => *self = Self::default(),
+            None => {}
+        }
+        if let Some(old) = old {
+            self.join(&old);
+        }
+    }
+
+    /// Joins what lasts on another way; true where that changed anything.
+    fn join(&mut self, other: &Self) -> bool {
+        let old = self.clone();
+        if self.dwell != other.dwell {
+            self.dwell = Dwell::Many;
+        }
+        self.away |= other.away;
+        *self != old
+    }
+}
+
+/// What lasts at the start of each block; none where no way leads.
+fn starts(
+    program: &Program,
+    index: usize,
+    facts: &ModalFacts,
+    parts: bool,
+    context: &Context<'_>,
+) -> Vec<Option<Lasting>> {
+    let cycle = |id: BlockId| facts.at(index, id).op(Group::Cycle);
+    let unknown = || Lasting { dwell: Dwell::Many, away: parts };
+    let cfg = Cfg::of(program);
+    let mut starts: Vec<Option<Lasting>> = vec![None; program.blocks.len()];
+    for root in cfg.roots() {
+        // Who calls it under a cycle has told that something.
+        let under = *root != BlockId(0) || cycle(*root).is_some_and(Op::is_cycle);
+        starts[root.index()] = Some(if under { unknown() } else { Lasting::default() });
+    }
+    let mut work: Vec<BlockId> = cfg.roots().to_vec();
+    while let Some(id) = work.pop() {
+        let (Some(block), Some(mut lasting)) = (program.block(id), starts[id.index()].clone()) else {
+            continue;
+        };
+        let mut state = facts.at(index, id);
+        for stmt in &block.stmts {
+            let before = state.op(Group::Cycle);
+            state.step(stmt);
+            lasting.step(stmt, before, state.op(Group::Cycle), context);
+        }
+        if matches!(block.term.kind, TermKind::Call { .. }) {
+            lasting = unknown();
+        }
+        for to in cfg.succs(id) {
+            let start = &mut starts[to.index()];
+            let changed = match start {
+                Some(start) => start.join(&lasting),
+                None => {
+                    *start = Some(lasting.clone());
+                    true
+                }
+            };
+            if changed {
+                work.push(*to);
+            }
+        }
+    }
+    starts
+}
+
+/// True where any block of a library tells the target another dwell than the source.
+fn parts(module: &Module, context: &Context<'_>) -> bool {
+    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    stmts.into_iter().any(|stmt| {
+        let StmtKind::Nc(nc) = &stmt.kind else { return false };
+        if !nc.ops().any(Op::is_cycle) {
+            return nc.word(Role::CycleDwell).is_some();
+        }
+        nc.ops().filter(|op| op.is_cycle()).any(|op| match sides(op, context) {
+            [own, others] if begins(nc) => !own && others,
+            [_, others] => !others,
+        })
+    })
+}
+
+/// True for a block that begins a cycle and tells it no dwell.
+fn begins(nc: &Nc) -> bool {
+    nc.ops().any(Op::is_cycle) && nc.word(Role::CycleDwell).is_none()
+}
+
+/// Whether the source's code for a cycle takes a dwell, and the target's.
+fn sides(op: Op, context: &Context<'_>) -> [bool; 2] {
+    [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell))
 }
 
 /// True where the code that the control has for a cycle takes a word.
