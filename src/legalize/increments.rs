@@ -3,7 +3,6 @@
 //! Law: n increments are `n * increment` of the unit in force, for an angle of a degree. Side condition: the unit is known, from the
 //! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
 
-use super::units::names_unit;
 use super::{Context, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -18,7 +17,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
     }
     // Where no program names a unit, it is the machine's all through.
-    let known = context.entry.op(Group::Units).is_some() || names_unit(module);
+    let known = context.entry.op(Group::Units).is_some() || module.programs.iter().any(names_unit);
     let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
     // The machine's unit is in force all through only where no program of the library names the other one.
     let machine = source.units().filter(|units| {
@@ -92,6 +91,11 @@ fn unit_named(program: &Program) -> Option<Units> {
     let mut all = units_named(program);
     let first = all.next()?;
     all.all(|other| other == first).then_some(first)
+}
+
+/// True where a program selects a unit.
+pub(super) fn names_unit(program: &Program) -> bool {
+    units_named(program).next().is_some()
 }
 
 fn units_named(program: &Program) -> impl Iterator<Item = Units> + '_ {

@@ -62,7 +62,6 @@ mod shift;
 mod state;
 mod substitutes;
 mod tapping;
-
 mod temporaries;
 mod truth;
 mod units;

@@ -10,6 +10,7 @@ use super::census::{Census, Thing};
 use super::codes::numbers;
 use super::emptied::drop_emptied;
 use super::exposed::roots;
+use super::increments::names_unit;
 use super::{Context, ModalFacts, calls_of, reachable};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -45,7 +46,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let one_unit = leaves_one_unit(module, context.source);
     let mut entry = context.entry.clone();
     entry.one_unit = one_unit;
-    let known = entry.op(Group::Units).is_some() || names_unit(module);
+    let known = entry.op(Group::Units).is_some() || module.programs.iter().any(names_unit);
     let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
     let open = open(module, &facts);
     for root in mains(module).into_iter().filter(|&root| open[root]) {
@@ -70,14 +71,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
         head(&mut module.programs[root], op);
     }
-}
-
-/// True where anything in a library selects a unit.
-pub(super) fn names_unit(module: &Module) -> bool {
-    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
-    let names =
-        |stmt: &Stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(|op| op.group() == Group::Units));
-    stmts.into_iter().any(names)
 }
 
 /// Takes the checks of the unit out of a program; the unit that all of them check.

@@ -154,8 +154,8 @@ class Motion:
         self._write("probe", to, *map(number, self.place(*aim)), number(self.speed))
         self.now = list(map(float, to))
 
-    def hole(self, x=None, y=None, *, r, bottom, back=None, f=None, dwell=0.0, out="rapid"):
-        """A drilled hole: over it, to the plane r, to the bottom, up to r, and to the plane back."""
+    def into(self, x, y, r, bottom, f=None, dwell=0.0):
+        """Over a hole, to the plane r, to the bottom, and a wait there."""
         if f is not None:
             self.set_feed(f)
         self.rapid(x, y)
@@ -163,6 +163,10 @@ class Motion:
         self.feed(z=bottom)
         if dwell:
             self.dwell(dwell)
+
+    def hole(self, x=None, y=None, *, r, bottom, back=None, f=None, dwell=0.0, out="rapid"):
+        """A drilled hole: over it, to the plane r, to the bottom, up to r, and to the plane back."""
+        self.into(x, y, r, bottom, f, dwell)
         self.rapid(z=r) if out == "rapid" else self.feed(z=r)
         if back is not None:
             self.rapid(z=back)
@@ -202,13 +206,7 @@ class Motion:
     def tap(self, x=None, y=None, *, r, bottom, back=None, f=None, dwell=0.0):
         """A tapped hole: out with the spindle turned back, and turned as before at the plane r."""
         before = self.turning
-        if f is not None:
-            self.set_feed(f)
-        self.rapid(x, y)
-        self.over(r, bottom)
-        self.feed(z=bottom)
-        if dwell:
-            self.dwell(dwell)
+        self.into(x, y, r, bottom, f, dwell)
         self.spindle("clockwise" if before == "counter_clockwise" else "counter_clockwise")
         self.feed(z=r)
         self.spindle(before)
@@ -218,9 +216,7 @@ class Motion:
     def bore_and_stop(self, x=None, y=None, *, r, bottom, back=None):
         """A bored hole: the spindle stands on the way out, up to the plane that the cycle ends at."""
         before = self.turning
-        self.rapid(x, y)
-        self.over(r, bottom)
-        self.feed(z=bottom)
+        self.into(x, y, r, bottom)
         self.spindle("stopped")
         self.rapid(z=r)
         if back is not None:
@@ -230,11 +226,7 @@ class Motion:
     def bore_by_hand(self, x=None, y=None, *, r, bottom, back=None, dwell=0.0):
         """A bored hole: the spindle stops and the operator takes the tool out; the list says where the cycle goes on."""
         before = self.turning
-        self.rapid(x, y)
-        self.over(r, bottom)
-        self.feed(z=bottom)
-        if dwell:
-            self.dwell(dwell)
+        self.into(x, y, r, bottom, dwell=dwell)
         self.spindle("stopped")
         self.stop()
         self.rapid(z=r)
@@ -246,11 +238,7 @@ class Motion:
         """A bored hole: the spindle stops where the tip points off the wall, the tool goes aside by so much, out to
         the plane that the cycle ends at, and back over the hole."""
         before = self.turning
-        self.rapid(x, y)
-        self.over(r, bottom)
-        self.feed(z=bottom)
-        if dwell:
-            self.dwell(dwell)
+        self.into(x, y, r, bottom, dwell=dwell)
         self.spindle("oriented")
         self.by(*by)
         self.rapid(z=r)
