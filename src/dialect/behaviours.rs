@@ -134,6 +134,7 @@ questions! {
     "radius.offset.table" &["radius", "diameter", "setting", "unknown"], "what the cutter table holds";
     "offset.active.immediately" YES, "a work offset that is written while selected counts at once";
     "radius.offset.active.tool" YES, "cutter compensation without an offset word takes the active tool's";
+    "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too";
     "units.without.code" &["metric", "inch", "setting", "unknown"], "the units of a program that has no code for them";
     "tool.change.word" &["m6", "t", "unknown"], "the word that changes the tool";
     "tool.word.selects.length" YES, "the tool word brings its length offset into force";

@@ -32,6 +32,7 @@ mod facts;
 mod functions;
 mod increments;
 mod lathe;
+mod length_radius;
 mod link;
 mod locked;
 mod lookahead;
@@ -154,6 +155,11 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Rewrites(increments::run) },
     Pass { name: "units", concerns: units::concerns, run: Rewrites(units::run) },
     Pass { name: "rapid-once", concerns: |c, _| c.op(Op::RapidOnce), run: Rewrites(rapid_once::run) },
+    Pass {
+        name: "length-radius",
+        concerns: |c, _| c.role(Role::RadiusOffset),
+        run: Rewrites(length_radius::run),
+    },
     Pass { name: "tapping", concerns: |c, _| c.role(Role::Lead), run: Rewrites(tapping::run) },
     Pass { name: "reference", concerns: |c, _| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
     Pass { name: "shift", concerns: |c, _| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },

@@ -79,6 +79,8 @@ pub struct Machine {
     length_offset: u32,
     side: Side,
     radius_offset: u32,
+    /// True where the word of the length named it.
+    radius_with_length: bool,
     path_mode: Op,
     polar: bool,
     references: [Axes; 2],
@@ -127,6 +129,7 @@ impl Machine {
             length_offset: 0,
             side: Side::Off,
             radius_offset: 0,
+            radius_with_length: false,
             path_mode: Op::CuttingMode,
             polar: false,
             references: scenario.references,

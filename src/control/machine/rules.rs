@@ -84,6 +84,7 @@ pub struct Rules {
     pub tool_word_changes: Fact<bool>,
     pub tool_word_selects_length: Fact<bool>,
     pub cutter_takes_tool: Fact<bool>,
+    pub length_picks_radius: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
     /// True where length and radius share a table.
@@ -131,6 +132,7 @@ impl Rules {
             tool_word_changes: fact(control, "tool.change.word", |value| Some(value == "t"), false),
             tool_word_selects_length: yes(control, "tool.word.selects.length", false),
             cutter_takes_tool: yes(control, "radius.offset.active.tool", false),
+            length_picks_radius: yes(control, "length.word.picks.radius", false),
             end_cancels_length: yes(control, "end.cancels.length", false),
             reference_takes_all: yes(control, "reference.all.axes", false),
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),

@@ -126,17 +126,24 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         Op::RadiusRight => Some(Side::Right),
         _ => None,
     });
-    if let Some(number) = command.number(Role::RadiusOffset) {
+    let with_length = command.number(Role::LengthOffset).filter(|_| machine.rules.length_picks_radius.peek());
+    let with_length = with_length.filter(|_| command.word(Role::RadiusOffset).is_none());
+    if let Some(number) = command.number(Role::RadiusOffset).or(with_length) {
         machine.radius_offset = number;
+        machine.radius_with_length = with_length.is_some();
     } else if side.is_some_and(|side| side != Side::Off) && machine.rules.cutter_takes_tool.peek() {
         machine.rules.cutter_takes_tool.ask(trace);
         machine.active_tool_asked(trace);
         machine.radius_offset = machine.tool as u32;
     }
-    let renewed = command.word(Role::RadiusOffset).is_some() && machine.side != Side::Off;
+    let named = command.word(Role::RadiusOffset).is_some() || with_length.is_some();
+    let renewed = named && machine.side != Side::Off;
     if side.is_some() || renewed {
         machine.side = side.unwrap_or(machine.side);
         let off = machine.side == Side::Off;
+        if machine.radius_with_length && !off {
+            machine.rules.length_picks_radius.ask(trace);
+        }
         let offset = if off { 0 } else { machine.radius_offset };
         let value = if off { 0.0 } else { machine.radius_value(offset) };
         trace.push(Happening::CutterRadius { side: machine.side, offset, value });

@@ -143,7 +143,16 @@ impl<'b> Lowering<'b> {
         let beside = reading.codes.known().find(|row| row.shift.contains_key(&role));
         let lowered = self.word_value(value, role, beside)?;
         note_reads(&lowered, &mut reading.read);
-        match meaning.and_then(|row| row.op) {
+        let op = meaning.and_then(|row| row.op);
+        // Where a length picks a radius, one that the block names itself counts.
+        let radius = op == Some(Op::LengthPlus)
+            && reading.codes.value('D').is_none()
+            && self.control.is("length.word.picks.radius");
+        let radius = radius.then(|| NcItem::Word(Role::RadiusOffset, lowered.clone()));
+        if radius.is_some() && (reading.codes.has(Op::RadiusLeft) || reading.codes.has(Op::RadiusRight)) {
+            let _ = self.rely("length.word.picks.radius", item.span);
+        }
+        match op {
             Some(Op::SelectWork) if is_zero(value) => reading.items.push(NcItem::Op(Op::ShiftCancel)),
             Some(Op::LengthPlus) if is_zero(value) => reading.items.push(NcItem::Op(Op::LengthOff)),
             Some(op) => {
@@ -154,6 +163,7 @@ impl<'b> Lowering<'b> {
             }
             None => reading.items.push(NcItem::Word(role, lowered)),
         }
+        reading.items.extend(radius);
         Some(())
     }
 

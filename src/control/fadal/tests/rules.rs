@@ -50,6 +50,24 @@ fn an_l_below_100_repeats_a_move() {
     near(*feeds(&run).last().unwrap(), [10.0, 0.0, 0.0]);
 }
 
+/// Format 1: H is for length and diameter; a D behind it counts (D-hole macro), G49 leaves it (slot program).
+#[test]
+fn the_length_picks_the_cutter_too() {
+    let cutter = |before: &str| {
+        let run = lines(&format!("G90 G17 G0 {before}\nG41 X1.\nM2\n"));
+        let offset = run.events.iter().find_map(|event| match &event.what {
+            Happening::CutterRadius { offset, .. } => Some(*offset),
+            _ => None,
+        });
+        (offset, doubts(&run).contains(&"behaviour:length.word.picks.radius"))
+    };
+    assert_eq!(cutter("H2 Z.1"), (Some(2), true));
+    assert_eq!(cutter("H2 Z.1\nD7"), (Some(7), false));
+    assert_eq!(cutter("D7 H2"), (Some(7), false));
+    assert_eq!(cutter("D7\nH2"), (Some(2), true));
+    assert_eq!(cutter("H2\nG49"), (Some(2), true));
+}
+
 #[test]
 fn a_program_that_is_called_shares_all_variables() {
     let main = b"O1\n#V1=2\nM98 P20 L3\nM2\n";

@@ -37,11 +37,12 @@ const BLOCKS: &[(&str, &str)] = &[
     ("E24", "nc wcs.select wcs.number=118"),
     ("E6", "nc wcs.select wcs.number=6"),
     ("E+R9", "nc wcs.select wcs.number=(param.9 + 94 * truth(param.9 ge 7))"),
-    // Lengths: H without a G code; H0 and G49 cancel.
-    ("G0 H1 Z.1 M8", "nc motion.rapid length.plus offset.length=1 axis.z=0.1 coolant.flood"),
-    ("G0 H0 Z0", "nc motion.rapid length.off axis.z=0"),
+    // Lengths: H without a G code; H0 and G49 cancel. H is the row of the diameter too, but for a D beside it.
+    ("G0 H1 Z.1 M8", "nc motion.rapid length.plus offset.length=1 offset.radius=1 axis.z=0.1 coolant.flood"),
+    ("G0 H1 Z.1 D4", "nc motion.rapid length.plus offset.length=1 axis.z=0.1 offset.radius=4"),
+    ("G0 H0 Z0", "nc motion.rapid length.off offset.radius=0 axis.z=0"),
     ("G0 G49 Z0", "nc motion.rapid length.off axis.z=0"),
-    ("G0 Z.1 H+R9", "nc motion.rapid axis.z=0.1 length.plus offset.length=param.9"),
+    ("G0 Z.1 H+R9", "nc motion.rapid axis.z=0.1 length.plus offset.length=param.9 offset.radius=param.9"),
     ("D1", "nc offset.radius=1"),
     ("G1 G41 Y-R4", "nc motion.linear radius.left axis.y=-param.4"),
     ("G1 Y+R4 G40 G90", "nc motion.linear axis.y=param.4 radius.off distance.absolute"),

@@ -1,0 +1,112 @@
+//! The cutter radius that the word of the tool length picks.
+//!
+//! Law: where a length picks the radius of the same row, lowering names that radius beside it. It is left out where
+//! nothing looks at it: compensation is known to be off there, and on every way on another word names a radius
+//! before a code starts compensation without one. Side condition: behind a call and a return anything may look that
+//! the library has. Counter-example to leaving it out: `H2 Z.1`, then `G41 X1.` in a block without a D.
+
+use super::{Context, ModalFacts};
+use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::Cfg;
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+
+const FACT: &str = "length.word.picks.radius";
+
+/// Leaves out what nothing looks at, and says on what the rest rests.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if !context.source.is(FACT) {
+        return;
+    }
+    let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
+    let elsewhere = stmts().filter_map(nc).any(looks);
+    let compensates = stmts().filter_map(nc).any(compensates);
+    let facts = ModalFacts::of(module, &context.entry);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let looked_at = looked_at(program, elsewhere);
+        for (at, (block, mut live)) in program.blocks.iter_mut().zip(looked_at).enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let off = block.stmts.iter().map(|stmt| {
+                let off = state.op(Group::RadiusComp) == Some(Op::RadiusOff);
+                state.step(stmt);
+                off || !compensates
+            });
+            let off: Vec<bool> = off.collect();
+            for (stmt, off) in block.stmts.iter_mut().zip(off).rev() {
+                let behind = live;
+                let (span, skipped) = (stmt.site.span, stmt.site.skip.is_some());
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                live = before(nc, skipped, behind);
+                if !comes_with_length(nc) {
+                    continue;
+                }
+                if behind || !off {
+                    context.rests_on_source(index, span, FACT);
+                } else {
+                    nc.items.retain(|item| !matches!(item, NcItem::Word(Role::RadiusOffset, _)));
+                }
+            }
+        }
+    }
+}
+
+fn nc(stmt: &Stmt) -> Option<&Nc> {
+    match &stmt.kind {
+        StmtKind::Nc(nc) => Some(nc),
+        _ => None,
+    }
+}
+
+/// True for a block that may start compensation.
+fn compensates(nc: &Nc) -> bool {
+    nc.items
+        .iter()
+        .any(|item| matches!(item, NcItem::Op(Op::RadiusLeft | Op::RadiusRight) | NcItem::Code('G', _)))
+}
+
+/// True for a block that may start compensation by a radius that was named before.
+fn looks(nc: &Nc) -> bool {
+    compensates(nc) && nc.word(Role::RadiusOffset).is_none()
+}
+
+/// True where the radius stands as lowering names that of a length, and the block does not compensate by it.
+fn comes_with_length(nc: &Nc) -> bool {
+    let pair = nc.items.windows(2).any(|two| match two {
+        [NcItem::Word(Role::LengthOffset, length), NcItem::Word(Role::RadiusOffset, radius)] => {
+            length == radius
+        }
+        [NcItem::Op(Op::LengthOff), NcItem::Word(Role::RadiusOffset, Expr::Number(none))] => *none == 0.0,
+        _ => false,
+    });
+    pair && !compensates(nc)
+}
+
+/// Whether the radius in force before a block may be looked at, where that of behind it may.
+fn before(nc: &Nc, skipped: bool, behind: bool) -> bool {
+    if nc.word(Role::RadiusOffset).is_some() { skipped && behind } else { behind || looks(nc) }
+}
+
+/// Whether the radius in force at the end of each block may be looked at; `elsewhere`: in what is called, and by callers.
+fn looked_at(program: &Program, elsewhere: bool) -> Vec<bool> {
+    let cfg = Cfg::of(program);
+    let mut starts = vec![false; program.blocks.len()];
+    let mut ends = vec![false; program.blocks.len()];
+    let mut changed = true;
+    // Each round makes one more true, or is the last.
+    while changed {
+        changed = false;
+        for (at, block) in program.blocks.iter().enumerate().rev() {
+            let follows =
+                cfg.succs(BlockId(at as u32)).iter().any(|to| starts.get(to.index()) == Some(&true));
+            let leaves = matches!(block.term.kind, TermKind::Call { .. } | TermKind::Return { .. });
+            let end = follows || leaves && elsewhere;
+            let step = |behind, stmt: &Stmt| match nc(stmt) {
+                Some(nc) => before(nc, stmt.site.skip.is_some(), behind),
+                None => behind,
+            };
+            let start = block.stmts.iter().rev().fold(end, step);
+            changed |= start != starts[at] || end != ends[at];
+            (starts[at], ends[at]) = (start, end);
+        }
+    }
+    ends
+}
