@@ -1,7 +1,8 @@
 //! Variables of which the text says what number they hold.
 //!
 //! Law: a read holds the constant of the last assignment before it, where no label stands between them, at which
-//! jumps and calls arrive, and no call.
+//! jumps and calls arrive, and no call. Where more than assignments stands between, the number may be one that an
+//! operator edits: whoever takes it for good says so.
 //!
 //! Law: where every assignment to a variable in a program gives it the same
 //! constant, a read behind one of them yields that constant. Side condition: the
@@ -21,8 +22,8 @@ type Key = (Option<u32>, Option<char>);
 pub struct Constants {
     /// Those that are assigned, and the number where it is always the same.
     all: HashMap<Key, Option<f64>>,
-    /// Those that hold a number for certain at the place that is read.
-    here: HashMap<Key, f64>,
+    /// Those that hold a number for certain at the place that is read, and whether that was given just before it.
+    here: HashMap<Key, (f64, bool)>,
 }
 
 impl Constants {
@@ -50,18 +51,30 @@ impl Constants {
 
     /// The number that a value is for certain here.
     pub fn sure(&self, value: &Expr) -> Option<f64> {
-        constant(value).or_else(|| match &value.kind {
+        constant(value).or_else(|| Some(self.held(value)?.0))
+    }
+
+    /// True where the number that a value is here was not given to its variable just before.
+    pub fn is_given_above(&self, value: &Expr) -> bool {
+        self.held(value).is_some_and(|(_, near)| !near)
+    }
+
+    fn held(&self, value: &Expr) -> Option<(f64, bool)> {
+        match &value.kind {
             ExprKind::Variable(variable) => self.here.get(&key(variable)?).copied(),
             _ => None,
-        })
+        }
     }
 
     /// Goes on behind an item.
     pub fn follow(&mut self, item: &ItemKind) {
         match item {
             ItemKind::Assign { target, value, .. } => {
-                let value = self.sure(value);
+                let value = constant(value).map(|number| (number, true)).or_else(|| self.held(value));
                 self.hold(target, value);
+            }
+            ItemKind::Word(_) | ItemKind::Comment(_) => {
+                self.here.values_mut().for_each(|(_, near)| *near = false)
             }
             ItemKind::Step { target, .. } | ItemKind::Timer(target) => self.hold(target, None),
             ItemKind::Transfer { cells, .. } => cells.iter().for_each(|cell| self.hold(&cell.variable, None)),
@@ -75,7 +88,7 @@ impl Constants {
         self.here.clear();
     }
 
-    fn hold(&mut self, variable: &VarRef, value: Option<f64>) {
+    fn hold(&mut self, variable: &VarRef, value: Option<(f64, bool)>) {
         match (key(variable), value) {
             (Some(key), Some(value)) => drop(self.here.insert(key, value)),
             (Some(key), None) => drop(self.here.remove(&key)),

@@ -66,7 +66,10 @@ impl Lowering<'_> {
         };
         let cond = Cond::Compare(relation, Expr::Var(REGISTER), Expr::Number(0.0));
         let known = match target {
-            Target::Computed(label) => self.constants.sure(label).and_then(whole_label),
+            // One that an operator may edit is looked for when the program runs.
+            Target::Computed(label) if !self.constants.is_given_above(label) => {
+                self.constants.sure(label).and_then(whole_label)
+            }
             _ => None,
         };
         let known = known.map(|label| Target::Label(Label::Number(label)));

@@ -2,23 +2,58 @@
 //!
 //! Lowering writes DEC V1 as `FIX[V1]-1`: the fraction goes first. Law: FIX of a
 //! whole number is that number. Side condition: on every way here the variable
-//! was last given a whole constant, a sum, difference or product of whole
-//! values, or was stepped, and no other program ran since. Counter-example:
-//! `V6=V5+1` behind `V5=V4/50`.
+//! was last given a whole constant, as counters are, or a sum, difference or product
+//! of values that are whole whatever an operator puts for a constant, or was stepped
+//! when it was whole, and no other program ran since. Counter-examples: `V6=V5+1`
+//! behind `V5=V4/50`; and `V12=V10`, INC, DEC behind `V10=400`, which finds out
+//! whether the operator's V10 is whole.
 
 use super::graph::Graph;
 use crate::canon::Func;
 use crate::ir::{BinOp, Block, Callee, Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::lower::common::Findings;
 
-/// One bit a variable of the control: whether it is whole. 99 numbers and 26 letters fit.
-type Wholes = u128;
+/// One bit a variable of the control. 99 numbers and 26 letters fit.
+type Variables = u128;
 
-fn bit(var: Var) -> Wholes {
+fn bit(var: Var) -> Variables {
     if var.class == Class::Global { 1u128.checked_shl(var.number).unwrap_or(0) } else { 0 }
 }
 
-fn is_whole(value: &Expr, known: Wholes) -> bool {
+/// The variables that are whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Wholes {
+    /// As the text stands.
+    written: Variables,
+    /// Whatever number stands for a constant that one of them is given.
+    always: Variables,
+}
+
+impl Wholes {
+    fn join(&self, other: &Self) -> Self {
+        Self { written: self.written & other.written, always: self.always & other.always }
+    }
+
+    fn step(self, stmt: &Stmt) -> Self {
+        let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind else { return self };
+        let set = |of: Variables, whole: bool| if whole { of | bit(*var) } else { of & !bit(*var) };
+        let constant = value.constant().is_some_and(|number| number.fract() == 0.0);
+        let always = !constant && is_whole(value, self.always);
+        // A counter that is stepped stays one.
+        let counts = matches!(value, Expr::Binary(_, operands) if operands[0] == Expr::Var(*var));
+        let written = constant || always || counts && is_whole(value, self.always | self.written & bit(*var));
+        Self { written: set(self.written, written), always: set(self.always, always) }
+    }
+
+    fn through(self, block: &Block) -> Self {
+        match &block.term.kind {
+            TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => Self::default(),
+            _ => block.stmts.iter().fold(self, Self::step),
+        }
+    }
+}
+
+fn is_whole(value: &Expr, known: Variables) -> bool {
     match value {
         Expr::Number(number) => number.fract() == 0.0,
         Expr::Var(var) => known & bit(*var) != 0,
@@ -31,25 +66,10 @@ fn is_whole(value: &Expr, known: Wholes) -> bool {
     }
 }
 
-fn step(stmt: &Stmt, known: Wholes) -> Wholes {
-    match &stmt.kind {
-        StmtKind::Assign { target: Place::Var(var), value } if is_whole(value, known) => known | bit(*var),
-        StmtKind::Assign { target: Place::Var(var), .. } => known & !bit(*var),
-        _ => known,
-    }
-}
-
-fn through(block: &Block, known: Wholes) -> Wholes {
-    let after = block.stmts.iter().fold(known, |known, stmt| step(stmt, known));
-    match &block.term.kind {
-        TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => 0,
-        _ => after,
-    }
-}
-
 /// Takes FIX out of the steps of whole variables, and reports the other steps.
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
-    let starts = Graph::of(program).forward(program, &0, |a, b| a & b, through);
+    let starts = Graph::of(program)
+        .forward(program, &Wholes::default(), Wholes::join, |block, known| known.through(block));
     for (block, mut known) in program.blocks.iter_mut().zip(starts) {
         for stmt in &mut block.stmts {
             let span = stmt.site.span;
@@ -58,7 +78,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
                 && let [counted, _] = &mut **operands
                 && *counted == Expr::Call(Func::Fix, [Expr::Var(*var)].into())
             {
-                if known & bit(*var) != 0 {
+                if known.written & bit(*var) != 0 {
                     *counted = Expr::Var(*var);
                 } else if findings.behaviour("step.drops.fraction", span) != Some("true") {
                     findings.not_understood(span, "no source says what a step does with a fraction");
@@ -67,7 +87,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
                     findings.unconfirmed("behaviour:step.drops.fraction".into(), Some(why), span);
                 }
             }
-            known = step(stmt, known);
+            known = known.step(stmt);
         }
     }
 }

@@ -116,13 +116,7 @@ impl<'a> Lowering<'a> {
                 self.findings.add(finding.with_help(help));
                 return None;
             }
-            if !self.is_sure(word) {
-                let message = format!(
-                    "the code is taken to be {}{number}, all that its variable is given",
-                    word.letter
-                );
-                self.findings.add(Diagnostic::new(Code::CodeByVariable, *span, message));
-            }
+            self.told_by_variable(word, &format!("code is taken to be {}{number}", word.letter), *span);
             if let Some(code) = codes.last_mut() {
                 *code = Some(Meaning::Code(row, number));
             }
@@ -153,9 +147,17 @@ impl<'a> Lowering<'a> {
         Some(row.role)
     }
 
-    /// True where it is certain what number a word holds.
-    fn is_sure(&self, word: &Word) -> bool {
-        word.value.as_ref().is_some_and(|value| self.constants.sure(value).is_some())
+    /// Says what a word by a variable is taken for, unless the variable is given that just before.
+    fn told_by_variable(&mut self, word: &Word, what: &str, span: Span) {
+        let Some(value) = &word.value else { return };
+        let why = if self.constants.sure(value).is_none() {
+            "all that its variable is given"
+        } else if self.constants.is_given_above(value) {
+            "which its variable is given above: another number put there changes nothing here"
+        } else {
+            return;
+        };
+        self.findings.add(Diagnostic::new(Code::CodeByVariable, span, format!("the {what}, {why}")));
     }
 
     /// The constant that a word holds, its own or that of its variable.
@@ -227,9 +229,8 @@ impl<'a> Lowering<'a> {
             return None;
         };
         let at = word.map_or(span, |(_, span)| span);
-        if word.is_some_and(|(word, _)| !self.is_sure(word)) {
-            let message = format!("the label is taken to be ${label}, all that its variable is given");
-            self.findings.add(Diagnostic::new(Code::CodeByVariable, at, message));
+        if let Some((word, _)) = word {
+            self.told_by_variable(word, &format!("label is taken to be ${label}"), at);
         }
         Some((label, at))
     }
