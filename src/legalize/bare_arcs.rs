@@ -34,7 +34,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     let what = "an arc with a centre and a radius: which of them counts is not stated";
                     context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
                 }
-                if !is_bare(nc) || spelled_out {
+                if !is_bare(nc) || spelled_out || context.is_faulty(index, span) {
                     continue;
                 }
                 if here.is_some() && here == there {

@@ -16,6 +16,8 @@ pub struct Context<'a> {
     pub target: &'a Control,
     /// The modal state in which a program starts that nothing in the library calls.
     pub entry: Modal,
+    /// Where lowering found errors, by program of the source: of those blocks the module may not have every word.
+    pub faults: Vec<Vec<Span>>,
     /// For each program the one of the source that it comes from: passes add programs.
     pub origins: Vec<usize>,
     findings: Findings,
@@ -40,6 +42,7 @@ impl<'a> Context<'a> {
             source,
             target,
             entry: Modal::unknown(),
+            faults: Vec::new(),
             origins: (0..programs).collect(),
             findings,
             rested,
@@ -58,6 +61,13 @@ impl<'a> Context<'a> {
         if let Some(findings) = self.findings.by_program.get_mut(origin) {
             findings.push(diagnostic);
         }
+    }
+
+    /// True where lowering found an error within a place: what the module lacks there the source may have.
+    pub fn is_faulty(&self, program: usize, span: Span) -> bool {
+        let origin = self.origins.get(program).copied().unwrap_or(program);
+        let faults = self.faults.get(origin).map_or(&[][..], Vec::as_slice);
+        faults.iter().any(|fault| span.start <= fault.start && fault.end <= span.end)
     }
 
     /// Adds findings to a program that gets few others: they take no more room than they need.

@@ -210,6 +210,8 @@ pub(super) fn make(
     let count = module.programs.len();
     let mut context = Context::new(source, target, count);
     context.entry = entry;
+    let fault = |d: &&Diagnostic| d.severity() == Severity::Error;
+    context.faults = found.iter().map(|list| list.iter().filter(fault).map(|d| d.span).collect()).collect();
     let mut fault = opt::run(&mut module, opt::Options { level, ..Default::default() }).err();
     legalize(&mut module, &mut context);
     let tidied = opt::run(&mut module, opt::Options { level, legalized: true, ..Default::default() });
@@ -337,13 +339,15 @@ pub(super) fn drop_echoes(diagnostics: &mut Vec<Diagnostic>) {
         return;
     }
     let told = diagnostics.iter().filter(|d| d.severity() == Severity::Error && d.code != Code::Unmapped);
-    let told: Vec<(Span, bool)> = told.map(|d| (d.span, later(d.code))).collect();
+    let told: Vec<(Span, Code)> = told.map(|d| (d.span, d.code)).collect();
+    // What reading and lowering found; legalization comes behind them.
+    let before = |code: Code| code != Code::NotUnderstood && code.number() < "MG04";
     let touches =
         |span: Span, t: Span| t.start < span.end.max(span.start + 1) && span.start < t.end.max(t.start + 1);
     let holds = |t: Span, span: Span| t.start <= span.start && span.end <= t.end;
     diagnostics.retain(|d| match d.code {
         Code::Unmapped => !told.iter().any(|(t, _)| touches(d.span, *t)),
-        Code::NotUnderstood => !told.iter().any(|(t, later)| !later && holds(*t, d.span)),
+        Code::NotUnderstood => !told.iter().any(|(t, code)| before(*code) && holds(*t, d.span)),
         _ => true,
     });
 }

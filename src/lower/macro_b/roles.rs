@@ -56,6 +56,12 @@ impl<'a> Lowering<'a> {
             }
             return Some((role, Some(row)));
         }
+        // A code that only this control has takes its words its own way; the code is refused as it is.
+        let own_way = |op: Op| matches!(op, Op::MachineSpecific | Op::CycleOther | Op::ProbeOther);
+        let common = |role: Role| role.is_axis() || matches!(role, Role::Feed | Role::Speed | Role::Tool);
+        if !usual.is_some_and(|usual| common(usual.role)) && codes.iter().any(|(_, row)| own_way(row.op)) {
+            return Some((Role::Builder, None));
+        }
         let Some(usual) = usual.filter(|_| !self.foreign_axis(word)) else {
             self.no_role(word, span, codes);
             // It is some axis word: a return is not one without axes for it.

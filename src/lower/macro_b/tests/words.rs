@@ -120,7 +120,7 @@ fn look_ahead() {
 #[test]
 fn builders_codes_keep_their_numbers() {
     means("fanuc", "M290", "0: nc M=290 | stray");
-    means("haas", "G12I1.F10.", "0: nc G=12 arc.i=1 feed=10 | stray");
+    means("haas", "G12I1.F10.", "0: nc G=12 builder=1 feed=10 | stray");
 }
 
 #[test]
