@@ -73,10 +73,10 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
     let options = Options { level, draft: arguments.draft };
     let files = jobs.iter().map(|job| job.inputs.len()).sum();
+    // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
     let mut conversions: Vec<Conversion> = common::with_progress(files, || {
-        jobs.iter()
-            .map(|job| convert(&job.inputs, &job.source, &job.target, job.lock.clone(), options))
-            .collect()
+        let made = |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock.clone(), options);
+        rayon::scope(|_| jobs.iter().map(made).collect())
     });
     let certificates = common::with_progress(files, || verified(arguments, &jobs, &mut conversions));
     let targets: Vec<_> = jobs.iter().zip(&conversions).map(|(job, c)| outcome::targets(job, c)).collect();

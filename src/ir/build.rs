@@ -95,6 +95,12 @@ impl Builder {
         self.open = false;
     }
 
+    /// Makes the present block, just started, what another is, its end included.
+    pub fn keep(&mut self, block: Block) {
+        self.with_current(|slot| *slot = block);
+        self.open = false;
+    }
+
     /// Ends the present block and goes on in a fresh one, which `kind` may name.
     pub fn end_then(&mut self, site: Site, kind: impl FnOnce(BlockId) -> TermKind) -> BlockId {
         let next = self.fresh();

@@ -4,7 +4,7 @@ use super::{BlockId, Cond, Expr};
 use crate::canon::{Op, Role, Sys};
 use crate::syntax::ProgramName;
 use crate::text::Span;
-use smallvec::{SmallVec, smallvec};
+use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
 /// A class of variables: who can see them and how long they last.
@@ -328,8 +328,8 @@ impl TermKind {
     /// The blocks that the terminator can go on at, callees aside.
     pub fn successors(&self) -> SmallVec<[BlockId; 2]> {
         match self {
-            TermKind::Jump(to) | TermKind::Call { next: to, .. } => smallvec![*to],
-            TermKind::Branch { yes, no, .. } => smallvec![*yes, *no],
+            TermKind::Jump(to) | TermKind::Call { next: to, .. } => SmallVec::from_buf_and_len([*to; 2], 1),
+            TermKind::Branch { yes, no, .. } => SmallVec::from_buf([*yes, *no]),
             TermKind::Computed { targets, .. } => targets.iter().map(|(_, to)| *to).collect(),
             TermKind::Return { .. } | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {
                 SmallVec::new()

@@ -22,16 +22,18 @@ use std::collections::{BTreeMap, BTreeSet};
 const MOST_LOOKED_UP: usize = 50;
 
 /// Checks and shifts computed numbers.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut numbers = Numbers::new(context.source, context.target);
     if numbers.all_alike() {
-        return;
+        return false;
     }
     look(module, &mut numbers, context);
     let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
-    if numbers.known.values().any(moves) {
+    let shifts = numbers.known.values().any(moves);
+    if shifts {
         module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
     }
+    shifts
 }
 
 fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {

@@ -9,14 +9,16 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, Expr, Module};
 
 /// Splits constants that are too long.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let Some(most) = context.target.numbers().digits.filter(|most| *most >= 8) else { return };
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let Some(most) = context.target.numbers().digits.filter(|most| *most >= 8) else { return false };
+    let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut found = Vec::new();
         rewrite_program(program, |e| matches!(e, Expr::Number(_)), &mut |e, position, rewriter| match e {
             Expr::Number(value)
                 if is_long(value) && digits(value) > most && !matches!(position, Position::Argument(_)) =>
             {
+                changed = true;
                 let (split, made) = split(value);
                 if made != value {
                     found.push((rewriter.span, value, made));
@@ -32,6 +34,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add(index, Diagnostic::new(Code::NearlyEqual, span, what));
         }
     }
+    changed
 }
 
 /// Digits that the constant is written with, the zero before the point included.

@@ -6,11 +6,15 @@
 
 use crate::ir::{Block, StmtKind};
 
-/// Takes the NC blocks without words out of a block, but for their comments.
-pub fn drop_emptied(block: &mut Block) {
+/// Takes the NC blocks without words out of a block, but for their comments; true where there are any.
+pub fn drop_emptied(block: &mut Block) -> bool {
     let empty = |kind: &StmtKind| matches!(kind, StmtKind::Nc(nc) if nc.items.is_empty());
+    if !block.stmts.iter().any(|stmt| empty(&stmt.kind)) {
+        return false;
+    }
     block.stmts.retain(|stmt| !empty(&stmt.kind) || !stmt.site.remarks.is_empty());
     for stmt in block.stmts.iter_mut().filter(|stmt| empty(&stmt.kind)) {
         stmt.kind = StmtKind::Remark;
     }
+    true
 }

@@ -42,15 +42,17 @@ impl Exposed {
             for (routine, row) in entries.range(own()) {
                 live_in.get_mut(routine.1.index()).into_iter().for_each(|live| live.clone_from(row));
             }
+            let back = seen_before(program);
             let mut changed = true;
             let mut live = none.clone();
             while std::mem::take(&mut changed) {
                 for (at, block) in program.blocks.iter().enumerate().rev() {
+                    let Transfer { reads, passes, called: routine, modal } = &transfers[at];
                     live.clone_from(&none);
                     for to in block.term.kind.successors() {
                         live.join(live_in.get(to.index()).unwrap_or(&none));
                     }
-                    if let Some(sure) = written.by_end(index, block, &callees) {
+                    if let Some(sure) = routine.and_then(|routine| written.by_end(routine, block)) {
                         live.subtract(sure);
                     }
                     let called = |live: &mut Row, routine: Routine, passes: &Row| {
@@ -59,17 +61,12 @@ impl Exposed {
                         there.intersect(passes);
                         live.join(&there);
                     };
-                    let Transfer { reads, passes, modal } = &transfers[at];
-                    if let TermKind::Call { call, .. } = &block.term.kind
-                        && let Some(routine) = callees.routine(index, call)
-                    {
-                        called(&mut live, routine, &everything);
-                    }
+                    routine.iter().for_each(|routine| called(&mut live, *routine, &everything));
                     live.intersect(passes);
                     live.join(reads);
                     // It runs at moves behind it, before what is written later.
                     modal.iter().for_each(|(routine, passes)| called(&mut live, *routine, passes));
-                    changed |= live_in[at].join(&live);
+                    changed |= live_in[at].join(&live) && back[at];
                 }
             }
             let mut any = false;
@@ -171,11 +168,9 @@ impl Written {
     }
 
     /// What is surely written when a call at the end of a block comes back.
-    fn by_end(&self, program: usize, block: &Block, callees: &Callees<'_>) -> Option<&Row> {
+    fn by_end(&self, routine: Routine, block: &Block) -> Option<&Row> {
         match &block.term.kind {
-            TermKind::Call { call, .. } if runs(call) => {
-                self.0.get(&callees.routine(program, call)?)?.as_ref()
-            }
+            TermKind::Call { call, .. } if runs(call) => self.0.get(&routine)?.as_ref(),
             _ => None,
         }
     }
@@ -241,12 +236,30 @@ fn runs(call: &Call) -> bool {
     call.count.as_ref().is_none_or(|count| count.constant().is_some_and(|n| n >= 1.0))
 }
 
+/// By block: true where what is live at its start says something of a block that stands behind it or of itself.
+fn seen_before(program: &Program) -> Vec<bool> {
+    let mut seen = vec![false; program.blocks.len()];
+    let mut note = |to: BlockId| seen.get_mut(to.index()).into_iter().for_each(|seen| *seen = true);
+    for (at, block) in program.blocks.iter().enumerate() {
+        block.term.kind.successors().into_iter().filter(|to| to.index() <= at).for_each(&mut note);
+        calls_of(block).for_each(|call| match &call.callee {
+            Callee::Block(entry) => note(*entry),
+            // It may be the program itself.
+            Callee::Program(name) if program.name.as_ref() == Some(name) => note(BlockId(0)),
+            _ => {}
+        });
+    }
+    seen
+}
+
 /// What a block makes of what is live behind it.
 struct Transfer {
     /// What it makes of nothing.
     reads: Row,
     /// What it makes of everything.
     passes: Row,
+    /// The routine that its end calls.
+    called: Option<Routine>,
     /// The modal calls that it starts, and what the statements before each make of everything.
     modal: Vec<(Routine, Row)>,
 }
@@ -264,8 +277,12 @@ impl Transfer {
             Some((routine(call)?, before))
         });
         let modal = modal.collect();
+        let called = match &block.term.kind {
+            TermKind::Call { call, .. } => routine(call),
+            _ => None,
+        };
         let [reads, passes] = rows;
-        Self { reads, passes, modal }
+        Self { reads, passes, called, modal }
     }
 }
 

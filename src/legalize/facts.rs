@@ -4,19 +4,20 @@
 //! at the first place that rests on it. Facts about vacancy matter only where a variable may be vacant; that is looked
 //! for by data flow.
 
+mod vacant;
+
 use super::Context;
 use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
 use crate::dialect::{CodeMeaning, Control, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
-use crate::ir::{
-    BinOp, Block, BlockId, Callee, Class, Cond, Expr, Module, Nc, NcItem, Relation, StmtKind, TermKind, Var,
-};
+use crate::ir::{BinOp, Block, Callee, Class, Cond, Expr, Module, Nc, NcItem, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
+use vacant::VACANCY;
 
 /// Reports the unconfirmed facts of the target that programs rest on; `computes` is false where all values are constants.
 pub fn of_target(module: &Module, computes: bool, context: &mut Context<'_>) {
@@ -30,9 +31,6 @@ pub fn of_source(module: &Module, context: &mut Context<'_>) {
         look(module, true, context, context.source, Side::Source);
     }
 }
-
-/// What matters only where a variable may be vacant.
-const VACANCY: [&str; 3] = ["vacant.eq.zero", "vacant.compares.as.zero", "vacant.arithmetic.zero"];
 
 fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Control, side: Side) {
     // Where nothing is computed, nothing vacant is.
@@ -62,9 +60,7 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
             if side == Side::Target {
                 found.block(blocks);
             }
-            if let Some(vacancy) = &vacancy
-                && !VACANCY.iter().all(|name| found.is_told(name))
-            {
+            if let Some(vacancy) = &vacancy {
                 found.vacant(id, blocks, vacancy);
             }
         }
@@ -174,13 +170,6 @@ impl<'c> Found<'c> {
         if std::mem::replace(last, self.program) != self.program {
             self.all.push(Diagnostic { span, ..finding.clone() });
         }
-    }
-
-    /// True where there is no more to say about a behaviour in this program.
-    fn is_told(&self, name: &str) -> bool {
-        let last = |row| self.rows.get(&(std::ptr::from_ref(row) as usize)).map(|(_, last)| *last);
-        let row = self.control.behaviour(name).filter(|row| !row.origin.confirmed);
-        row.is_none_or(|row| last(row) == Some(self.program))
     }
 
     /// The behaviour must be confirmed, whatever its answer.
@@ -332,62 +321,6 @@ impl<'c> Found<'c> {
         if !a.is_whole() || !b.is_whole() {
             self.behaviour("bits.of.fraction", span);
         }
-    }
-
-    /// Facts that matter only where a variable may be vacant.
-    fn vacant(&mut self, id: BlockId, blocks: &[Block], vacancy: &Vacancy<'_>) {
-        let Some(block) = blocks.first() else { return };
-        vacancy.forward(id, &mut |at, may| match block.stmts.get(at) {
-            Some(stmt) => {
-                let mut arithmetic = false;
-                stmt.kind.exprs(&mut |e| e.walk(&mut |e| arithmetic |= computes_with(e, may)));
-                if arithmetic {
-                    let span = self.span(blocks, at);
-                    self.behaviour("vacant.arithmetic.zero", span);
-                }
-            }
-            None => {
-                if let TermKind::Branch { cond, .. } = &block.term.kind {
-                    let span = self.span(blocks, at);
-                    self.condition(cond, span, may);
-                }
-            }
-        });
-    }
-
-    fn condition(&mut self, cond: &Cond, span: Span, may: &dyn Fn(&Expr) -> bool) {
-        match cond {
-            Cond::Compare(_, _, Expr::Vacant) | Cond::Compare(_, Expr::Vacant, _) => {}
-            Cond::Compare(relation, a, b) => {
-                let equality = matches!(relation, Relation::Equal | Relation::NotEqual);
-                // What is vacant does not equal 5, whether or not it equals 0.
-                let other = |e: &Expr| equality && e.constant().is_some_and(|value| value != 0.0);
-                if (may(a) && !other(b)) || (may(b) && !other(a)) {
-                    self.behaviour(if equality { "vacant.eq.zero" } else { "vacant.compares.as.zero" }, span);
-                }
-                let mut arithmetic = false;
-                for e in [a, b] {
-                    e.walk(&mut |e| arithmetic |= computes_with(e, may));
-                }
-                if arithmetic {
-                    self.behaviour("vacant.arithmetic.zero", span);
-                }
-            }
-            Cond::And(parts) | Cond::Or(parts) => {
-                parts.iter().for_each(|part| self.condition(part, span, may))
-            }
-            Cond::Not(inner) => self.condition(inner, span, may),
-            Cond::Switch(_) => {}
-        }
-    }
-}
-
-/// True where arithmetic takes an operand that may be vacant.
-fn computes_with(e: &Expr, may: &dyn Fn(&Expr) -> bool) -> bool {
-    match e {
-        Expr::Binary(_, operands) => operands.iter().any(may),
-        Expr::Call(_, arguments) => arguments.iter().any(may),
-        _ => false,
     }
 }
 

@@ -10,7 +10,7 @@ use crate::dialect::{BareLength, Control, Units};
 use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
 
 /// Converts counts of increments that the target reads otherwise.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let (source, target) = (context.source, context.target);
     let mut entry = context.entry.clone();
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), source.units()) {
@@ -24,11 +24,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let mut ops = module.programs.iter().flat_map(units_named);
         ops.all(|named| named == *units)
     });
+    let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         // A program that names one unit throughout is in it wherever it is entered.
         let named = unit_named(program);
         let mut unknown = None;
         for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| counts(block)) {
+            changed = true;
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
                 state.step(stmt);
@@ -62,6 +64,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             );
         }
     }
+    changed
 }
 
 /// True where a block has a count of increments.

@@ -12,16 +12,19 @@ use crate::text::Span;
 use std::collections::BTreeSet;
 
 /// Reports calls of what is not there.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     report(module, context);
+    let mut changed = false;
     // What is refused anyway keeps no arguments that no program has.
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
         if let TermKind::Call { call, .. } = &mut block.term.kind
             && matches!(call.callee, Callee::Cycle(_))
         {
+            changed |= !call.arguments.is_empty();
             call.arguments.clear();
         }
     }
+    changed
 }
 
 fn report(module: &Module, context: &mut Context<'_>) {

@@ -20,7 +20,7 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 }
 
 /// Gives each M code a block of its own, past those that the target takes together.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let target = context.target;
     let most = match target.behaviour("m.codes.per.block").map(|b| b.value.as_str()) {
         Some("3") => 3,
@@ -29,10 +29,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     };
     let always_turns = target.code_for(Op::SurfaceSpeed, &BTreeMap::new()).is_none();
     let m_codes: BTreeSet<Op> = Op::ALL.iter().copied().filter(|op| is_m_code(*op, target)).collect();
+    let mut changed = false;
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
         let mut behind = Vec::new();
         for (at, stmt) in block.stmts.iter_mut().enumerate() {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            let before = nc.items.len();
             if always_turns {
                 nc.items.retain(|item| *item != NcItem::Op(Op::TurnsPerMinute));
             }
@@ -42,6 +44,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 (at, Stmt { kind, site: site.clone() })
             });
             behind.extend(rest);
+            changed |= nc.items.is_empty() || nc.items.len() != before;
             if nc.items.is_empty() {
                 stmt.kind = StmtKind::Remark;
             }
@@ -57,6 +60,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+    changed
 }
 
 /// True for an operation that the target has an M code for.

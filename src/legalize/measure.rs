@@ -4,12 +4,16 @@
 //! Names of registers are not known yet: they count [`REGISTER`] characters. What is counted wrong is not written
 //! wrong: the emitter counts what it has written.
 
+use super::census::is_long;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr};
 use smallvec::SmallVec;
 
 /// Characters of a register's name.
 pub(super) const REGISTER: usize = 5;
+
+/// Characters that no name of a function has more of.
+const NAME: usize = 8;
 
 /// The size of something written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -96,6 +100,34 @@ impl<'c> Measure<'c> {
         }
     }
 
+    /// No less than [`Measure::expr`] gives, in less time: most expressions are far smaller than may be.
+    pub fn bound(&self, e: &Expr) -> Size {
+        let leaf = |length: usize| Size { depth: 0, length };
+        let all = |operands: &[Expr]| {
+            operands.iter().fold(leaf(0), |sum, operand| sum.beside(self.bound(operand), 4)).bracketed()
+        };
+        match e {
+            Expr::Number(value) if is_long(*value) => leaf(digits(*value)),
+            Expr::Number(_) => leaf("-1234.5678".len()),
+            Expr::Increments(_) | Expr::Vacant | Expr::Var(_) => leaf(REGISTER),
+            Expr::System(_, subscripts) => all(subscripts).beside(leaf(9), 0),
+            Expr::Indirect(_, inner) | Expr::Negate(inner) => {
+                self.bound(inner).bracketed().beside(leaf(1), 0)
+            }
+            Expr::Binary(op, operands) => {
+                let [left, right] = [0, 1].map(|at| {
+                    let (operand, size) = (&operands[at], self.bound(&operands[at]));
+                    let joins = matches!(operand, Expr::Call(..))
+                        || self.binds_less(operand, self.rank(*op), at == 1);
+                    if joins { size.bracketed() } else { size }
+                });
+                left.beside(right, 5)
+            }
+            Expr::Call(_, arguments) => all(arguments).beside(leaf(NAME), 0),
+            Expr::Truth(_) => Size { depth: u32::MAX / 2, length: u32::MAX as usize },
+        }
+    }
+
     /// The size of a condition, without the brackets of its IF.
     pub fn cond(&self, cond: &Cond) -> Size {
         match cond {
@@ -155,3 +187,62 @@ const OPERATORS: [&str; 8] =
 
 /// The names in the tables, in the order of [`Relation`](crate::ir::Relation).
 const COMPARISONS: [&str; 6] = ["eq", "ne", "lt", "le", "gt", "ge"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canon::{Func, Sys};
+    use crate::dialect::registry;
+    use crate::ir::{Bank, Class, Relation, Var};
+    use proptest::prelude::*;
+
+    fn expressions() -> impl Strategy<Value = Expr> {
+        let var = |number| Expr::Var(Var { class: Class::Common, number });
+        let number = prop_oneof![
+            any::<i16>().prop_map(f64::from),
+            any::<i32>().prop_map(|n| f64::from(n) / 1e4),
+            any::<f64>().prop_filter("a number", |n| n.is_finite()),
+        ];
+        let leaf = prop_oneof![number.prop_map(Expr::Number), (100..999u32).prop_map(var)];
+        leaf.prop_recursive(6, 40, 3, |inner| {
+            let one = inner.clone();
+            prop_oneof![
+                one.clone().prop_map(|e| Expr::Negate(Box::new(e))),
+                one.clone().prop_map(|e| Expr::Indirect(Bank::Numbered, Box::new(e))),
+                one.clone().prop_map(|e| Expr::System(Sys::LengthGeometry, [e].into_iter().collect())),
+                one.prop_map(|e| Expr::Call(Func::Sqrt, [e].into_iter().collect())),
+                [inner.clone(), inner.clone()].prop_map(|[a, b]| Expr::binary(BinOp::Xor, a, b)),
+                [inner.clone(), inner.clone()].prop_map(|[a, b]| Expr::binary(BinOp::Sub, a, b)),
+                [inner.clone(), inner.clone()]
+                    .prop_map(|all| Expr::Call(Func::Atan, all.into_iter().collect())),
+                [inner.clone(), inner].prop_map(|[a, b]| Expr::Truth(Box::new(Cond::Compare(
+                    Relation::Less,
+                    a,
+                    b
+                )))),
+            ]
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            rng_seed: proptest::test_runner::RngSeed::Fixed(29), cases: 600, failure_persistence: None, ..ProptestConfig::default()
+        })]
+        #[test]
+        fn nothing_is_larger_than_its_bound(e in expressions()) {
+            for entry in registry::all() {
+                let Some(control) = Control::plain(entry.name) else { continue };
+                let measure = Measure::new(&control);
+                let (size, most) = (measure.expr(&e), measure.bound(&e));
+                prop_assert!(size.depth <= most.depth && size.length <= most.length, "{size:?} {most:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn names_of_functions_are_short() {
+        for control in registry::all().iter().filter_map(|entry| Control::plain(entry.name)) {
+            assert!(control.dialect().functions.iter().all(|row| row.spelling.len() <= NAME));
+        }
+    }
+}

@@ -96,8 +96,10 @@ enum Run {
     /// Only has something to say.
     Reports(fn(&Module, &mut Context<'_>)),
     Rewrites(fn(&mut Module, &mut Context<'_>)),
+    /// Finds nothing to change in most libraries that concern it; true where it changed anything.
+    Edits(fn(&mut Module, &mut Context<'_>) -> bool),
 }
-use Run::{Reports, Rewrites};
+use Run::{Edits, Reports, Rewrites};
 
 impl Pass {
     /// Runs it where anything concerns it.
@@ -111,10 +113,21 @@ impl Pass {
             return false;
         }
         match self.run {
-            Reports(run) => run(module, context),
-            Rewrites(run) => run(module, context),
+            Reports(run) => {
+                run(module, context);
+                false
+            }
+            Rewrites(run) => {
+                run(module, context);
+                true
+            }
+            Edits(run) => {
+                let before = cfg!(debug_assertions).then(|| module.clone());
+                let changed = run(module, context);
+                debug_assert!(changed || before.is_none_or(|before| before == *module), "{}", self.name);
+                changed
+            }
         }
-        matches!(self.run, Rewrites(_))
     }
 }
 
@@ -124,11 +137,7 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "lathe", concerns: lathe::concerns, run: Reports(lathe::run) },
     Pass { name: "matters", concerns: |c, _| matters::concerns(c), run: Reports(matters::run) },
     Pass { name: "blanks", concerns: |_, context| !context.same_family(), run: Rewrites(blanks::run) },
-    Pass {
-        name: "link",
-        concerns: |c, _| c.has(Thing::Call) || c.has(Thing::Chain),
-        run: Rewrites(link::run),
-    },
+    Pass { name: "link", concerns: |c, _| c.has(Thing::Call) || c.has(Thing::Chain), run: Edits(link::run) },
     Pass { name: "outline", concerns: |c, _| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
     Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
     Pass { name: "chain", concerns: |c, _| c.has(Thing::Chain), run: Rewrites(chain::chain) },
@@ -152,8 +161,8 @@ pub const PASSES: &[Pass] = &[
         run: Reports(bare_arcs::run),
     },
     Pass { name: "active-offsets", concerns: |c, _| c.has(Thing::System), run: Reports(active_offsets::run) },
-    Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Rewrites(increments::run) },
-    Pass { name: "units", concerns: units::concerns, run: Rewrites(units::run) },
+    Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Edits(increments::run) },
+    Pass { name: "units", concerns: units::concerns, run: Edits(units::run) },
     Pass { name: "rapid-once", concerns: |c, _| c.op(Op::RapidOnce), run: Rewrites(rapid_once::run) },
     Pass {
         name: "length-radius",
@@ -167,7 +176,7 @@ pub const PASSES: &[Pass] = &[
     Pass {
         name: "computed-numbers",
         concerns: |c, _| c.has(Thing::Indirect),
-        run: Rewrites(computed_numbers::run),
+        run: Edits(computed_numbers::run),
     },
     Pass {
         name: "vacant-writes",
@@ -206,20 +215,20 @@ pub const PASSES: &[Pass] = &[
         concerns: |c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)),
         run: Rewrites(cycle_words::run),
     },
-    Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Rewrites(substitutes::run) },
-    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Rewrites(machine_codes::run) },
+    Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Edits(substitutes::run) },
+    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Edits(machine_codes::run) },
     Pass { name: "missing", concerns: missing::concerns, run: Reports(missing::run) },
     Pass { name: "functions", concerns: |c, _| c.has(Thing::Function), run: Rewrites(functions::run) },
     Pass { name: "truth", concerns: truth::concerns, run: Rewrites(truth::run) },
     Pass { name: "conditions", concerns: |c, _| c.has(Thing::Compound), run: Rewrites(conditions::run) },
-    Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Rewrites(constants::run) },
+    Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Edits(constants::run) },
     Pass { name: "ports", concerns: |c, _| c.has(Thing::Output), run: Rewrites(ports::run) },
     Pass {
         name: "printed-values",
         concerns: |c, _| c.has(Thing::Print),
         run: Rewrites(operator::hold_values),
     },
-    Pass { name: "oversize", concerns: |c, _| c.has(Thing::Computed), run: Rewrites(oversize::run) },
+    Pass { name: "oversize", concerns: |c, _| c.has(Thing::Computed), run: Edits(oversize::run) },
     Pass { name: "vacancy", concerns: vacancy::concerns, run: Rewrites(vacancy::run) },
 ];
 

@@ -32,19 +32,23 @@ pub fn shares_line(control: &Control, cond: &Cond, stmt: &StmtKind) -> bool {
 }
 
 /// Takes operands out of expressions that the target has no room for.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
     let room = room(context.target);
     if depth == u32::MAX && room == usize::MAX {
-        return;
+        return false;
     }
+    let mut changed = false;
     for program in &mut module.programs {
-        let mut cutter = Cutter { measure, depth, room, highest: highest_temp(program), before: Vec::new() };
+        let highest = highest_temp(program);
+        let mut cutter = Cutter { measure, depth, room, highest, before: Vec::new() };
         for block in &mut program.blocks {
             cutter.block(block);
         }
+        changed |= cutter.highest != highest;
     }
+    changed
 }
 
 struct Cutter<'c> {
@@ -119,7 +123,7 @@ impl Cutter<'_> {
 
     fn whole(&mut self, e: &mut Expr, position: Position) {
         let most = self.most(position);
-        if !is_leaf(e) && !most.holds(self.measure.expr(e)) {
+        if !is_leaf(e) && !most.holds(self.measure.bound(e)) && !most.holds(self.measure.expr(e)) {
             *e = self.cut(std::mem::replace(e, Expr::Vacant), most).0;
         }
     }
@@ -173,6 +177,13 @@ impl Cutter<'_> {
 
     /// Takes the longest values out of a block that is longer than a line.
     fn words(&mut self, items: &mut [NcItem]) {
+        let most = items.iter().map(|item| match item {
+            NcItem::Word(_, value) => self.measure.bound(value).length + 4,
+            _ => 4,
+        });
+        if most.sum::<usize>() <= self.room {
+            return;
+        }
         loop {
             let lengths = items.iter().map(|item| match item {
                 NcItem::Word(_, value) => self.measure.expr(value).length + 4,
@@ -203,6 +214,9 @@ impl Cutter<'_> {
     /// Takes the longer side out of a comparison that is longer than a line.
     fn sides(&mut self, a: &mut Expr, b: &mut Expr) {
         let most = self.most(Position::Condition);
+        if self.measure.bound(a).length + self.measure.bound(b).length + 8 <= most.length {
+            return;
+        }
         loop {
             let [left, right] = [&*a, &*b].map(|e| self.measure.expr(e).length);
             if left + right + 8 <= most.length {

@@ -106,10 +106,23 @@ impl Part {
 /// Builds a program anew: `each` is given its parts in their order and lays down what becomes of them. Ids of
 /// blocks in what it lays down are those of the old program and those that the builder hands out.
 pub(super) fn rebuild(program: &mut Program, each: &mut dyn FnMut(&mut Builder, Part)) {
+    rebuild_where(program, &|_| true, each);
+}
+
+/// As [`rebuild`]; the blocks that are not `touched` stay as they are.
+fn rebuild_where(
+    program: &mut Program,
+    touched: &dyn Fn(BlockId) -> bool,
+    each: &mut dyn FnMut(&mut Builder, Part),
+) {
     let mut builder = Builder::over(program.blocks.len());
     for (index, block) in std::mem::take(&mut program.blocks).into_iter().enumerate() {
         let id = BlockId(index as u32);
         builder.start(id);
+        if !touched(id) {
+            builder.keep(block);
+            continue;
+        }
         block.labels.into_iter().for_each(|label| builder.label(label));
         each(&mut builder, Part::Start(id));
         block.stmts.into_iter().for_each(|stmt| each(&mut builder, Part::Stmt(stmt)));
@@ -150,7 +163,9 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
         return;
     }
     let mut place = (0, 0);
-    rebuild(program, &mut |builder, part| {
+    let touched: Vec<usize> = preludes.iter().map(|(id, ..)| *id).collect();
+    let touched = |id: BlockId| touched.binary_search(&id.index()).is_ok();
+    rebuild_where(program, &touched, &mut |builder, part| {
         let site = match &part {
             Part::Start(id) => {
                 place = (id.index(), 0);

@@ -33,9 +33,10 @@ pub fn concerns(census: &Census) -> bool {
 }
 
 /// Puts substitutes in the place of operations that the target lacks.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let has = |op: Op| context.target.code_for(op, &BTreeMap::new()).is_some();
     let rows: Vec<_> = ROWS.iter().filter(|(op, other, _)| !has(*op) && other.is_none_or(has)).collect();
+    let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
         for block in &mut program.blocks {
             for stmt in &mut block.stmts {
@@ -44,6 +45,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
                         continue;
                     };
+                    changed = true;
                     match other {
                         Some(other) => nc.items[at] = NcItem::Op(*other),
                         None => drop(nc.items.remove(at)),
@@ -51,7 +53,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, *what));
                 }
             }
-            drop_emptied(block);
+            changed |= drop_emptied(block);
         }
     }
+    changed
 }

@@ -4,17 +4,17 @@
 //! can. A temporary that is alive across a call, or a move where a modal call may be open, must not share with any of the callee's, so each such one
 //! gets a number that no other has.
 
-use crate::ir::analysis::Temps;
+use crate::ir::analysis::{Cfg, Temps, Transfer, behind, live_before};
 use crate::ir::{Block, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
-use smallvec::SmallVec;
-use std::collections::{BTreeMap, BTreeSet};
+use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeSet;
 
 /// Gives temporaries their colours.
 pub fn run(module: &mut Module) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
     let plans: Vec<Plan> = module.programs.iter().map(|program| Plan::of(program, modal)).collect();
-    let shared = plans.iter().flat_map(|plan| plan.colours.values()).max().copied().unwrap_or(0);
+    let shared = plans.iter().flat_map(|plan| plan.colours.values()).copied().max().unwrap_or(0);
     let mut lone = shared;
     for (program, mut plan) in module.programs.iter_mut().zip(plans) {
         for temp in plan.across {
@@ -30,7 +30,7 @@ pub fn run(module: &mut Module) {
 /// What a program's temporaries need.
 struct Plan {
     /// Colours of those that may share, from 1.
-    colours: BTreeMap<u32, u32>,
+    colours: HashMap<u32, u32>,
     /// Those alive across a call.
     across: BTreeSet<u32>,
     /// By block: true where it names any.
@@ -40,12 +40,12 @@ struct Plan {
 impl Plan {
     /// Of a program; in a library with modal calls every move may be a call.
     fn of(program: &Program, modal: bool) -> Self {
-        let mut plan = Self { colours: BTreeMap::new(), across: BTreeSet::new(), naming: Vec::new() };
+        let mut plan = Self { colours: HashMap::new(), across: BTreeSet::new(), naming: Vec::new() };
         if program.temporaries().next().is_none() {
             return plan;
         }
         let (live, naming) = live_out(program);
-        let mut apart: BTreeMap<u32, Temps> = BTreeMap::new();
+        let mut apart: HashMap<u32, Temps> = HashMap::new();
         for ((block, mut now), names) in program.blocks.iter().zip(live).zip(&naming) {
             if now.is_empty() && !names {
                 continue;
@@ -55,18 +55,25 @@ impl Plan {
             }
             backward(block, &mut now, &mut |step, now| match step {
                 Step::Move if modal => plan.across.extend(now.iter()),
-                Step::Write(temp) => {
+                Step::Write { temp, .. } => {
                     now.iter().for_each(|other| apart.entry(other).or_default().insert(temp));
                     apart.entry(temp).or_default().join(now);
                 }
                 Step::Move | Step::Read => {}
             });
         }
-        for (&temp, neighbours) in apart.iter().filter(|(temp, _)| !plan.across.contains(temp)) {
-            let others = neighbours.iter().filter(|other| *other != temp);
-            let taken: BTreeSet<u32> = others.filter_map(|n| plan.colours.get(&n).copied()).collect();
-            let colour = (1..).find(|colour| !taken.contains(colour)).unwrap_or(1);
-            plan.colours.insert(temp, colour);
+        let mut temps: Vec<u32> = apart.keys().copied().filter(|temp| !plan.across.contains(temp)).collect();
+        temps.sort_unstable();
+        let mut taken: Vec<u32> = Vec::new();
+        for temp in temps {
+            let others = apart[&temp].iter().filter(|other| *other != temp);
+            taken.clear();
+            taken.extend(others.filter_map(|other| plan.colours.get(&other).copied()));
+            taken.sort_unstable();
+            taken.dedup();
+            // The first that is not where it would be leaves its place free.
+            let free = (1..).zip(&taken).find(|(colour, taken)| colour != *taken);
+            plan.colours.insert(temp, free.map_or(taken.len() as u32 + 1, |(colour, _)| colour));
         }
         Self { naming, ..plan }
     }
@@ -74,48 +81,30 @@ impl Plan {
 
 /// The temporaries alive at the end of each block, and whether it names any.
 fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
-    let count = program.blocks.len();
-    let mut live_in = vec![Temps::default(); count];
-    let mut live_out = live_in.clone();
-    let mut naming = vec![true; count];
-    let mut predecessors = vec![SmallVec::<[usize; 2]>::new(); count];
-    for (at, block) in program.blocks.iter().enumerate() {
-        for to in block.term.kind.successors() {
-            if let Some(list) = predecessors.get_mut(to.index()) {
-                list.push(at);
+    let cfg = Cfg::of(program);
+    let mut naming = vec![false; program.blocks.len()];
+    let transfer = |(block, names): (&Block, &mut bool)| {
+        let mut transfer = Transfer::default();
+        backward(block, &mut transfer.reads, &mut |step, _| {
+            *names |= !matches!(step, Step::Move);
+            if let Step::Write { temp, sure: true } = step {
+                transfer.writes.insert(temp);
             }
-        }
-    }
-    let mut work: Vec<usize> = (0..count).collect();
-    let mut waiting = vec![true; count];
-    while let Some(at) = work.pop() {
-        waiting[at] = false;
-        let block = &program.blocks[at];
-        let mut out = Temps::default();
-        for live in block.term.kind.successors().iter().filter_map(|to| live_in.get(to.index())) {
-            out.join(live);
-        }
-        let mut now = out.clone();
-        if naming[at] {
-            let mut names = false;
-            backward(block, &mut now, &mut |step, _| names |= !matches!(step, Step::Move));
-            naming[at] = names;
-        }
-        live_out[at] = out;
-        if now != live_in[at] {
-            live_in[at] = now;
-            work.extend(predecessors[at].iter().filter(|at| !std::mem::replace(&mut waiting[**at], true)));
-        }
-    }
-    (live_out, naming)
+        });
+        transfer
+    };
+    let transfers: Vec<Transfer> = program.blocks.iter().zip(&mut naming).map(transfer).collect();
+    let live_in = live_before(&cfg, &transfers);
+    let out = program.ids().map(|id| behind(&cfg, id, &live_in)).collect();
+    (out, naming)
 }
 
 /// What matters of a block.
 enum Step {
     /// A temporary is read.
     Read,
-    /// This one is written.
-    Write(u32),
+    /// This one is written; not for sure under block skip.
+    Write { temp: u32, sure: bool },
     /// An axis is moved.
     Move,
 }
@@ -128,9 +117,10 @@ fn backward(block: &Block, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps))
             each(Step::Move, live);
         }
         if let Some(Place::Var(Var { class: Class::Temp, number })) = stmt.kind.target() {
-            each(Step::Write(*number), live);
+            let sure = stmt.site.skip.is_none();
+            each(Step::Write { temp: *number, sure }, live);
             // Under block skip the old value may survive.
-            if stmt.site.skip.is_none() {
+            if sure {
                 live.remove(*number);
             }
         }
@@ -147,7 +137,7 @@ fn read(e: &Expr, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
     });
 }
 
-fn rename(program: &mut Program, names: &BTreeMap<u32, u32>, naming: &[bool]) {
+fn rename(program: &mut Program, names: &HashMap<u32, u32>, naming: &[bool]) {
     let change = |var: &mut Var| {
         if let (Class::Temp, Some(&number)) = (var.class, names.get(&var.number)) {
             var.number = number;

@@ -36,12 +36,14 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 }
 
 /// Tells the target the unit of each main program.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let checked: Vec<Option<Units>> = module.programs.iter_mut().map(take_checks).collect();
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let mut changed = false;
+    let checked: Vec<Option<Units>> =
+        module.programs.iter_mut().map(|program| take_checks(program, &mut changed)).collect();
     let (ours, theirs) = (context.source.units(), context.target.units());
     let same_family = context.same_family();
     if same_family && ours.is_some() && ours == theirs {
-        return;
+        return changed;
     }
     let one_unit = leaves_one_unit(module, context.source);
     let mut entry = context.entry.clone();
@@ -70,11 +72,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add_once(root, "units", Diagnostic::new(Code::Conditional, span, what));
         }
         head(&mut module.programs[root], op);
+        changed = true;
     }
+    changed
 }
 
 /// Takes the checks of the unit out of a program; the unit that all of them check.
-fn take_checks(program: &mut Program) -> Option<Units> {
+fn take_checks(program: &mut Program, changed: &mut bool) -> Option<Units> {
     let (mut inch, mut metric) = (false, false);
     for block in &mut program.blocks {
         let mut any = false;
@@ -88,9 +92,10 @@ fn take_checks(program: &mut Program) -> Option<Units> {
             any |= nc.items.is_empty();
         }
         if any {
-            drop_emptied(block);
+            *changed |= drop_emptied(block);
         }
     }
+    *changed |= inch || metric;
     match (inch, metric) {
         (true, false) => Some(Units::Inch),
         (false, true) => Some(Units::Metric),

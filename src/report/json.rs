@@ -55,10 +55,13 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_conversion(parts: &[Part<'_>], mut out: impl Write) -> io::Result<()> {
+pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
+    // Of a known type: what it is given are mostly single marks.
+    let mut out = io::BufWriter::with_capacity(64 * 1024, out);
     let report = Report { programs: parts, totals: Totals::of(parts) };
     serde_json::to_writer_pretty(&mut out, &report)?;
-    out.write_all(b"\n")
+    out.write_all(b"\n")?;
+    out.flush()
 }
 
 fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S::Error> {

@@ -3,6 +3,7 @@
 use crate::ir::{Block, BlockId, Callee, Module, Program, StmtKind, TermKind};
 use crate::syntax::Label;
 use smallvec::{SmallVec, smallvec};
+use std::cell::OnceCell;
 
 /// Most blocks have one way or two.
 type Ways = SmallVec<[BlockId; 2]>;
@@ -13,7 +14,14 @@ pub struct Cfg {
     succs: Vec<Ways>,
     preds: Vec<Ways>,
     roots: Vec<BlockId>,
-    order: Vec<BlockId>,
+    /// Few ask for it.
+    order: OnceCell<Order>,
+}
+
+/// The blocks that can be reached, in reverse postorder, and where in it each stands.
+#[derive(Clone, Debug, Default)]
+struct Order {
+    blocks: Vec<BlockId>,
     place: Vec<Option<u32>>,
 }
 
@@ -76,13 +84,15 @@ impl Cfg {
         }
         let mut roots: Vec<BlockId> = [BlockId(0)].into_iter().chain(entries(program)).collect();
         roots.retain(|root| root.index() < program.blocks.len());
-        let mut cfg = Self { succs, preds, roots, order: Vec::new(), place: vec![None; count] };
-        cfg.number();
-        cfg
+        Self { succs, preds, roots, order: OnceCell::new() }
     }
 
-    /// Numbers the blocks that can be reached in reverse postorder.
-    fn number(&mut self) {
+    fn numbered(&self) -> &Order {
+        self.order.get_or_init(|| self.number())
+    }
+
+    fn number(&self) -> Order {
+        let mut order = Order { blocks: Vec::new(), place: vec![None; self.succs.len()] };
         let mut seen = vec![false; self.succs.len()];
         let mut stack: Vec<(BlockId, usize)> = Vec::new();
         // The last root first: reversing puts the entry in front.
@@ -93,7 +103,7 @@ impl Cfg {
             stack.push((*root, 0));
             while let Some((at, next)) = stack.last_mut() {
                 let Some(to) = self.succs[at.index()].get(*next).copied() else {
-                    self.order.push(*at);
+                    order.blocks.push(*at);
                     stack.pop();
                     continue;
                 };
@@ -103,8 +113,9 @@ impl Cfg {
                 }
             }
         }
-        self.order.reverse();
-        self.order.iter().enumerate().for_each(|(at, id)| self.place[id.index()] = Some(at as u32));
+        order.blocks.reverse();
+        order.blocks.iter().enumerate().for_each(|(at, id)| order.place[id.index()] = Some(at as u32));
+        order
     }
 
     /// Where control can go from a block, each once, in the order of ids.
@@ -124,12 +135,12 @@ impl Cfg {
 
     /// The blocks that can be reached, in reverse postorder.
     pub fn order(&self) -> &[BlockId] {
-        &self.order
+        &self.numbered().blocks
     }
 
     /// A block's place in [`Cfg::order`]; none where it cannot be reached.
     pub fn place(&self, id: BlockId) -> Option<usize> {
-        self.place.get(id.index()).copied().flatten().map(|place| place as usize)
+        self.numbered().place.get(id.index()).copied().flatten().map(|place| place as usize)
     }
 
     /// How many blocks the graph has.

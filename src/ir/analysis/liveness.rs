@@ -30,85 +30,103 @@ pub struct Liveness<'p> {
     ways: Ways,
     /// Live at the start of each block, those two of [`Cfg::whole`] included.
     before: Vec<Temps>,
-    /// What each block does to what is live behind it.
-    transfers: Vec<Transfer>,
     cfg: Cfg,
     /// True where a modal call runs a body of the program, whose return may go behind any NC block.
     modal_body: bool,
 }
 
 /// What a block does to what is live behind it.
-#[derive(Clone, Debug)]
-struct Transfer {
+#[derive(Clone, Debug, Default)]
+pub struct Transfer {
     /// Live before it, if nothing were behind it.
-    reads: Temps,
+    pub reads: Temps,
     /// What it surely writes.
-    writes: Temps,
-    /// True where all are live somewhere in it, whatever is behind it.
-    fills: bool,
+    pub writes: Temps,
+    /// True where what is live behind it has no say.
+    pub fills: bool,
+}
+
+/// What is live at the start of each block of a graph; a block without a transfer does nothing.
+///
+/// Only where something is live is anything done: temporaries live for a few blocks of many.
+pub fn live_before(cfg: &Cfg, transfers: &[Transfer]) -> Vec<Temps> {
+    let mut before = vec![Temps::default(); cfg.len()];
+    // Blocks that the entry does not reach are answered for too: they may be kept.
+    let mut work: VecDeque<BlockId> = VecDeque::new();
+    let mut waiting = vec![false; cfg.len()];
+    let look = |id: BlockId, work: &mut VecDeque<BlockId>, waiting: &mut [bool]| {
+        for pred in cfg.preds(id) {
+            if !std::mem::replace(&mut waiting[pred.index()], true) {
+                work.push_back(*pred);
+            }
+        }
+    };
+    for (at, transfer) in
+        transfers.iter().enumerate().rev().filter(|(_, transfer)| !transfer.reads.is_empty())
+    {
+        before[at] = transfer.reads.clone();
+        look(BlockId(at as u32), &mut work, &mut waiting);
+    }
+    while let Some(id) = work.pop_front() {
+        waiting[id.index()] = false;
+        let transfer = transfers.get(id.index());
+        if transfer.is_some_and(|transfer| transfer.fills) {
+            continue;
+        }
+        let mut live = behind(cfg, id, &before);
+        transfer.iter().for_each(|transfer| live.subtract(&transfer.writes));
+        if before[id.index()].join(&live) {
+            look(id, &mut work, &mut waiting);
+        }
+    }
+    before
+}
+
+/// What is live where a block ends.
+pub fn behind(cfg: &Cfg, id: BlockId, before: &[Temps]) -> Temps {
+    let mut live = Temps::default();
+    for there in cfg.succs(id).iter().map(|to| &before[to.index()]).filter(|there| !there.is_empty()) {
+        live.join(there);
+    }
+    live
 }
 
 impl<'p> Liveness<'p> {
     /// Computes it.
     pub fn of(program: &'p Program, ways: Ways) -> Self {
-        let cfg = Cfg::whole(program, ways.come_back);
         let modal_body = has_modal_body(program);
-        let before = vec![Temps::default(); cfg.len()];
-        let mut live = Self { program, ways, before, transfers: Vec::new(), cfg, modal_body };
-        live.transfers = program.blocks.iter().map(|block| live.transfer(block)).collect();
-        live.solve();
+        let cfg = Cfg::whole(program, ways.come_back);
+        let mut live = Self { program, ways, before: Vec::new(), cfg, modal_body };
+        let transfers: Vec<Transfer> = program.blocks.iter().map(|block| live.transfer(block)).collect();
+        live.before = live_before(&live.cfg, &transfers);
         live
     }
 
-    fn solve(&mut self) {
-        let count = self.cfg.len();
-        // Blocks that the entry does not reach are answered for too: they may be kept.
-        let mut work: VecDeque<BlockId> = (0..count as u32).rev().map(BlockId).collect();
-        let mut waiting = vec![true; count];
-        while let Some(id) = work.pop_front() {
-            waiting[id.index()] = false;
-            let live = match self.transfers.get(id.index()) {
-                Some(transfer) if transfer.fills => transfer.reads.clone(),
-                Some(transfer) => {
-                    let mut live = self.after(id);
-                    live.subtract(&transfer.writes);
-                    live.join(&transfer.reads);
-                    live
-                }
-                None => self.after(id),
-            };
-            if self.before[id.index()].join(&live) {
-                for pred in self.cfg.preds(id) {
-                    if !std::mem::replace(&mut waiting[pred.index()], true) {
-                        work.push_back(*pred);
-                    }
-                }
-            }
+    fn transfer(&self, block: &Block) -> Transfer {
+        let mut transfer = Transfer { fills: self.returns_anywhere(block), ..Transfer::default() };
+        if transfer.fills {
+            transfer.reads = Temps::all();
         }
+        read_by_term(&block.term.kind, &mut transfer.reads);
+        for stmt in block.stmts.iter().rev() {
+            self.stmt(stmt, &mut transfer.reads);
+            transfer.fills |= self.fills(&stmt.kind);
+            sure(stmt).into_iter().for_each(|temp| transfer.writes.insert(temp));
+        }
+        transfer
     }
 
-    fn transfer(&self, block: &Block) -> Transfer {
-        let (mut reads, mut writes, mut fills) = (Temps::default(), Temps::default(), false);
-        read_by_term(&block.term.kind, &mut reads);
-        for stmt in block.stmts.iter().rev() {
-            self.stmt(stmt, &mut reads);
-            fills |= self.fills(&stmt.kind);
-            sure(stmt).into_iter().for_each(|temp| writes.insert(temp));
-        }
-        Transfer { reads, writes, fills }
+    /// True for a block whose return may go behind any NC block.
+    fn returns_anywhere(&self, block: &Block) -> bool {
+        self.modal_body && matches!(block.term.kind, TermKind::Return { .. })
     }
 
     /// Live behind a block's terminator.
     fn after(&self, id: BlockId) -> Temps {
-        let returns = matches!(self.program.block(id), Some(block) if matches!(block.term.kind, TermKind::Return { .. }));
-        if returns && self.modal_body {
+        if self.program.block(id).is_some_and(|block| self.returns_anywhere(block)) {
             return Temps::all();
         }
-        let mut live = Temps::default();
-        self.cfg.succs(id).iter().for_each(|to| {
-            live.join(&self.before[to.index()]);
-        });
-        live
+        behind(&self.cfg, id, &self.before)
     }
 
     /// Before a statement, of what is live behind it.

@@ -18,7 +18,7 @@ pub use call_graph::CallGraph;
 pub use cfg::{Cfg, may_come_back};
 pub use dominators::Dominators;
 pub use effects::{Seen, Summaries, Vars};
-pub use liveness::{Liveness, Ways};
+pub use liveness::{Liveness, Transfer, Ways, behind, live_before};
 pub use loops::{Loop, Loops};
 pub use set::{Row, Universe, VarSet};
 pub use temps::Temps;

@@ -7,6 +7,8 @@ use smallvec::{SmallVec, smallvec};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Universe {
     vars: Vec<Var>,
+    /// By class and 64 neighbours: which are in, and how many are before them.
+    words: Vec<(Class, u32, u64, usize)>,
 }
 
 /// A subset of a [`Universe`].
@@ -21,12 +23,24 @@ impl Universe {
     pub fn new(mut vars: Vec<Var>) -> Self {
         vars.sort_unstable();
         vars.dedup();
-        Self { vars }
+        let mut words: Vec<(Class, u32, u64, usize)> = Vec::new();
+        for (at, var) in vars.iter().enumerate() {
+            let (word, bit) = (var.number / 64, 1 << (var.number % 64));
+            match words.last_mut() {
+                Some((class, last, bits, _)) if (*class, *last) == (var.class, word) => *bits |= bit,
+                _ => words.push((var.class, word, bit, at)),
+            }
+        }
+        Self { vars, words }
     }
 
     /// A variable's place.
     pub fn place(&self, var: Var) -> Option<usize> {
-        self.vars.binary_search(&var).ok()
+        let key = (var.class, var.number / 64);
+        let at = find(&self.words, key, |(class, word, ..)| (*class, *word)).ok()?;
+        let (_, _, bits, before) = self.words[at];
+        let bit = 1 << (var.number % 64);
+        (bits & bit != 0).then(|| before + (bits & (bit - 1)).count_ones() as usize)
     }
 
     /// The empty subset.
@@ -59,6 +73,16 @@ impl Universe {
     pub fn vars(&self) -> &[Var] {
         &self.vars
     }
+}
+
+/// The place of a key among entries in its order, or where it would stand.
+fn find<T>(entries: &[T], key: (Class, u32), of: impl Fn(&T) -> (Class, u32)) -> Result<usize, usize> {
+    // Programs name neighbours: the entries are few.
+    if entries.len() > 8 {
+        return entries.binary_search_by_key(&key, of);
+    }
+    let before = entries.iter().take_while(|entry| of(entry) < key).count();
+    if entries.get(before).is_some_and(|entry| of(entry) == key) { Ok(before) } else { Err(before) }
 }
 
 impl Clone for Row {
@@ -118,7 +142,7 @@ pub struct VarSet {
 
 impl VarSet {
     fn find(&self, class: Class, word: u32) -> Result<usize, usize> {
-        self.words.binary_search_by_key(&(class, word), |(class, word, _)| (*class, *word))
+        find(&self.words, (class, word), |(class, word, _)| (*class, *word))
     }
 
     /// Adds a variable; true where it was not in.
