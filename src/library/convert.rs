@@ -237,7 +237,7 @@ pub(super) fn make(
         Ok(_) => {
             let write = target.entry().emit.map(|emit| emit(&naming, target));
             let entry = target.entry();
-            let lines = || ReadLines::new(entry.parse, entry.is_plain, entry.is_sound);
+            let lines = || ReadLines::new(entry.parse, entry.shortcuts);
             let links = refused_calls::links(&module, &origins);
             // Each program is dropped when it is written.
             let programs = std::mem::take(&mut module.programs);

@@ -1,8 +1,7 @@
 //! Reads a whole file, line by line and in parallel.
 
-use super::{Block, Fence, Item, ItemKind, SyntaxError};
+use super::{Block, SyntaxError};
 use crate::text::{Line, Lines, Span};
-use foldhash::{HashSet, HashSetExt};
 use rayon::prelude::*;
 
 /// Reads the blocks of one line of a dialect.
@@ -11,9 +10,6 @@ use rayon::prelude::*;
 /// appends at least one block for any line but an empty one, and their tokens
 /// tile the line.
 pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
-
-/// True for a line that a dialect's parser surely reads without a fault; false where only reading tells.
-pub type IsSound = fn(source: &[u8], line: Span) -> bool;
 
 /// A file with its blocks.
 #[derive(Clone, Debug)]
@@ -63,7 +59,7 @@ pub struct ParseTotals {
 }
 
 /// Bytes of whole lines that one task reads.
-const CHUNK: usize = 256 * 1024;
+pub(super) const CHUNK: usize = 256 * 1024;
 
 /// Reads all blocks of `source`.
 pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
@@ -107,15 +103,11 @@ pub fn without_tokens(parser: Parser, source: &[u8], line: Span, out: &mut Vec<B
 
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
-    fold_lines(source, parser, |_, _| false, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
+    fold_lines(source, parser, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
 }
 
-/// Reads all blocks of `source` but lines that are sound and keeps only their faults, in order: memory stays flat.
-pub fn parse_faults(
-    source: &[u8],
-    parser: Parser,
-    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
-) -> Vec<SyntaxError> {
+/// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat.
+pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
     };
@@ -123,78 +115,20 @@ pub fn parse_faults(
         a.append(&mut b);
         a
     };
-    fold_lines(source, parser, is_sound, Vec::new, add, join)
+    fold_lines(source, parser, Vec::new, add, join)
 }
 
-/// True for a block without a fault, but for text outside a program: what stands before it decides about that.
-fn surely_read(block: &Block) -> bool {
-    let outside = |item: &Item| matches!(&item.kind, ItemKind::Comment(c) if c.fence == Fence::Outside);
-    block.errors.is_empty() && !block.items.iter().any(outside)
-}
-
-/// Lines that a parser read without a fault. What is written of many programs is half repetition: loops' ends, and
-/// the steps of emulated functions.
-#[derive(Debug)]
-pub struct ReadLines {
-    parser: Parser,
-    is_plain: IsSound,
-    is_sound: IsSound,
-    read: HashSet<Box<[u8]>>,
-}
-
-/// Lines that are remembered at a time, and the longest of them.
-const REMEMBERED: (usize, usize) = (4096, 48);
-
-impl ReadLines {
-    /// None yet. What is plain is seen faster than remembered, and what is sound faster than read.
-    pub fn new(parser: Parser, is_plain: IsSound, is_sound: IsSound) -> Self {
-        Self { parser, is_plain, is_sound, read: HashSet::new() }
-    }
-
-    /// As [`parse_faults`]. Lines of short texts that were read before are not read again; long ones are read in parallel.
-    pub fn faults(&mut self, source: &[u8]) -> Vec<SyntaxError> {
-        let Self { parser, is_plain, is_sound, read } = self;
-        if source.len() > CHUNK {
-            return parse_faults(source, *parser, |source, line| {
-                is_plain(source, line) || is_sound(source, line)
-            });
-        }
-        let (mut faults, mut blocks) = (Vec::new(), Vec::new());
-        for line in Lines::new(source).map(|line| line.text) {
-            let bytes = line.of(source);
-            let short = bytes.len() <= REMEMBERED.1;
-            if is_plain(source, line) || (short && read.contains(bytes)) {
-                continue;
-            }
-            blocks.clear();
-            let sound = is_sound(source, line);
-            if !sound {
-                parser(source, line, &mut blocks);
-            }
-            if short && blocks.iter().all(surely_read) {
-                if read.len() == REMEMBERED.0 {
-                    read.clear();
-                }
-                read.insert(bytes.into());
-            }
-            blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
-        }
-        faults
-    }
-}
-
-/// Folds the blocks of all lines but sound ones in parallel; `join` is given neighbours in their order.
+/// Folds the blocks of all lines in parallel; `join` is given neighbours in their order.
 fn fold_lines<T: Send>(
     source: &[u8],
     parser: Parser,
-    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
     none: impl Fn() -> T + Sync + Send,
     add: impl Fn(&mut T, Line, &mut [Block]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let fold = |chunk| {
         let (mut out, mut blocks) = (none(), Vec::new());
-        for line in Lines::within(source, chunk).filter(|line| !is_sound(source, line.text)) {
+        for line in Lines::within(source, chunk) {
             blocks.clear();
             parser(source, line.text, &mut blocks);
             add(&mut out, line, &mut blocks);
@@ -235,7 +169,7 @@ impl ParseTotals {
 }
 
 /// Cuts `source` behind line ends into pieces of about [`CHUNK`] bytes.
-fn chunks(source: &[u8]) -> Vec<Span> {
+pub(super) fn chunks(source: &[u8]) -> Vec<Span> {
     let mut out = Vec::new();
     let mut start = 0;
     while start < source.len() {

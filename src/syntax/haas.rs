@@ -1,7 +1,7 @@
 //! Haas macros, legacy and NGC controls.
 
-use super::Block;
 use super::macro_b::{self, Keep, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
+use super::{Block, Shortcuts};
 use crate::text::Span;
 
 /// What pest makes of the grammar; it stays in here.
@@ -38,13 +38,11 @@ pub fn parse_items(source: &[u8], line: Span, out: &mut Vec<Block>) {
     macro_b::read_line(&RULES, source, line, Keep::Items, out);
 }
 
-/// See [`super::IsSound`]; knows lines of plain words.
-pub fn is_plain(source: &[u8], line: Span) -> bool {
-    macro_b::is_plain(source, line)
-}
+/// Knows lines that need not be read whole.
+pub const SHORTCUTS: Shortcuts =
+    Shortcuts { is_plain: macro_b::is_plain, is_sound, likeness: macro_b::likeness };
 
-/// See [`super::IsSound`].
-pub fn is_sound(source: &[u8], line: Span) -> bool {
+fn is_sound(source: &[u8], line: Span) -> bool {
     macro_b::is_sound(&RULES, source, line)
 }
 

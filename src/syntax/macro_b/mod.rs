@@ -5,7 +5,7 @@
 //! (`grammar/macro_b.pest` and its own file) all others, both into one row of
 //! [`lexeme`]s that tiles the block; [`tree`] builds the items of the others from that row;
 //! [`checks`] finds what the grammar lets pass but the control does not, and [`sound`] sees from
-//! the row alone that it would find nothing.
+//! the row alone that it would find nothing; [`likeness`] tells lines that are as sound as another.
 //! [`faults`] says in a programmer's words why a block could not be read.
 
 mod blocks;
@@ -13,6 +13,7 @@ mod checks;
 mod expressions;
 mod faults;
 mod lexeme;
+mod likeness;
 mod plain;
 mod rules;
 mod scanner;
@@ -27,4 +28,5 @@ mod tests;
 pub(super) use blocks::{Keep, is_plain, is_sound, read_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
+pub(super) use likeness::likeness;
 pub(super) use rules::{Reading, Rules, read};

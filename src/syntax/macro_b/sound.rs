@@ -5,10 +5,10 @@
 use super::Rules;
 use super::lexeme::{Lex, Lexeme};
 use super::statements::MOST_CONDITIONS;
-use super::tree::{MOST_OPERATORS, read_number};
+use super::tree::{MOST_DIGITS, MOST_OPERATORS, read_number};
 
-/// Digits that every control reads, of a constant and of a whole number.
-const USUAL_DIGITS: usize = 8;
+/// Digits of a whole number that every control reads.
+pub const USUAL_DIGITS: usize = 8;
 
 /// What has been met of a block.
 #[derive(Default)]
@@ -47,6 +47,10 @@ impl Met {
         let sound = match kind {
             Lex::Letter => self.word(text),
             Lex::Number => self.number(rules, text),
+            Lex::Hash => {
+                self.letter = 0;
+                true
+            }
             Lex::Integer => self.integer(text),
             Lex::Open => self.open(),
             Lex::Operator | Lex::Join => self.operator(text),
@@ -87,7 +91,12 @@ impl Met {
         let zero_divides = self.divisor && read_number(text).value == 0.0;
         let argument = std::mem::take(&mut self.argument);
         self.divisor = false;
-        !(behind_words || with_point || zero_divides || argument) && text.len() <= USUAL_DIGITS
+        // What is assigned may be the number alone, for which there is a limit.
+        let most = match self.last {
+            Lex::Equals | Lex::Sign => rules.constant_digits.unwrap_or(MOST_DIGITS),
+            _ => MOST_DIGITS,
+        };
+        !(behind_words || with_point || zero_divides || argument) && text.len() <= usize::from(most)
     }
 
     fn integer(&mut self, text: &[u8]) -> bool {

@@ -154,7 +154,7 @@ impl Builder<'_> {
 }
 
 /// Digits beyond which no control's number format reaches.
-const MOST_DIGITS: u16 = 40;
+pub const MOST_DIGITS: u16 = 40;
 
 /// Powers of ten that a double holds exactly, as far as short numbers need them.
 pub const TENS: [f64; 16] =

@@ -14,13 +14,17 @@ struct Dialect {
     name: &'static str,
     rules: &'static Rules,
     parse_line: crate::syntax::Parser,
-    is_sound: crate::syntax::IsSound,
+    shortcuts: crate::syntax::Shortcuts,
 }
 
-const FANUC: Dialect =
-    Dialect { name: "fanuc", rules: &fanuc::RULES, parse_line: fanuc::parse_line, is_sound: fanuc::is_sound };
+const FANUC: Dialect = Dialect {
+    name: "fanuc",
+    rules: &fanuc::RULES,
+    parse_line: fanuc::parse_line,
+    shortcuts: fanuc::SHORTCUTS,
+};
 const HAAS: Dialect =
-    Dialect { name: "haas", rules: &haas::RULES, parse_line: haas::parse_line, is_sound: haas::is_sound };
+    Dialect { name: "haas", rules: &haas::RULES, parse_line: haas::parse_line, shortcuts: haas::SHORTCUTS };
 const BOTH: [Dialect; 2] = [FANUC, HAAS];
 
 impl Dialect {

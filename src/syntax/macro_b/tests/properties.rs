@@ -1,10 +1,10 @@
 //! Laws over random input.
 
 use super::super::{
-    bits_among_arithmetic, blocks, blocks::Keep, lexeme::Row, read_line, scanner, shape, tree,
+    bits_among_arithmetic, blocks, blocks::Keep, lexeme::Row, likeness, read_line, scanner, shape, tree,
 };
 use super::{BOTH, Dialect};
-use crate::syntax::{Block, ItemKind, ReadLines};
+use crate::syntax::{Block, ItemKind, LONGEST, ReadLines};
 use crate::text::{Lines, Span};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -123,6 +123,42 @@ fn statements() -> impl Strategy<Value = Vec<u8>> {
     .unwrap()
 }
 
+/// Lines whose numbers decide more than it seems.
+const TRICKY: &[&[u8]] = &[
+    b"X1 G#1 #2=-65",
+    b"X1 G- 65.",
+    b"/12",
+    b"/1 X1",
+    b"#1=#2/00",
+    b"DO 2",
+    b"DO 12",
+    b"END\x003",
+    b"D04",
+    b"#0.5=1",
+    b"#10=1",
+    b"SQRT[-00]",
+    b"#1=SQRT[-10]",
+    b"#1=1.",
+    b"#1=1.2.3",
+    b"M6.",
+    b"O<1>",
+    b"DPRNT[A1#1[53]]",
+    b"(1;2)X1",
+];
+
+/// Statements whose numbers have more digits.
+fn numbers() -> impl Strategy<Value = Vec<u8>> {
+    let digits = proptest::string::bytes_regex("0{0,2}[0-9]{1,3}(0{6}|3{37})?").unwrap();
+    (statements(), proptest::collection::vec(digits, 12)).prop_map(|(line, digits)| {
+        let mut digits = digits.into_iter().cycle();
+        let longer = |byte: u8| match byte {
+            b'0'..=b'9' => digits.next().unwrap_or_default(),
+            _ => vec![byte],
+        };
+        line.into_iter().flat_map(longer).collect()
+    })
+}
+
 /// What is read without tokens or not at all is what is read; returns how many lines are sound, and how many have faults.
 fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
     let is_sound = |source: &[u8], line: Span| blocks::is_sound(dialect.rules, source, line);
@@ -137,6 +173,12 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
             assert!(errors.is_empty() && !read.iter().any(unread), "{}: {text}: {errors:?}", dialect.name);
             sound += usize::from(!blocks::is_plain(source, line));
         }
+        let mut key = [0; LONGEST];
+        if let Some(like) = likeness(line.of(source), &mut key) {
+            let whole = Span::new(0, like.len() as u32);
+            assert_eq!(is_sound(like, whole), is_sound(source, line), "{}: {text}", dialect.name);
+            assert_eq!(likeness(like, &mut [0; LONGEST]), Some(like), "{text}");
+        }
         faulty += usize::from(!errors.is_empty());
         faults.extend(errors);
         let mut items = Vec::new();
@@ -144,7 +186,7 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
         read.iter_mut().for_each(|block| block.tokens.clear());
         assert_eq!(items, read, "{}: {text}", dialect.name);
     }
-    let mut lines = ReadLines::new(dialect.parse_line, blocks::is_plain, dialect.is_sound);
+    let mut lines = ReadLines::new(dialect.parse_line, dialect.shortcuts);
     for _ in 0..2 {
         assert_eq!(lines.faults(source), faults, "{}: {}", dialect.name, source.escape_ascii());
     }
@@ -163,10 +205,12 @@ fn what_is_not_read_has_no_fault() {
         let files: Vec<Vec<u8>> = dialect.corpus().into_iter().map(|(_, source)| source).collect();
         files.iter().for_each(|source| agree(source));
         dialect.fragments().iter().for_each(|fragment| agree(fragment.text.as_bytes()));
+        TRICKY.iter().for_each(|line| agree(line));
         over(1500, &text(), |source| agree(&source));
         sound.set(0);
         faulty.set(0);
         over(4000, &statements(), |source| agree(&source));
+        over(4000, &numbers(), |source| agree(&source));
         assert!(sound.get() > 1000, "only {} lines are sound", sound.get());
         assert!(faulty.get() > 1000, "only {} lines have faults", faulty.get());
         let damaged = (proptest::sample::select(files), any::<(u16, u16)>(), text());
