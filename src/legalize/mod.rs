@@ -30,6 +30,7 @@ mod emptied;
 mod exposed;
 mod facts;
 mod functions;
+mod heads;
 mod increments;
 mod lathe;
 mod length_radius;
@@ -272,6 +273,7 @@ pub fn assign_registers(
     if census.has(Thing::Message) || census.has(Thing::Input) {
         messages::run(module, context);
     }
+    heads::run(module);
     // What was put in above was put in for one of these.
     let source = [Thing::Computed, Thing::Variable, Thing::Temp, Thing::Clear, Thing::Call, Thing::LocalCall];
     let asked = [Thing::Input, Thing::Print, Thing::Message];

@@ -1,7 +1,8 @@
 //! Work offsets by a computed number, where the target keeps them in runs of variables that are apart.
 //!
 //! Law: the variable of row n is `first + (n - from) * step` of the run that holds n, so a branch on where the next run
-//! begins picks it. Side condition: the number is one of a row; another one names no offset on the source.
+//! begins picks it; a run in which the source has no row is never meant. Side condition: the number is one of a row;
+//! another one names no offset on the source.
 
 use super::rewrite::{Part, Prelude, highest_temp, rebuild, rewrite_program};
 use super::{Context, Rewriter};
@@ -20,12 +21,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !several(context.source) || !several(context.target) {
         return;
     }
-    let target = context.target;
+    let (source, target) = (context.source, context.target);
     for program in &mut module.programs {
-        write(program, target);
+        write(program, source, target);
         rewrite_program(program, |e| matches!(e, Expr::System(Sys::WorkOffset, _)), &mut |e, _, rewriter| {
             match &e {
-                Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, target) {
+                Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, source, target) {
                     Some((row, runs)) => read(row.clone(), &runs, rewriter),
                     None => e,
                 },
@@ -36,7 +37,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 }
 
 /// The computed number of a row, and the runs of its axis in the order of numbers.
-fn computed<'e>(subscripts: &'e [Expr], target: &Control) -> Option<(&'e Expr, Vec<Run>)> {
+fn computed<'e>(subscripts: &'e [Expr], source: &Control, target: &Control) -> Option<(&'e Expr, Vec<Run>)> {
     let [row, axis] = subscripts else { return None };
     let axis = axis.constant().filter(|axis| row.constant().is_none() && axis.fract() == 0.0)? as u32;
     let mut runs: Vec<Run> = Vec::new();
@@ -49,10 +50,28 @@ fn computed<'e>(subscripts: &'e [Expr], target: &Control) -> Option<(&'e Expr, V
         }
     }
     runs.sort_unstable();
-    (runs.len() > 1).then_some((row, runs))
+    if runs.len() < 2 {
+        return None;
+    }
+    let ends: Vec<u32> = runs.iter().skip(1).map(|(from, ..)| *from).chain([u32::MAX]).collect();
+    let mut ends = ends.into_iter();
+    runs.retain(|(from, ..)| ends.next().is_some_and(|end| has_row(source, *from, end)));
+    (!runs.is_empty()).then_some((row, runs))
+}
+
+/// True where a control has a work offset whose row is not before `from`, and before `end`.
+fn has_row(control: &Control, from: u32, end: u32) -> bool {
+    control.system_runs(Sys::WorkOffset).any(|run| match (run.fixed.first(), run.subscripts.first()) {
+        (Some(&row), _) => (from..end).contains(&row),
+        (None, Some(rows)) => rows.from < end && from < rows.from + rows.count,
+        (None, None) => false,
+    })
 }
 
 fn read(row: Expr, runs: &[Run], rewriter: &mut Rewriter<'_>) -> Expr {
+    if let [run] = runs {
+        return place(&row, *run);
+    }
     let row = rewriter.held(row);
     let value = rewriter.hold(Expr::Number(0.0));
     for (at, run) in runs.iter().enumerate() {
@@ -85,7 +104,7 @@ fn number(row: &Expr, (from, first, step): Run) -> Expr {
     binary(BinOp::Add, rows, Expr::Number(base))
 }
 
-fn write(program: &mut Program, target: &Control) {
+fn write(program: &mut Program, source: &Control, target: &Control) {
     let mut highest = highest_temp(program);
     rebuild(program, &mut |builder, part| {
         let Part::Stmt(stmt) = &part else { return part.keep(builder) };
@@ -93,7 +112,12 @@ fn write(program: &mut Program, target: &Control) {
         else {
             return part.keep(builder);
         };
-        let Some((row, runs)) = computed(subscripts, target) else { return part.keep(builder) };
+        let Some((row, runs)) = computed(subscripts, source, target) else { return part.keep(builder) };
+        if let [run] = runs[..] {
+            let there = Place::Indirect(Bank::Numbered, Box::new(number(row, run)));
+            let kind = StmtKind::Assign { target: there, value: value.clone() };
+            return builder.push(kind, stmt.site.clone());
+        }
         let skip = Site { skip: stmt.site.skip, ..Site::default() };
         let mut hold = |builder: &mut crate::ir::Builder, value: Expr, site: Site| {
             highest += 1;

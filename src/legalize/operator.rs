@@ -113,10 +113,12 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
             let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
             let mut pending: Vec<OutputPart> = Vec::new();
             let mut open = false;
+            // What ends a run of prints belongs to the last of them.
+            let mut site = Site::default();
             for stmt in std::mem::take(&mut block.stmts) {
-                let site = Site { span: stmt.site.span, ..Site::default() };
                 match stmt.kind {
                     StmtKind::Print { parts, serial, stay } => {
+                        site.span = stmt.site.span;
                         let what = if serial { "printed to the port" } else { "printed on the screen" };
                         let what = format!(
                             "{what} with no stated number format: goes to the output port with four digits before and behind the point"
@@ -149,7 +151,7 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
                     }
                 }
             }
-            finish(&mut out, &mut pending, &mut open, &Site::default());
+            finish(&mut out, &mut pending, &mut open, &site);
             block.stmts = out;
         }
     }

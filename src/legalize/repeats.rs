@@ -104,7 +104,7 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         temps += 1;
         let left = Var { class: Class::Temp, number: temps };
         let set = |value| StmtKind::Assign { target: Place::Var(left), value };
-        builder.push(set(count), Site::default());
+        builder.push(set(count), Site { span: stmt.site.span, ..Site::default() });
         let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
         builder.start(head);
         let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));

@@ -5,7 +5,8 @@
 //! register can only be what one variable still holds becomes a comparison of
 //! that variable with zero; it is exact, since the register keeps the sign of
 //! what the variable was given last. Where ways with different settings meet, the
-//! register itself is assigned, in those places that a jump can see. All other
+//! register itself is assigned, in those places that a jump can see. A test of the
+//! machine's state directly before its jump is the jump's condition. All other
 //! markers go.
 //!
 //! Whether a plain load sets the register no source says. A jump that sees one
@@ -122,16 +123,28 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
         let Some(relation) = jump(block) else { continue };
         let state = start.through(block);
         report(&state, relation, block, findings);
-        match (state.var, &mut block.term.kind) {
-            (Some(var), TermKind::Branch { cond, .. }) => {
+        let tested = tested(block, relation);
+        match (state.var, tested, &mut block.term.kind) {
+            (Some(var), _, TermKind::Branch { cond, .. }) => {
                 *cond = Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0));
             }
+            (None, Some(differs), TermKind::Branch { cond, .. }) => *cond = differs,
             _ => seen = true,
         }
     }
     let live = if seen { live_at_end(program, &graph) } else { vec![false; program.blocks.len()] };
     for (block, live) in program.blocks.iter_mut().zip(live) {
         settle(block, live);
+    }
+}
+
+/// The condition of a jump that looks at a test of the machine's state directly before it.
+fn tested(block: &Block, relation: Relation) -> Option<Cond> {
+    let (Source::Flag, Expr::Truth(differs)) = source_of(block.stmts.last()?)? else { return None };
+    match relation {
+        Relation::Equal => Some(Cond::clone(differs).negated()),
+        Relation::NotEqual => Some(Cond::clone(differs)),
+        _ => None,
     }
 }
 
