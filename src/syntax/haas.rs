@@ -1,8 +1,9 @@
 //! Haas macros, legacy and NGC controls.
 
-use super::macro_b::{self, Keep, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
+use super::macro_b::{self, Keep, Known, Reading, Row, Rules, bits_behind_relations, lexemes_of_rules};
 use super::{Block, Shortcuts};
 use crate::text::Span;
+use std::cell::RefCell;
 
 /// What pest makes of the grammar; it stays in here.
 #[allow(missing_docs)]
@@ -16,8 +17,13 @@ use grammar::{Grammar, Rule};
 
 lexemes_of_rules!(Rule);
 
+thread_local! {
+    static KNOWN: RefCell<Known> = RefCell::default();
+}
+
 pub(super) const RULES: Rules = Rules {
     read,
+    known: &KNOWN,
     rank: bits_behind_relations,
     bracket_depth: None,
     constant_digits: None,

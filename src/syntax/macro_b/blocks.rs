@@ -1,7 +1,8 @@
 //! Cuts a line into blocks and reads each, by the scanner or by the grammar.
 
 use super::faults::{self, outside_text};
-use super::lexeme::{Lexeme, Row, tokens};
+use super::known::{self, is_tiled};
+use super::lexeme::{Row, tokens};
 use super::plain::{NeedsCheck, Plain};
 use super::shape::{self, Shape};
 use super::tree;
@@ -119,7 +120,7 @@ pub(super) fn grammar_block(
         return unread(span, end_of_block(bytes, span), faults::too_deep(span, shape.depth));
     }
     let mut row = Row::new();
-    let tree = match (rules.read)(&readable(bytes), span.start, &mut row) {
+    let tree = match known::read(rules, source, span, &mut row) {
         Ok(()) if !is_tiled(&row, span) => {
             // Cannot happen while grammars tile; if one does not, nothing may be lost.
             return unread(span, None, faults::not_tiled(span));
@@ -137,12 +138,6 @@ pub(super) fn grammar_block(
         }
         Err(fault) => unread(span, end_of_block(bytes, span), fault),
     }
-}
-
-/// True where the leaves tile the block.
-fn is_tiled(row: &[Lexeme], block: Span) -> bool {
-    let mut at = block.start;
-    row.iter().all(|leaf| std::mem::replace(&mut at, leaf.span.end) == leaf.span.start) && at == block.end
 }
 
 /// A block whose text is kept and not understood.

@@ -7,6 +7,11 @@ use crate::syntax::LONGEST;
 /// all of them are 0 and else 1. A number is left as it is where it is long, or where its value decides about the
 /// line: that of a G code or of a loop, and behind a slash, where one digit is read otherwise than several.
 pub fn likeness<'k>(line: &[u8], key: &'k mut [u8; LONGEST]) -> Option<&'k [u8]> {
+    simplified(line, key, &mut [0; LONGEST])
+}
+
+/// The [`likeness`] of a line, and where what each byte of it stands for ends in the line.
+pub fn simplified<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; LONGEST]) -> Option<&'k [u8]> {
     if line.len() > LONGEST {
         return None;
     }
@@ -21,6 +26,7 @@ pub fn likeness<'k>(line: &[u8], key: &'k mut [u8; LONGEST]) -> Option<&'k [u8]>
                 _ => false,
             };
             key[length] = byte;
+            ends[length] = at as u8 + 1;
             (at, length) = (at + 1, length + 1);
             continue;
         }
@@ -33,11 +39,14 @@ pub fn likeness<'k>(line: &[u8], key: &'k mut [u8; LONGEST]) -> Option<&'k [u8]>
                 b'0' => b'0',
                 _ => b'1',
             };
-            (at, length) = (at + count.max(1), length + 1);
+            at += count.max(1);
+            ends[length] = at as u8;
+            length += 1;
         }
         if asked_for || at - start > USUAL_DIGITS {
             length = first + at - start;
             key[first..length].copy_from_slice(&line[start..at]);
+            ends[first..length].iter_mut().zip(start + 1..).for_each(|(end, behind)| *end = behind as u8);
         }
     }
     key.get(..length)

@@ -12,6 +12,7 @@ mod blocks;
 mod checks;
 mod expressions;
 mod faults;
+mod known;
 mod lexeme;
 mod likeness;
 mod plain;
@@ -27,6 +28,7 @@ mod tests;
 
 pub(super) use blocks::{Keep, is_plain, is_sound, read_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
+pub(super) use known::Known;
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
 pub(super) use likeness::likeness;
 pub(super) use rules::{Reading, Rules, read};

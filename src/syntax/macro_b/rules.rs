@@ -1,5 +1,6 @@
 //! What a dialect of the family fills in, and how its grammar is run.
 
+use super::known::Memory;
 use super::lexeme::{self, Lex, Row};
 use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
@@ -13,6 +14,8 @@ use pest::{Parser, RuleType, Token};
 pub struct Rules {
     /// Runs the dialect's grammar over the text of one block.
     pub read: fn(text: &str, start: u32, row: &mut Row) -> Result<(), Reading>,
+    /// What that has read already.
+    pub known: &'static Memory,
     /// How close an operator binds; those of one rank go from left to right.
     pub rank: fn(BinaryOp) -> u8,
     /// How deep brackets may nest, function brackets included; none for freely.

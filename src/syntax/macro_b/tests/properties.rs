@@ -1,9 +1,11 @@
 //! Laws over random input.
 
 use super::super::{
-    bits_among_arithmetic, blocks, blocks::Keep, lexeme::Row, likeness, read_line, scanner, shape, tree,
+    bits_among_arithmetic, blocks, blocks::Keep, known, lexeme::Row, likeness, read_line, scanner, shape,
+    tree,
 };
 use super::{BOTH, Dialect};
+use crate::syntax::support::readable;
 use crate::syntax::{Block, ItemKind, LONGEST, ReadLines};
 use crate::text::{Lines, Span};
 use proptest::prelude::*;
@@ -159,6 +161,24 @@ fn numbers() -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
+/// What is remembered of a block's likeness is what the grammar makes of the block.
+fn alike_is_read_alike(dialect: &Dialect, block: &[u8]) {
+    let mut key = [0; LONGEST];
+    let Some(like) = likeness(block, &mut key) else { return };
+    let mut row = Row::new();
+    let mut read = |text: &[u8], by: &dyn Fn(Span, &mut Row) -> bool| {
+        row.clear();
+        by(Span::new(0, text.len() as u32), &mut row).then(|| row.clone())
+    };
+    let remember = |span, row: &mut Row| known::read(dialect.rules, like, span, row).is_ok();
+    let remembered = |span, row: &mut Row| known::read(dialect.rules, block, span, row).is_ok();
+    let by_grammar = |_, row: &mut Row| (dialect.rules.read)(&readable(block), 0, row).is_ok();
+    let is_read = read(like, &remember).is_some();
+    let expected = read(block, &by_grammar);
+    assert_eq!(is_read, expected.is_some(), "{}: {}", dialect.name, block.escape_ascii());
+    assert_eq!(read(block, &remembered), expected, "{}: {}", dialect.name, block.escape_ascii());
+}
+
 /// What is read without tokens or not at all is what is read; returns how many lines are sound, and how many have faults.
 fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
     let is_sound = |source: &[u8], line: Span| blocks::is_sound(dialect.rules, source, line);
@@ -173,6 +193,7 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
             assert!(errors.is_empty() && !read.iter().any(unread), "{}: {text}: {errors:?}", dialect.name);
             sound += usize::from(!blocks::is_plain(source, line));
         }
+        read.iter().for_each(|block| alike_is_read_alike(dialect, block.span.of(source)));
         let mut key = [0; LONGEST];
         if let Some(like) = likeness(line.of(source), &mut key) {
             let whole = Span::new(0, like.len() as u32);

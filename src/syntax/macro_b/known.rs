@@ -1,0 +1,60 @@
+//! Remembers what the grammar made of blocks: one that differs from another in digits alone has the same leaves.
+
+use super::Rules;
+use super::lexeme::{Lex, Lexeme, Row};
+use super::likeness::simplified;
+use super::rules::Reading;
+use crate::syntax::LONGEST;
+use crate::syntax::support::readable;
+use crate::text::Span;
+use foldhash::HashMap;
+use std::cell::RefCell;
+use std::thread::LocalKey;
+
+/// A row of leaves: the kind of each, and which byte of the block's likeness ends it.
+type Leaves = Box<[(Lex, u8)]>;
+
+/// Rows of leaves by the likeness of their blocks.
+#[derive(Default)]
+pub struct Known(HashMap<Box<[u8]>, Leaves>);
+
+/// What each thread remembers of a dialect.
+pub type Memory = LocalKey<RefCell<Known>>;
+
+/// Blocks that are remembered at a time.
+const REMEMBERED: usize = 8192;
+
+/// Reads the leaves of a block, by the grammar unless it has read one that is alike.
+pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<(), Reading> {
+    let (mut key, mut ends) = ([0; LONGEST], [0; LONGEST]);
+    let Some(likeness) = simplified(block.of(source), &mut key, &mut ends) else {
+        return (rules.read)(&readable(block.of(source)), block.start, row);
+    };
+    rules.known.with_borrow_mut(|Known(rows)| {
+        if let Some(leaves) = rows.get(likeness) {
+            let mut at = block.start;
+            row.extend(leaves.iter().map(|&(kind, last)| {
+                let from = std::mem::replace(&mut at, block.start + u32::from(ends[usize::from(last)]));
+                Lexeme { kind, span: Span::new(from, at) }
+            }));
+            return Ok(());
+        }
+        (rules.read)(&readable(block.of(source)), block.start, row)?;
+        let ends = &ends[..likeness.len()];
+        let last = |leaf: &Lexeme| ends.binary_search(&u8::try_from(leaf.span.end - block.start).ok()?).ok();
+        let leaves = row.iter().map(|leaf| Some((leaf.kind, last(leaf)? as u8)));
+        if let Some(leaves) = leaves.collect::<Option<_>>().filter(|_| is_tiled(row, block)) {
+            if rows.len() == REMEMBERED {
+                rows.clear();
+            }
+            rows.insert(likeness.into(), leaves);
+        }
+        Ok(())
+    })
+}
+
+/// True where the leaves tile the block.
+pub fn is_tiled(row: &[Lexeme], block: Span) -> bool {
+    let mut at = block.start;
+    row.iter().all(|leaf| std::mem::replace(&mut at, leaf.span.end) == leaf.span.start) && at == block.end
+}
