@@ -1,7 +1,9 @@
 //! What stands in a library, whatever the place: by it a pass sees whether anything concerns it.
 
 use crate::canon::{Op, Role};
-use crate::ir::{BinOp, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var};
+use crate::ir::{
+    Bank, BinOp, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, StmtKind, TermKind, Var,
+};
 
 /// Kinds of things, besides operations and words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +46,8 @@ pub enum Thing {
     Temp,
     /// A variable with a computed number.
     Indirect,
+    /// One in a space of numbers that is not that of all variables.
+    Banked,
     /// Any value but a constant.
     Computed,
     /// A function, or an operator that controls have as one or lack.
@@ -71,6 +75,13 @@ impl Census {
             census.term(&block.term.kind);
         }
         census
+    }
+
+    /// Adds what stands elsewhere.
+    pub fn add_all(&mut self, other: &Self) {
+        self.ops.iter_mut().zip(other.ops).for_each(|(ops, more)| *ops |= more);
+        self.roles.iter_mut().zip(other.roles).for_each(|(roles, more)| *roles |= more);
+        self.things |= other.things;
     }
 
     /// True where there is one.
@@ -118,7 +129,7 @@ impl Census {
         kind.target().iter().for_each(|place| match place {
             Place::Var(var) => self.variable(*var),
             Place::System(..) => self.add(Thing::System),
-            Place::Indirect(..) => self.add(Thing::Indirect),
+            Place::Indirect(bank, _) => self.indirect(*bank),
         });
     }
 
@@ -162,6 +173,13 @@ impl Census {
         }
     }
 
+    fn indirect(&mut self, bank: Bank) {
+        self.add(Thing::Indirect);
+        if bank != Bank::Numbered {
+            self.add(Thing::Banked);
+        }
+    }
+
     fn callee(&mut self, callee: &Callee) {
         self.add(if matches!(callee, Callee::Block(_)) { Thing::LocalCall } else { Thing::Call });
     }
@@ -180,8 +198,8 @@ impl Census {
                 self.add(Thing::System);
                 subscripts.iter().for_each(|subscript| self.value(subscript));
             }
-            Expr::Indirect(_, index) => {
-                self.add(Thing::Indirect);
+            Expr::Indirect(bank, index) => {
+                self.indirect(*bank);
                 self.value(index);
             }
             Expr::Binary(op, operands) => {

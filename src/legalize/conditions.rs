@@ -13,12 +13,12 @@ use super::rewrite::{Part, highest_temp, rebuild};
 use super::{Context, oversize};
 use crate::canon::Func;
 use crate::ir::{
-    BinOp, BlockId, Builder, Class, Cond, Expr, Module, Place, Program, Relation, Site, StmtKind, TermKind,
+    BinOp, BlockId, Builder, Class, Cond, Expr, Place, Program, Relation, Site, StmtKind, TermKind,
     Terminator, Var,
 };
 
 /// Splits compound conditions where the target takes one comparison only, or has no room for so many.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let joined = context.target.is("condition.and.or");
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
@@ -27,17 +27,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let size = measure.cond(cond).bracketed();
         size.depth <= depth && size.length <= room
     };
-    for program in &mut module.programs {
-        let compound = |cond: &Cond| match cond {
-            Cond::And(_) | Cond::Or(_) => !joined || cond.has_switch() || !fits(cond),
-            Cond::Not(inner) => !matches!(**inner, Cond::Switch(_)),
-            _ => false,
-        };
-        let mut branches = program.blocks.iter().map(|b| &b.term.kind);
-        if branches.any(|k| matches!(k, TermKind::Branch { cond, .. } if compound(cond))) {
-            split_program(program, &compound);
-        }
+    let compound = |cond: &Cond| match cond {
+        Cond::And(_) | Cond::Or(_) => !joined || cond.has_switch() || !fits(cond),
+        Cond::Not(inner) => !matches!(**inner, Cond::Switch(_)),
+        _ => false,
+    };
+    let mut branches = program.blocks.iter().map(|b| &b.term.kind);
+    let any = branches.any(|k| matches!(k, TermKind::Branch { cond, .. } if compound(cond)));
+    if any {
+        split_program(program, &compound);
     }
+    any
 }
 
 fn split_program(program: &mut Program, compound: &dyn Fn(&Cond) -> bool) {

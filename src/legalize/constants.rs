@@ -6,33 +6,30 @@
 use super::census::is_long;
 use super::{Context, Position, rewrite_program};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BinOp, Expr, Module};
+use crate::ir::{BinOp, Expr, Program};
 
 /// Splits constants that are too long.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let Some(most) = context.target.numbers().digits.filter(|most| *most >= 8) else { return false };
     let mut changed = false;
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut found = Vec::new();
-        rewrite_program(program, |e| matches!(e, Expr::Number(_)), &mut |e, position, rewriter| match e {
-            Expr::Number(value)
-                if is_long(value) && digits(value) > most && !matches!(position, Position::Argument(_)) =>
-            {
-                changed = true;
-                let (split, made) = split(value);
-                if made != value {
-                    found.push((rewriter.span, value, made));
-                }
-                // A word takes an expression only in brackets; a temporary reads better.
-                if matches!(position, Position::Word(_)) { Expr::Var(rewriter.hold(split)) } else { split }
+    let mut found = Vec::new();
+    rewrite_program(program, |e| matches!(e, Expr::Number(_)), &mut |e, position, rewriter| match e {
+        Expr::Number(value)
+            if is_long(value) && digits(value) > most && !matches!(position, Position::Argument(_)) =>
+        {
+            changed = true;
+            let (split, made) = split(value);
+            if made != value {
+                found.push((rewriter.span, value, made));
             }
-            other => other,
-        });
-        for (span, value, made) in found {
-            let what =
-                format!("the target takes {most} digits: {value} is written as a sum that gives {made}");
-            context.add(index, Diagnostic::new(Code::NearlyEqual, span, what));
+            // A word takes an expression only in brackets; a temporary reads better.
+            if matches!(position, Position::Word(_)) { Expr::Var(rewriter.hold(split)) } else { split }
         }
+        other => other,
+    });
+    for (span, value, made) in found {
+        let what = format!("the target takes {most} digits: {value} is written as a sum that gives {made}");
+        context.add(index, Diagnostic::new(Code::NearlyEqual, span, what));
     }
     changed
 }

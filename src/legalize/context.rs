@@ -1,10 +1,13 @@
 //! What every pass is given: both controls, and a place for what it finds.
 
 use super::Modal;
+use super::census::Census;
+use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side};
 use crate::text::Span;
 use foldhash::{HashMap, HashSet};
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -20,6 +23,12 @@ pub struct Context<'a> {
     pub faults: Vec<Vec<Span>>,
     /// For each program the one of the source that it comes from: passes add programs.
     pub origins: Vec<usize>,
+    /// What stood in the library behind the last pass, where it was counted then.
+    pub(super) census: Option<Census>,
+    /// The operations that the target has M codes for, once they were asked for.
+    pub(super) m_codes: OnceCell<BTreeSet<Op>>,
+    /// The operations that the target has codes for.
+    pub(super) had: OnceCell<BTreeSet<Op>>,
     findings: Findings,
     /// Questions of behaviour that programs were seen to rest on.
     rested: HashSet<(usize, Side, &'static str)>,
@@ -44,6 +53,9 @@ impl<'a> Context<'a> {
             entry: Modal::unknown(),
             faults: Vec::new(),
             origins: (0..programs).collect(),
+            census: None,
+            m_codes: OnceCell::new(),
+            had: OnceCell::new(),
             findings,
             rested,
             facts,

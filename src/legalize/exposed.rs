@@ -23,7 +23,11 @@ pub struct Exposed {
 impl Exposed {
     /// Analyses a library.
     pub fn of(module: &Module) -> Self {
-        let universe = universe(module);
+        Self::among(module, universe(module))
+    }
+
+    /// As [`Exposed::of`], of some variables only.
+    pub fn among(module: &Module, universe: Universe) -> Self {
         let callees = Callees::of(module);
         let written = Written::of(module, &callees, &universe);
         let (none, everything) = (universe.none(), universe.all());

@@ -10,7 +10,7 @@ use super::Context;
 use super::census::{Census, Thing};
 use crate::canon::Op;
 use crate::dialect::Control;
-use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::ir::{Nc, NcItem, Program, Site, Stmt, StmtKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// True where there are M codes, or what is left out.
@@ -20,7 +20,7 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 }
 
 /// Gives each M code a block of its own, past those that the target takes together.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let target = context.target;
     let most = match target.behaviour("m.codes.per.block").map(|b| b.value.as_str()) {
         Some("3") => 3,
@@ -28,9 +28,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         _ => 1,
     };
     let always_turns = target.code_for(Op::SurfaceSpeed, &BTreeMap::new()).is_none();
-    let m_codes: BTreeSet<Op> = Op::ALL.iter().copied().filter(|op| is_m_code(*op, target)).collect();
+    let m_codes =
+        context.m_codes.get_or_init(|| Op::ALL.iter().copied().filter(|op| is_m_code(*op, target)).collect());
     let mut changed = false;
-    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+    for block in &mut program.blocks {
         let mut behind = Vec::new();
         for (at, stmt) in block.stmts.iter_mut().enumerate() {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
@@ -39,7 +40,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
                 nc.items.retain(|item| *item != NcItem::Op(Op::TurnsPerMinute));
             }
             let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
-            let rest = split(nc, most, &m_codes).into_iter().map(|item| {
+            let rest = split(nc, most, m_codes).into_iter().map(|item| {
                 let kind = StmtKind::Nc(Nc { items: vec![item] });
                 (at, Stmt { kind, site: site.clone() })
             });

@@ -45,7 +45,6 @@ mod missing;
 mod modal;
 mod modal_calls;
 mod modal_facts;
-mod modal_off;
 mod nesting;
 mod offset_rows;
 mod operator;
@@ -81,7 +80,7 @@ pub use registers::{Register, Registers};
 pub use rewrite::{Position, Prelude, Rewriter, Wanted, rewrite_program};
 
 use crate::canon::{Op, Role};
-use crate::ir::Module;
+use crate::ir::{Module, Program};
 use std::collections::BTreeMap;
 
 /// One step of legalization.
@@ -100,8 +99,10 @@ enum Run {
     Rewrites(fn(&mut Module, &mut Context<'_>)),
     /// Finds nothing to change in most libraries that concern it; true where it changed anything.
     Edits(fn(&mut Module, &mut Context<'_>) -> bool),
+    /// Looks at one program alone, whose index it is given; true where it changed anything.
+    Each(fn(&mut Program, usize, &mut Context<'_>) -> bool),
 }
-use Run::{Edits, Reports, Rewrites};
+use Run::{Each, Edits, Reports, Rewrites};
 
 impl Pass {
     /// Runs it where anything concerns it.
@@ -123,6 +124,7 @@ impl Pass {
                 run(module, context);
                 true
             }
+            Each(_) => each(std::slice::from_ref(self), module, context).1,
             Edits(run) => {
                 let before = cfg!(debug_assertions).then(|| module.clone());
                 let changed = run(module, context);
@@ -144,11 +146,6 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
     Pass { name: "chain", concerns: |c, _| c.has(Thing::Chain), run: Rewrites(chain::chain) },
     Pass { name: "repeats", concerns: |c, _| c.role(Role::Repeat), run: Rewrites(repeats::run) },
-    Pass {
-        name: "modal-off",
-        concerns: |c, context| c.has(Thing::Modal) && !context.same_family(),
-        run: Rewrites(modal_off::run),
-    },
     Pass { name: "modal-calls", concerns: |c, _| c.has(Thing::Modal), run: Rewrites(modal_calls::run) },
     // Behind the modal calls: the calls that they become must look at the register too.
     Pass { name: "return-to", concerns: |c, _| c.has(Thing::ReturnTo), run: Rewrites(chain::return_to) },
@@ -222,33 +219,55 @@ pub const PASSES: &[Pass] = &[
         concerns: |c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)),
         run: Rewrites(cycle_words::run),
     },
-    Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Edits(substitutes::run) },
-    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Edits(machine_codes::run) },
-    Pass { name: "missing", concerns: missing::concerns, run: Reports(missing::run) },
-    Pass { name: "functions", concerns: |c, _| c.has(Thing::Function), run: Rewrites(functions::run) },
-    Pass { name: "truth", concerns: truth::concerns, run: Rewrites(truth::run) },
-    Pass { name: "conditions", concerns: |c, _| c.has(Thing::Compound), run: Rewrites(conditions::run) },
-    Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Edits(constants::run) },
+    // From here on a program goes through all passes while it is at hand: a library is larger than any cache.
+    Pass { name: "substitutes", concerns: |c, _| substitutes::concerns(c), run: Each(substitutes::run) },
+    Pass { name: "machine-codes", concerns: machine_codes::concerns, run: Each(machine_codes::run) },
+    Pass { name: "missing", concerns: missing::concerns, run: Each(missing::run) },
+    Pass { name: "functions", concerns: |c, _| c.has(Thing::Function), run: Each(functions::run) },
+    Pass { name: "truth", concerns: truth::concerns, run: Each(truth::run) },
+    Pass { name: "conditions", concerns: |c, _| c.has(Thing::Compound), run: Each(conditions::run) },
+    Pass { name: "constants", concerns: |c, _| c.has(Thing::Long), run: Each(constants::run) },
+    Pass { name: "printed-values", concerns: |c, _| c.has(Thing::Print), run: Each(operator::hold_values) },
+    Pass { name: "oversize", concerns: |c, _| c.has(Thing::Computed), run: Each(oversize::run) },
     Pass { name: "ports", concerns: |c, _| c.has(Thing::Output), run: Rewrites(ports::run) },
-    Pass {
-        name: "printed-values",
-        concerns: |c, _| c.has(Thing::Print),
-        run: Rewrites(operator::hold_values),
-    },
-    Pass { name: "oversize", concerns: |c, _| c.has(Thing::Computed), run: Edits(oversize::run) },
     Pass { name: "vacancy", concerns: vacancy::concerns, run: Rewrites(vacancy::run) },
 ];
 
 /// Runs every pass.
 pub fn legalize(module: &mut Module, context: &mut Context<'_>) {
     let (mut census, mut fresh) = (Census::of(&module.programs), true);
-    for pass in PASSES {
+    for passes in PASSES.chunk_by(|a, b| matches!((&a.run, &b.run), (Each(_), Each(_)))) {
+        let [pass] = passes else {
+            if !fresh || passes.iter().any(|pass| (pass.concerns)(&census, context)) {
+                (census, _) = each(passes, module, context);
+                fresh = true;
+            }
+            continue;
+        };
         // What stood there before may be gone: then the pass finds nothing to do.
         if !fresh && !(pass.concerns)(&census, context) {
             (census, fresh) = (Census::of(&module.programs), true);
         }
         fresh &= !pass.apply_to(&census, module, context);
     }
+    context.census = fresh.then_some(census);
+}
+
+/// Takes each program through passes that look at one alone; what stands in the library then, and whether
+/// they changed anything.
+fn each(passes: &[Pass], module: &mut Module, context: &mut Context<'_>) -> (Census, bool) {
+    let (mut all, mut any) = (Census::default(), false);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut census = Census::of(std::slice::from_ref(program));
+        for pass in passes {
+            let Each(run) = pass.run else { continue };
+            if (pass.concerns)(&census, context) && run(program, index, context) {
+                (census, any) = (Census::of(std::slice::from_ref(program)), true);
+            }
+        }
+        all.add_all(&census);
+    }
+    (all, any)
 }
 
 /// Gives every variable its register, and does what needs to know them; `locked` and `scratch` are the
@@ -259,7 +278,8 @@ pub fn assign_registers(
     scratch: &[u32],
     context: &mut Context<'_>,
 ) -> Registers {
-    let census = Census::of(&module.programs);
+    // Optimization between brings nothing in.
+    let census = context.census.take().unwrap_or_else(|| Census::of(&module.programs));
     if census.has(Thing::Temp) {
         temporaries::run(module);
     }

@@ -8,7 +8,7 @@
 
 use super::{Context, Registers};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Class, Expr, Module, OutputPart, Place, PrintPart, Site, Stmt, StmtKind, Var};
+use crate::ir::{Class, Expr, Module, OutputPart, Place, PrintPart, Program, Site, Stmt, StmtKind, Var};
 
 /// Digits of a printed value before and behind the point: eight together is what the targets take.
 const DIGITS: (u32, u32) = (4, 4);
@@ -158,36 +158,35 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
 }
 
 /// Formatted output takes variables only: whatever else is printed is computed first.
-pub fn hold_values(module: &mut Module, context: &mut Context<'_>) {
+pub fn hold_values(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     if context.target.statement("print").is_some() {
-        return;
+        return false;
     }
-    for program in &mut module.programs {
-        let mut temp = super::rewrite::highest_temp(program);
-        for block in &mut program.blocks {
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for mut stmt in std::mem::take(&mut block.stmts) {
-                if let StmtKind::Print { parts, .. } = &mut stmt.kind {
-                    let site = || Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
-                    for part in parts {
-                        let PrintPart::Value(value) = part else { continue };
-                        if matches!(value, Expr::Var(_)) {
-                            continue;
-                        }
-                        temp += 1;
-                        let held = Var { class: Class::Temp, number: temp };
-                        let value = std::mem::replace(value, Expr::Var(held));
-                        out.push(Stmt {
-                            kind: StmtKind::Assign { target: Place::Var(held), value },
-                            site: site(),
-                        });
+    let mut temp = super::rewrite::highest_temp(program);
+    for block in &mut program.blocks {
+        let mut out = Vec::with_capacity(block.stmts.len());
+        for mut stmt in std::mem::take(&mut block.stmts) {
+            if let StmtKind::Print { parts, .. } = &mut stmt.kind {
+                let site = || Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+                for part in parts {
+                    let PrintPart::Value(value) = part else { continue };
+                    if matches!(value, Expr::Var(_)) {
+                        continue;
                     }
+                    temp += 1;
+                    let held = Var { class: Class::Temp, number: temp };
+                    let value = std::mem::replace(value, Expr::Var(held));
+                    out.push(Stmt {
+                        kind: StmtKind::Assign { target: Place::Var(held), value },
+                        site: site(),
+                    });
                 }
-                out.push(stmt);
             }
-            block.stmts = out;
+            out.push(stmt);
         }
+        block.stmts = out;
     }
+    true
 }
 
 fn finish(out: &mut Vec<Stmt>, pending: &mut Vec<OutputPart>, open: &mut bool, site: &Site) {

@@ -10,7 +10,7 @@ use super::measure::{Measure, REGISTER, Size};
 use super::rewrite::{self, Position, highest_temp};
 use crate::canon::{Func, Sys};
 use crate::dialect::Control;
-use crate::ir::{Block, Class, Cond, Expr, Module, NcItem, Place, Site, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{Block, Class, Cond, Expr, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind, Var};
 
 /// Characters that stand before a block's own: a block skip, a sequence number.
 const HEAD: usize = 9;
@@ -32,23 +32,19 @@ pub fn shares_line(control: &Control, cond: &Cond, stmt: &StmtKind) -> bool {
 }
 
 /// Takes operands out of expressions that the target has no room for.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
     let room = room(context.target);
     if depth == u32::MAX && room == usize::MAX {
         return false;
     }
-    let mut changed = false;
-    for program in &mut module.programs {
-        let highest = highest_temp(program);
-        let mut cutter = Cutter { measure, depth, room, highest, before: Vec::new() };
-        for block in &mut program.blocks {
-            cutter.block(block);
-        }
-        changed |= cutter.highest != highest;
+    let highest = highest_temp(program);
+    let mut cutter = Cutter { measure, depth, room, highest, before: Vec::new() };
+    for block in &mut program.blocks {
+        cutter.block(block);
     }
-    changed
+    cutter.highest != highest
 }
 
 struct Cutter<'c> {

@@ -66,7 +66,7 @@ pub fn allocate(
     if clear::concerns(census, context) {
         users.insert(clear::COUNTER, (0, Span::default()));
     }
-    let banks = if census.has(Thing::Indirect) { banks(module) } else { BTreeMap::new() };
+    let banks = if census.has(Thing::Banked) { banks(module) } else { BTreeMap::new() };
     for (bank, place) in &banks {
         for number in reached(*bank, context.source) {
             users.entry(Var { class: class_of(*bank), number }).or_insert(*place);
@@ -168,7 +168,7 @@ fn banks(module: &Module) -> BTreeMap<Bank, (usize, Span)> {
         for block in &program.blocks {
             let mut note = |e: &Expr, span: Span| {
                 e.walk(&mut |e| {
-                    if let Expr::Indirect(bank, _) = e {
+                    if let Expr::Indirect(bank @ (Bank::Global | Bank::Parametric), _) = e {
                         banks.entry(*bank).or_insert((index, span));
                     }
                 });

@@ -8,6 +8,7 @@ use super::Context;
 use super::exposed::{Exposed, roots};
 use super::registers::{Register, Registers};
 use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::Universe;
 use crate::ir::{Class, Module, Var};
 use foldhash::{HashMap, HashMapExt};
 use std::sync::Arc;
@@ -32,7 +33,7 @@ pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) 
         return;
     }
     lives.sort_by(|(.., a), (.., b)| a.cmp(b));
-    let exposed = Exposed::of(module);
+    let exposed = Exposed::among(module, Universe::new(lives.iter().map(|(var, ..)| *var).collect()));
     let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
     for index in roots(module) {
         let span = module.programs[index].site.span;

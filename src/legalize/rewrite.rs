@@ -141,8 +141,13 @@ pub type Rewrite<'f> = dyn FnMut(Expr, Position, &mut Rewriter<'_>) -> Expr + 'f
 /// lays what it wants done first before the statement.
 ///
 /// Statements keep their order; a prelude runs right before its statement, so
-/// what it reads is what the expression would have read.
-pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewrite<'_>) {
+/// what it reads is what the expression would have read. True where any expression was wanted.
+pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewrite<'_>) -> bool {
+    let mut any = false;
+    let rewrite: &mut Rewrite<'_> = &mut |e, position, rewriter: &mut Rewriter<'_>| {
+        any = true;
+        rewrite(e, position, rewriter)
+    };
     let mut next_temp = highest_temp(program);
     let mut preludes: VecDeque<(usize, usize, Vec<Prelude>)> = VecDeque::new();
     for (id, block) in program.blocks.iter_mut().enumerate() {
@@ -160,7 +165,7 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
         each(end, block.term.site.span, &mut |f| terminator(&mut block.term.kind, f));
     }
     if preludes.is_empty() {
-        return;
+        return any;
     }
     let mut place = (0, 0);
     let touched: Vec<usize> = preludes.iter().map(|(id, ..)| *id).collect();
@@ -180,6 +185,7 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
         place.1 += 1;
         part.keep(builder);
     });
+    true
 }
 
 /// What runs first at a place, where that is the next one that something does at.

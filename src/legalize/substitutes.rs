@@ -8,7 +8,7 @@ use super::census::{Census, Thing};
 use super::emptied::drop_emptied;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Module, NcItem, StmtKind};
+use crate::ir::{NcItem, Program, StmtKind};
 use std::collections::BTreeMap;
 
 /// An operation, what stands for it (nothing: it is left out), and what a reviewer must accept.
@@ -33,28 +33,26 @@ pub fn concerns(census: &Census) -> bool {
 }
 
 /// Puts substitutes in the place of operations that the target lacks.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let has = |op: Op| context.target.code_for(op, &BTreeMap::new()).is_some();
     let rows: Vec<_> = ROWS.iter().filter(|(op, other, _)| !has(*op) && other.is_none_or(has)).collect();
     let mut changed = false;
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        for block in &mut program.blocks {
-            for stmt in &mut block.stmts {
-                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                for (op, other, what) in &rows {
-                    let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
-                        continue;
-                    };
-                    changed = true;
-                    match other {
-                        Some(other) => nc.items[at] = NcItem::Op(*other),
-                        None => drop(nc.items.remove(at)),
-                    }
-                    context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, *what));
+    for block in &mut program.blocks {
+        for stmt in &mut block.stmts {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            for (op, other, what) in &rows {
+                let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
+                    continue;
+                };
+                changed = true;
+                match other {
+                    Some(other) => nc.items[at] = NcItem::Op(*other),
+                    None => drop(nc.items.remove(at)),
                 }
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, *what));
             }
-            changed |= drop_emptied(block);
         }
+        changed |= drop_emptied(block);
     }
     changed
 }

@@ -13,17 +13,24 @@ use std::collections::BTreeSet;
 pub fn run(module: &mut Module) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
-    let plans: Vec<Plan> = module.programs.iter().map(|program| Plan::of(program, modal)).collect();
-    let shared = plans.iter().flat_map(|plan| plan.colours.values()).copied().max().unwrap_or(0);
+    let mut shared = 0;
+    let mut waiting: Vec<(&mut Program, Plan)> = Vec::new();
+    for program in &mut module.programs {
+        let plan = Plan::of(program, modal);
+        shared = plan.colours.values().copied().max().unwrap_or(0).max(shared);
+        if plan.across.is_empty() {
+            rename(program, &plan);
+        } else {
+            waiting.push((program, plan));
+        }
+    }
     let mut lone = shared;
-    for (program, mut plan) in module.programs.iter_mut().zip(plans) {
-        for temp in plan.across {
+    for (program, mut plan) in waiting {
+        for temp in std::mem::take(&mut plan.across) {
             lone += 1;
             plan.colours.insert(temp, lone);
         }
-        if !plan.colours.is_empty() {
-            rename(program, &plan.colours, &plan.naming);
-        }
+        rename(program, &plan);
     }
 }
 
@@ -137,9 +144,9 @@ fn read(e: &Expr, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
     });
 }
 
-fn rename(program: &mut Program, names: &HashMap<u32, u32>, naming: &[bool]) {
+fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan) {
     let change = |var: &mut Var| {
-        if let (Class::Temp, Some(&number)) = (var.class, names.get(&var.number)) {
+        if let (Class::Temp, Some(&number)) = (var.class, colours.get(&var.number)) {
             var.number = number;
         }
     };

@@ -6,7 +6,7 @@
 
 use super::census::{Census, Thing};
 use super::{Context, Position, Prelude, Rewriter, rewrite_program};
-use crate::ir::{Expr, Module};
+use crate::ir::{Expr, Program};
 
 /// True where a comparison is a value, and the target takes none.
 pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
@@ -14,19 +14,17 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 }
 
 /// Replaces truth values by temporaries that an IF sets.
-pub fn run(module: &mut Module, _: &mut Context<'_>) {
-    for program in &mut module.programs {
-        rewrite_program(
-            program,
-            |e| matches!(e, Expr::Truth(_)),
-            &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
-                Expr::Truth(cond) => {
-                    let truth = rewriter.hold(Expr::Number(0.0));
-                    rewriter.first(Prelude::When(*cond, truth, Expr::Number(1.0)));
-                    Expr::Var(truth)
-                }
-                other => other,
-            },
-        );
-    }
+pub fn run(program: &mut Program, _: usize, _: &mut Context<'_>) -> bool {
+    rewrite_program(
+        program,
+        |e| matches!(e, Expr::Truth(_)),
+        &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
+            Expr::Truth(cond) => {
+                let truth = rewriter.hold(Expr::Number(0.0));
+                rewriter.first(Prelude::When(*cond, truth, Expr::Number(1.0)));
+                Expr::Var(truth)
+            }
+            other => other,
+        },
+    )
 }

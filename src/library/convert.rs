@@ -6,7 +6,8 @@ use super::{Input, Lock, refused_calls};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::{Emitted, Naming, Register, Writer};
-use crate::ir::{Module, Program, validate};
+use crate::ir::validate::{Invalid, breaches};
+use crate::ir::{Module, Program};
 use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
 use crate::lower::Lowered;
 use crate::opt;
@@ -233,34 +234,34 @@ pub(super) fn make(
             all.push(Diagnostic::new(Code::Internal, Span::default(), fault.to_string()));
         });
     }
-    match validate(&module) {
-        Ok(_) => {
-            let write = target.entry().emit.map(|emit| emit(&naming, target));
-            let entry = target.entry();
-            let lines = || ReadLines::new(entry.parse, entry.shortcuts);
-            let links = refused_calls::links(&module, &origins);
-            // Each program is dropped when it is written.
-            let programs = std::mem::take(&mut module.programs);
-            let emitted: Vec<_> = programs
-                .into_par_iter()
-                .map_init(lines, |read, program| emit(&program, write.as_ref(), target, read))
-                .collect();
-            for (origin, result) in origins.into_iter().zip(emitted) {
-                match result {
-                    Ok(mut text) => {
-                        found[origin].append(&mut text.findings);
-                        parts[origin].push(text);
-                    }
-                    Err(diagnostics) => found[origin].extend(diagnostics),
+    let write = target.entry().emit.map(|emit| emit(&naming, target));
+    let entry = target.entry();
+    let lines = || ReadLines::new(entry.parse, entry.shortcuts);
+    let links = refused_calls::links(&module, &origins);
+    // Each program is checked when it is at hand, and dropped when it is written.
+    let programs = std::mem::take(&mut module.programs);
+    let emitted = programs.into_par_iter().enumerate().map_init(lines, |read, (at, program)| {
+        let broken = breaches(&program, at);
+        if broken.is_empty() { Ok(emit(&program, write.as_ref(), target, read)) } else { Err(broken) }
+    });
+    let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
+    let broken: Vec<String> =
+        emitted.iter().filter_map(|made| made.as_ref().err()).flatten().map(ToString::to_string).collect();
+    if broken.is_empty() {
+        for (origin, result) in origins.into_iter().zip(emitted.into_iter().flatten()) {
+            match result {
+                Ok(mut text) => {
+                    found[origin].append(&mut text.findings);
+                    parts[origin].push(text);
                 }
+                Err(diagnostics) => found[origin].extend(diagnostics),
             }
-            refused_calls::report(&links, &mut found);
         }
-        Err(faults) => {
-            for all in &mut found {
-                let what = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-                all.push(Diagnostic::new(Code::Internal, Span::default(), what));
-            }
+        refused_calls::report(&links, &mut found);
+    } else {
+        // What one program of a library is broken by may have touched the others.
+        for all in &mut found {
+            all.push(Diagnostic::new(Code::Internal, Span::default(), broken.join("; ")));
         }
     }
     Made { found, parts, lock }

@@ -12,9 +12,9 @@
 //! reader finds the jump to it.
 
 use super::fold::fold;
-use super::pass::{Level, Pass};
+use super::pass::{Level, Library, Pass};
 use crate::ir::eval::{Memory, holds};
-use crate::ir::{Block, BlockId, Callee, Cond, Expr, Module, Program, Site, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Callee, Cond, Expr, Program, Site, StmtKind, TermKind};
 
 /// The pass.
 pub(super) struct Branches;
@@ -24,15 +24,13 @@ impl Pass for Branches {
         "branches"
     }
 
-    fn run(&self, module: &mut Module, level: Level) {
-        for program in &mut module.programs {
-            for block in &mut program.blocks {
-                if level >= Level::O2 || block.term.site == Site::default() {
-                    simplify(&mut block.term.kind);
-                }
+    fn run(&self, program: &mut Program, _: &Library, level: Level) {
+        for block in &mut program.blocks {
+            if level >= Level::O2 || block.term.site == Site::default() {
+                simplify(&mut block.term.kind);
             }
-            thread(program);
         }
+        thread(program);
     }
 }
 

@@ -10,9 +10,9 @@
 //! make `#3` vacant. A word that becomes a constant may no longer stand in one block with
 //! words that are variables, and one that becomes a variable may not be one that words take: hence the words, and hence not after legalization.
 
-use super::pass::{Level, Pass};
+use super::pass::{Level, Library, Pass};
 use crate::ir::analysis::{Summaries, Vars};
-use crate::ir::{Class, Expr, Module, Place, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The pass.
@@ -27,19 +27,21 @@ impl Pass for Copies {
         false
     }
 
-    fn run(&self, module: &mut Module, level: Level) {
-        if level < Level::O2 && module.programs.iter().all(|program| program.temporaries().next().is_none()) {
+    fn asks_what_calls_write(&self) -> bool {
+        true
+    }
+
+    fn run(&self, program: &mut Program, library: &Library, level: Level) {
+        if level < Level::O2 && program.temporaries().next().is_none() {
             return;
         }
-        let summaries = Summaries::of(module);
-        let named: BTreeSet<Var> = module.names.keys().copied().collect();
-        for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
-            let mut copies = Known { sources: BTreeMap::new(), named: &named, level };
+        for block in &mut program.blocks {
+            let mut copies = Known { sources: BTreeMap::new(), named: &library.named, level };
             for stmt in &mut block.stmts {
                 if !matches!(stmt.kind, StmtKind::Nc(_) | StmtKind::ModalCall(_)) {
                     stmt.kind.exprs_mut(&mut |e| copies.replace(e));
                 }
-                copies.step(stmt, &summaries);
+                copies.step(stmt, &library.summaries);
             }
             if !matches!(block.term.kind, TermKind::Call { .. }) {
                 block.term.kind.exprs_mut(&mut |e| copies.replace(e));

@@ -6,10 +6,10 @@
 //!
 //! **Counter-example.** `tmp.1 = SQRT[#1]` stops the machine where `#1` is below 0.
 
-use super::pass::{Level, Pass};
+use super::pass::{Level, Library, Pass};
 use super::retarget::drop_statements;
 use crate::ir::analysis::{Liveness, Ways};
-use crate::ir::{Block, Class, Expr, Module, Place, Program, Stmt, StmtKind, Var};
+use crate::ir::{Block, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use std::cell::Cell;
 
 /// The pass.
@@ -20,12 +20,9 @@ impl Pass for DeadTemps {
         "dead.temps"
     }
 
-    fn run(&self, module: &mut Module, _: Level) {
-        let ways = Ways::of(module);
-        for program in &mut module.programs {
-            // What a removed assignment read may be dead in its turn.
-            let _ = (0..SWEEPS).find(|_| !may_have_dead(program) || !sweep(program, ways));
-        }
+    fn run(&self, program: &mut Program, library: &Library, _: Level) {
+        // What a removed assignment read may be dead in its turn.
+        let _ = (0..SWEEPS).find(|_| !may_have_dead(program) || !sweep(program, library.ways));
     }
 }
 

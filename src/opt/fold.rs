@@ -9,9 +9,9 @@
 //! computed all the digits it has. `ATAN[-1]/[-1]` is 225 on one control and -135 on another. `SQRT[-1]`: the alarm would be lost. `-(0)`: a control that
 //! writes it as `-0` may not read it back. `#1 + 0` is not `#1`: where `#1` is vacant the sum is 0.
 
-use super::pass::{Level, Pass};
+use super::pass::{Level, Library, Pass};
 use crate::ir::eval::{AtanRange, Memory, eval};
-use crate::ir::{Class, Expr, Module, Place, Site, Stmt, StmtKind, Var};
+use crate::ir::{Class, Expr, Place, Program, Site, Stmt, StmtKind, Var};
 
 /// The pass.
 pub(super) struct Fold;
@@ -24,8 +24,8 @@ impl Pass for Fold {
         "fold"
     }
 
-    fn run(&self, module: &mut Module, level: Level) {
-        for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+    fn run(&self, program: &mut Program, _: &Library, level: Level) {
+        for block in &mut program.blocks {
             for stmt in &mut block.stmts {
                 if level >= Level::O2 || is_introduced(stmt) {
                     stmt.kind.exprs_mut(&mut fold);

@@ -18,7 +18,7 @@ mod retarget;
 mod unreachable;
 
 pub use fold::fold;
-pub use pass::{Dump, Level, OptError, Options, PASSES, Pass, When, find, run};
+pub use pass::{Dump, Level, Library, OptError, Options, PASSES, Pass, When, apply, find, run};
 
 #[cfg(test)]
 mod tests;

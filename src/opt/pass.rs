@@ -2,8 +2,11 @@
 
 use super::{branches::Branches, copies::Copies, dead_temps::DeadTemps, fold::Fold};
 use super::{retarget::Retarget, unreachable::Unreachable};
+use crate::ir::analysis::{Summaries, Ways};
 use crate::ir::validate::Invalid;
-use crate::ir::{Module, validate};
+use crate::ir::{Module, Program, Var, validate};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// How much is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,7 +20,31 @@ pub enum Level {
     O2,
 }
 
-/// One rewriting of a module.
+/// What a program's passes are told of its library, as it was before any of them: they take calls and ways
+/// away, and bring none.
+#[derive(Debug)]
+pub struct Library {
+    /// What its programs do to one another's ways.
+    pub(super) ways: Ways,
+    /// Variables that people have named.
+    pub(super) named: BTreeSet<Var>,
+    /// What calls write.
+    pub(super) summaries: Summaries,
+}
+
+impl Library {
+    fn of(module: &Module, passes: &[&dyn Pass], level: Level) -> Self {
+        let asked = passes.iter().any(|pass| pass.asks_what_calls_write())
+            && (level >= Level::O2 || module.programs.iter().any(|p| p.temporaries().next().is_some()));
+        Self {
+            ways: Ways::of(module),
+            named: module.names.keys().copied().collect(),
+            summaries: if asked { Summaries::of(module) } else { Summaries::default() },
+        }
+    }
+}
+
+/// One rewriting of a program.
 pub trait Pass: Sync {
     /// Its name, as it is asked for.
     fn name(&self) -> &'static str;
@@ -38,8 +65,13 @@ pub trait Pass: Sync {
         true
     }
 
-    /// Rewrites a module. `level` is at least one that it is enabled at.
-    fn run(&self, module: &mut Module, level: Level);
+    /// True where it looks at what calls write: what programs without temporaries do not need below `-O2`.
+    fn asks_what_calls_write(&self) -> bool {
+        false
+    }
+
+    /// Rewrites a program. `level` is at least one that it is enabled at.
+    fn run(&self, program: &mut Program, library: &Library, level: Level);
 }
 
 /// All passes, in the order in which they run.
@@ -103,34 +135,46 @@ pub fn find(name: &str) -> Result<&'static dyn Pass, OptError> {
     })
 }
 
+/// Runs one pass on every program.
+pub fn apply(pass: &dyn Pass, module: &mut Module, level: Level) {
+    let library = Library::of(module, &[pass], level);
+    module.programs.iter_mut().for_each(|program| pass.run(program, &library, level));
+}
+
 /// Runs the passes. Returns the names of those that ran.
 pub fn run(module: &mut Module, mut options: Options<'_>) -> Result<Vec<&'static str>, OptError> {
     let last = options.stop_after.map(find).transpose()?.map(Pass::name);
-    let mut ran = Vec::new();
-    let check = options.validate || cfg!(debug_assertions);
     let level = options.level;
-    for pass in PASSES {
-        let wanted = pass.is_required() || pass.is_enabled(level);
-        if wanted && (pass.keeps_legal() || !options.legalized) {
-            if options.first.is_some_and(|first| ran.len() >= first) {
-                break;
-            }
+    let through = PASSES.iter().position(|pass| last == Some(pass.name())).map_or(PASSES.len(), |at| at + 1);
+    let wanted = |pass: &&dyn Pass| {
+        (pass.is_required() || pass.is_enabled(level)) && (pass.keeps_legal() || !options.legalized)
+    };
+    let first = options.first.unwrap_or(usize::MAX);
+    let passes: Vec<&dyn Pass> = PASSES[..through].iter().copied().filter(wanted).take(first).collect();
+    let library = Library::of(module, &passes, level);
+    if options.validate || options.dump.is_some() || cfg!(debug_assertions) {
+        for pass in &passes {
             let mut dump = |when, module: &Module| {
                 if let Some(dump) = &mut options.dump {
                     dump(pass.name(), when, module);
                 }
             };
             dump(When::Before, module);
-            pass.run(module, level);
+            module.programs.iter_mut().for_each(|program| pass.run(program, &library, level));
             dump(When::After, module);
-            ran.push(pass.name());
-            if check && let Err(mut all) = validate(module) {
+            if (options.validate || cfg!(debug_assertions))
+                && let Err(mut all) = validate(module)
+            {
                 return Err(OptError::Broken { pass: pass.name(), first: all.swap_remove(0) });
             }
         }
-        if last == Some(pass.name()) {
-            break;
+    } else {
+        // A program goes through all passes while it is at hand: a library is larger than any cache.
+        let all = |program: &mut Program| passes.iter().for_each(|pass| pass.run(program, &library, level));
+        match module.programs.as_mut_slice() {
+            [program] => all(program),
+            programs => programs.par_iter_mut().for_each(all),
         }
     }
-    Ok(ran)
+    Ok(passes.iter().map(|pass| pass.name()).collect())
 }

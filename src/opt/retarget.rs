@@ -7,9 +7,9 @@
 //!
 //! **Counter-example.** `tmp.1 = #2; #3 = tmp.1` with `#2` vacant: `#3` is 0, not vacant.
 
-use super::pass::{Level, Pass};
+use super::pass::{Level, Library, Pass};
 use crate::ir::analysis::{Liveness, Ways};
-use crate::ir::{BlockId, Class, Expr, Module, Place, Program, Stmt, StmtKind, Var};
+use crate::ir::{BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use std::collections::BTreeSet;
 
 /// The pass.
@@ -20,21 +20,21 @@ impl Pass for Retarget {
         "retarget"
     }
 
-    fn run(&self, module: &mut Module, _: Level) {
-        let ways = Ways::of(module);
-        for program in module.programs.iter_mut().filter(|program| has_pair(program)) {
-            let found = pairs(program, ways);
-            for (block, at) in &found {
-                let Some(block) = program.blocks.get_mut(block.index()) else { continue };
-                let [first, second, ..] = block.stmts.get_mut(*at..).unwrap_or_default() else { continue };
-                if let (StmtKind::Assign { value: from, .. }, StmtKind::Assign { value, .. }) =
-                    (&mut first.kind, &mut second.kind)
-                {
-                    std::mem::swap(from, value);
-                }
-            }
-            drop_statements(program, &found);
+    fn run(&self, program: &mut Program, library: &Library, _: Level) {
+        if !has_pair(program) {
+            return;
         }
+        let found = pairs(program, library.ways);
+        for (block, at) in &found {
+            let Some(block) = program.blocks.get_mut(block.index()) else { continue };
+            let [first, second, ..] = block.stmts.get_mut(*at..).unwrap_or_default() else { continue };
+            if let (StmtKind::Assign { value: from, .. }, StmtKind::Assign { value, .. }) =
+                (&mut first.kind, &mut second.kind)
+            {
+                std::mem::swap(from, value);
+            }
+        }
+        drop_statements(program, &found);
     }
 }
 

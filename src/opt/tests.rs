@@ -43,7 +43,7 @@ fn folding_keeps_every_value() {
 fn folding_stops_short_of_what_no_literal_says() {
     let folded = |text: &str| {
         let mut module = parse(&format!("program O1 {{\nblock0:\n tmp.1 = {text}\n end\n}}")).unwrap();
-        find("fold").unwrap().run(&mut module, Level::O1);
+        apply(find("fold").unwrap(), &mut module, Level::O1);
         let text = print(&module);
         text.lines().nth(2).and_then(|line| line.split(" = ").nth(1)).unwrap_or_default().to_owned()
     };
@@ -89,7 +89,7 @@ fn constant_conditions_settle_as_they_hold() {
                     "program O1 {{\nblock0:\n branch {cond} ? block1 : block2\nblock1:\n end\nblock2:\n stray\n}}"
                 );
                 let mut module = parse(&text).unwrap();
-                find("branches").unwrap().run(&mut module, Level::O1);
+                apply(find("branches").unwrap(), &mut module, Level::O1);
                 assert!(print(&module).contains(&format!("jump block{way}")), "{cond}");
             }
         }

@@ -9,9 +9,8 @@
 //! **Counter-example.** A subroutine behind `M30` that only `M97 P1000` of another line, a computed
 //! jump or `M99 P1000` of a callee reaches: nothing falls into it.
 
-use super::pass::{Level, Pass};
-use crate::ir::analysis::may_come_back;
-use crate::ir::{Block, BlockId, Callee, Module, Program, Site, StmtKind, TermKind};
+use super::pass::{Level, Library, Pass};
+use crate::ir::{Block, BlockId, Callee, Program, Site, StmtKind, TermKind};
 use crate::syntax::Label;
 
 /// The pass.
@@ -22,13 +21,10 @@ impl Pass for Unreachable {
         "unreachable"
     }
 
-    fn run(&self, module: &mut Module, level: Level) {
-        let come_back = may_come_back(module);
-        for program in &mut module.programs {
-            let keep = kept(program, level, come_back);
-            if keep.contains(&false) {
-                remove(program, &keep);
-            }
+    fn run(&self, program: &mut Program, library: &Library, level: Level) {
+        let keep = kept(program, level, library.ways.come_back);
+        if keep.contains(&false) {
+            remove(program, &keep);
         }
     }
 }

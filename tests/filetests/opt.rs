@@ -17,7 +17,10 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
         Some("all") => {
             opt::run(&mut after, Options { level, ..Options::default() }).map_err(|e| e.to_string())?;
         }
-        name => opt::find(name.unwrap_or_default()).map_err(|e| e.to_string())?.run(&mut after, level),
+        name => {
+            let pass = opt::find(name.unwrap_or_default()).map_err(|e| e.to_string())?;
+            opt::apply(pass, &mut after, level);
+        }
     }
     validate(&after).map_err(|all| format!("broken: {}", all[0]))?;
     claims::check(&case.text, &before)?;

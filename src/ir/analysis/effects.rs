@@ -3,7 +3,7 @@
 use super::call_graph::CallGraph;
 use super::set::VarSet;
 use crate::canon::Op;
-use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, Program, StmtKind, TermKind, Var};
+use crate::ir::{Bank, Call, Callee, Class, Expr, Module, Nc, Place, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -150,7 +150,7 @@ impl Summaries {
         let names = names.filter_map(|(at, p)| p.name.clone().map(|name| (name, at))).collect();
         let everything = Vars::everything();
         let mut out = Self {
-            written: module.programs.iter().map(own).collect(),
+            written: vec![Vars::default(); module.programs.len()],
             names,
             modal: Vars::default(),
             unknown: everything.clone().without(Class::Temp),
@@ -216,7 +216,7 @@ struct Graph {
 }
 
 impl Graph {
-    /// The graph; what calls that leave the library write is added at once.
+    /// The graph; what programs write by themselves, and by calls that leave the library, is added at once.
     fn of(module: &Module, summaries: &mut Summaries) -> Self {
         let modal = module.programs.len();
         let mut callees = vec![BTreeSet::new(); modal + 1];
@@ -237,8 +237,10 @@ impl Graph {
                 }
             };
             let mut moves = false;
+            let mut own = Vars::default();
             for block in &program.blocks {
                 for stmt in &block.stmts {
+                    write(&mut own, &stmt.kind);
                     match &stmt.kind {
                         StmtKind::ModalCall(call) => edge(modal, &call.callee, call.level),
                         StmtKind::Nc(_) => moves = true,
@@ -251,6 +253,7 @@ impl Graph {
                     _ => {}
                 }
             }
+            summaries.written[at].join(&own.without(Class::Temp));
             if moves {
                 callees[at].insert((modal, false));
             }
@@ -264,16 +267,12 @@ pub(super) fn moves_values(nc: &Nc) -> bool {
     nc.ops().any(|op| matches!(op, Op::ReadOffset | Op::WriteVariable))
 }
 
-/// What a program writes by itself, temporaries aside.
-fn own(program: &Program) -> Vars {
-    let mut out = Vars::default();
-    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-        stmt.kind.target().iter().for_each(|place| out.write(place));
-        match &stmt.kind {
-            StmtKind::ClearAll(class) => drop(out.classes.insert(*class)),
-            StmtKind::Nc(nc) if moves_values(nc) => drop(out.join(&Vars::everything())),
-            _ => {}
-        }
+/// Adds what a statement writes by itself.
+fn write(out: &mut Vars, kind: &StmtKind) {
+    kind.target().iter().for_each(|place| out.write(place));
+    match kind {
+        StmtKind::ClearAll(class) => drop(out.classes.insert(*class)),
+        StmtKind::Nc(nc) if moves_values(nc) => drop(out.join(&Vars::everything())),
+        _ => {}
     }
-    out.without(Class::Temp)
 }

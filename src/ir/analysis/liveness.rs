@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 #[derive(Clone, Copy, Debug)]
 pub struct Ways {
     /// True where a call may come back at a label of its caller; see [`may_come_back`].
-    come_back: bool,
+    pub come_back: bool,
     /// True where a modal call runs a body of its own program, which any NC block may enter.
     modal_body: bool,
 }

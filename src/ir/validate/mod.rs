@@ -111,14 +111,19 @@ pub enum Problem {
 /// Checks a module. All breaches are listed.
 pub fn validate(module: &Module) -> Result<Valid<'_>, Vec<Invalid>> {
     let mut found = Vec::new();
-    for (index, program) in module.programs.iter().enumerate() {
-        let mut check = Check { program, index, block: None, statement: None, found: &mut found };
-        if program.blocks.is_empty() {
-            check.add(Problem::NoEntry);
-        }
-        check.blocks();
-    }
+    module.programs.iter().enumerate().for_each(|(at, program)| found.extend(breaches(program, at)));
     if found.is_empty() { Ok(Valid(module)) } else { Err(found) }
+}
+
+/// The breaches of one program, which stands at `index` in its module.
+pub fn breaches(program: &Program, index: usize) -> Vec<Invalid> {
+    let mut found = Vec::new();
+    let mut check = Check { program, index, block: None, statement: None, found: &mut found };
+    if program.blocks.is_empty() {
+        check.add(Problem::NoEntry);
+    }
+    check.blocks();
+    found
 }
 
 /// Checks one program.

@@ -14,7 +14,7 @@ use super::{Context, Position, Rewriter, rewrite_program};
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BinOp, Expr, Module};
+use crate::ir::{BinOp, Expr, Program};
 use thin_vec::ThinVec;
 
 /// What became of a function.
@@ -31,50 +31,49 @@ enum Emulated {
 }
 
 /// Replaces the functions that the target lacks.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut found = Vec::new();
-        let (source, target) = (context.source, context.target);
-        rewrite_program(program, is_function, &mut |e, position, rewriter| {
-            let span = rewriter.span;
-            let (name, emulated) = match e {
-                Expr::Call(function, arguments) => {
-                    (function.name(), call(function, arguments, position, rewriter, source, target))
-                }
-                Expr::Binary(BinOp::Mod, operands) if !modulo::is_native(&operands, target) => {
-                    let [a, b] = *operands;
-                    ("mod", modulo::by_division(a, b, rewriter, target))
-                }
-                Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
-                    let [a, b] = *operands;
-                    ("bits", Emulated::Exact(rounding::bits(op, a, b, position, rewriter, target)))
-                }
-                other => return other,
-            };
-            match emulated {
-                Emulated::Exact(value) => value,
-                Emulated::Near(value, why) => {
-                    found.push((Code::NearlyEqual, span, format!("{name}: {why}"), None));
-                    value
-                }
-                Emulated::Inside(value, why, arguments) => {
-                    let fact = format!("arguments:{name}:{arguments}");
-                    found.push((Code::NearlyEqual, span, format!("{name}: {why}"), Some(fact)));
-                    value
-                }
-                Emulated::Missing(why) => {
-                    found.push((Code::NoEquivalent, span, why, None));
-                    Expr::Number(0.0)
-                }
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
+    let mut found = Vec::new();
+    let (source, target) = (context.source, context.target);
+    let changed = rewrite_program(program, is_function, &mut |e, position, rewriter| {
+        let span = rewriter.span;
+        let (name, emulated) = match e {
+            Expr::Call(function, arguments) => {
+                (function.name(), call(function, arguments, position, rewriter, source, target))
             }
-        });
-        for (code, span, message, fact) in found {
-            let once = format!("{}{message}", code.number());
-            let finding = Diagnostic::new(code, span, message);
-            let finding = if let Some(fact) = fact { finding.with_fact(fact) } else { finding };
-            context.add_once(index, &once, finding);
+            Expr::Binary(BinOp::Mod, operands) if !modulo::is_native(&operands, target) => {
+                let [a, b] = *operands;
+                ("mod", modulo::by_division(a, b, rewriter, target))
+            }
+            Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
+                let [a, b] = *operands;
+                ("bits", Emulated::Exact(rounding::bits(op, a, b, position, rewriter, target)))
+            }
+            other => return other,
+        };
+        match emulated {
+            Emulated::Exact(value) => value,
+            Emulated::Near(value, why) => {
+                found.push((Code::NearlyEqual, span, format!("{name}: {why}"), None));
+                value
+            }
+            Emulated::Inside(value, why, arguments) => {
+                let fact = format!("arguments:{name}:{arguments}");
+                found.push((Code::NearlyEqual, span, format!("{name}: {why}"), Some(fact)));
+                value
+            }
+            Emulated::Missing(why) => {
+                found.push((Code::NoEquivalent, span, why, None));
+                Expr::Number(0.0)
+            }
         }
+    });
+    for (code, span, message, fact) in found {
+        let once = format!("{}{message}", code.number());
+        let finding = Diagnostic::new(code, span, message);
+        let finding = if let Some(fact) = fact { finding.with_fact(fact) } else { finding };
+        context.add_once(index, &once, finding);
     }
+    changed
 }
 
 /// True for what this is about.
