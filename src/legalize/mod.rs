@@ -45,6 +45,7 @@ mod missing;
 mod modal;
 mod modal_calls;
 mod modal_facts;
+mod modal_off;
 mod nesting;
 mod offset_rows;
 mod operator;
@@ -146,6 +147,11 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
     Pass { name: "chain", concerns: |c, _| c.has(Thing::Chain), run: Rewrites(chain::chain) },
     Pass { name: "repeats", concerns: |c, _| c.role(Role::Repeat), run: Rewrites(repeats::run) },
+    Pass {
+        name: "modal-off",
+        concerns: |c, context| c.has(Thing::Modal) && !context.same_family(),
+        run: Rewrites(modal_off::run),
+    },
     Pass { name: "modal-calls", concerns: |c, _| c.has(Thing::Modal), run: Rewrites(modal_calls::run) },
     // Behind the modal calls: the calls that they become must look at the register too.
     Pass { name: "return-to", concerns: |c, _| c.has(Thing::ReturnTo), run: Rewrites(chain::return_to) },

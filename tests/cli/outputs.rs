@@ -46,6 +46,25 @@ fn a_draft_has_an_alarm_at_the_hole() {
     assert!(!run.out.contains("M38"));
 }
 
+/// The unit is named by what the first block calls, six levels deep, one more than the target has: the alarm in the
+/// call's place leaves the program without it, which says nothing about the program.
+#[test]
+fn a_draft_is_not_blamed_for_its_holes() {
+    let nested = "O1\nG65 P2\nG0 X1.\nM30\nO2\nG20\nG65 P3\nM99\nO3\nG65 P4\nM99\nO4\nG65 P5\nM99\nO5\nG65 P6\nM99\nO6\nG65 P7\nM99\nO7\nG0 X1.\nM99\n";
+    let shop = Shop::with(&[("a.nc", nested)]);
+    let run = shop.run("convert a.nc --from haas --to fanuc --draft");
+    assert!(run.out.starts_with("O0001\n#3000=99 (NOT CONVERTED MG0401)\nG0 X1.\nM30\n"), "{}", run.out);
+    assert!(run.err.contains("MG0401") && !run.err.contains("MG0405"), "{}", run.err);
+}
+
+/// One alarm stands for all that a block that has no equivalent would have become.
+#[test]
+fn a_hole_has_one_alarm() {
+    let shop = Shop::with(&[("a.nc", "O1\nG90 G0\nL9101 R1+1. X1. Y1. Z1. F10. P1\nM2\n")]);
+    let run = shop.run("convert a.nc --from fadal --to fanuc --draft");
+    assert_eq!(run.out.matches("#3000=").count(), 1, "{}", run.out);
+}
+
 #[test]
 fn an_input_is_never_overwritten() {
     let shop = Shop::with(&[("in/a.nc", CLEAN)]);

@@ -85,6 +85,9 @@ impl<'b> Lowering<'b> {
         if axes && steps.iter().any(|step| matches!(step, Step::Local(_))) && !codes.has(Op::CallModal) {
             let _ = self.rely("call.after.words", span);
         }
+        if codes.has(Op::CallModal) && !steps.iter().any(|step| matches!(step, Step::Local(_))) {
+            return self.refuse(span, "G66 stands without the subroutine that it calls");
+        }
         for step in steps {
             self.step(step, items, codes, span)?;
         }

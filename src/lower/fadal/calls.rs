@@ -50,7 +50,13 @@ impl<'b> Lowering<'b> {
                 };
                 self.call_then(call(callee, count));
             }
-            Step::ModalOff => self.push(StmtKind::ModalCallOff),
+            Step::ModalOff => {
+                if self.state.modal == 0 && !self.state.in_modal {
+                    let what = "no modal call is begun before this block; only a caller's can end here";
+                    self.findings.add(Diagnostic::new(Code::ModalCallNotOpen, span, what));
+                }
+                self.push(StmtKind::ModalCallOff);
+            }
             Step::SubEnd => {
                 if self.shape.region(self.at).is_none() {
                     let message = "M17 outside a subroutine";

@@ -40,10 +40,7 @@ pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<
             return Ok(());
         }
         (rules.read)(&readable(block.of(source)), block.start, row)?;
-        let ends = &ends[..likeness.len()];
-        let last = |leaf: &Lexeme| ends.binary_search(&u8::try_from(leaf.span.end - block.start).ok()?).ok();
-        let leaves = row.iter().map(|leaf| Some((leaf.kind, last(leaf)? as u8)));
-        if let Some(leaves) = leaves.collect::<Option<_>>().filter(|_| is_tiled(row, block)) {
+        if let Some(leaves) = leaves(row, block, &ends[..likeness.len()]) {
             if rows.len() == REMEMBERED {
                 rows.clear();
             }
@@ -51,6 +48,17 @@ pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<
         }
         Ok(())
     })
+}
+
+/// The leaves of a block as they are remembered; none where they do not tile it.
+fn leaves(row: &Row, block: Span, ends: &[u8]) -> Option<Leaves> {
+    let mut leaves = Vec::with_capacity(row.len());
+    let mut ends = ends.iter().zip(0..);
+    for leaf in row {
+        let (_, last) = ends.find(|(end, _)| block.start + u32::from(**end) == leaf.span.end)?;
+        leaves.push((leaf.kind, last));
+    }
+    is_tiled(row, block).then(|| leaves.into())
 }
 
 /// True where the leaves tile the block.

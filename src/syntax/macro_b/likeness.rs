@@ -15,35 +15,28 @@ pub fn simplified<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; L
     if line.len() > LONGEST {
         return None;
     }
-    let (mut at, mut length, mut asked_for) = (0, 0, false);
+    let (mut at, mut length) = (0, 0);
     while let Some(&byte) = line.get(at) {
         if !is_numeric(byte) {
-            asked_for = match byte {
-                // END ends with it.
-                b'G' | b'g' | b'D' | b'd' | b'/' => true,
-                // DO, and what may stand between a letter and its number.
-                b'O' | b'o' | b'-' | b'+' | b' ' | b'\t' | 0 | 0x7f => asked_for,
-                _ => false,
-            };
-            key[length] = byte;
-            ends[length] = at as u8 + 1;
-            (at, length) = (at + 1, length + 1);
+            at += 1;
+            (key[length], ends[length]) = (byte, at as u8);
+            length += 1;
             continue;
         }
         let (start, first) = (at, length);
-        while line.get(at).is_some_and(|byte| is_numeric(*byte)) {
-            let digits = line[at..].iter().take_while(|byte| byte.is_ascii_digit());
-            let (count, all) = digits.fold((0, 0), |(count, all), digit| (count + 1, all | digit));
-            key[length] = match all {
-                0 => b'.',
-                b'0' => b'0',
-                _ => b'1',
-            };
-            at += count.max(1);
-            ends[length] = at as u8;
+        while let Some(mut simple) = line.get(at).copied().filter(|byte| is_numeric(*byte)) {
+            at += 1;
+            if simple != b'.' {
+                while let Some(digit @ b'0'..=b'9') = line.get(at) {
+                    simple |= digit;
+                    at += 1;
+                }
+                simple = if simple == b'0' { b'0' } else { b'1' };
+            }
+            (key[length], ends[length]) = (simple, at as u8);
             length += 1;
         }
-        if asked_for || at - start > USUAL_DIGITS {
+        if at - start > USUAL_DIGITS || is_asked_for(&line[..start]) {
             length = first + at - start;
             key[first..length].copy_from_slice(&line[start..at]);
             ends[first..length].iter_mut().zip(start + 1..).for_each(|(end, behind)| *end = behind as u8);
@@ -54,4 +47,14 @@ pub fn simplified<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; L
 
 fn is_numeric(byte: u8) -> bool {
     matches!(byte, b'0'..=b'9' | b'.')
+}
+
+/// True where the value of the number behind this text decides about the line.
+fn is_asked_for(mut before: &[u8]) -> bool {
+    // What may stand between a letter and its number, and DO.
+    while let [rest @ .., b'O' | b'o' | b'-' | b'+' | b' ' | b'\t' | 0 | 0x7f] = before {
+        before = rest;
+    }
+    // END ends with D.
+    matches!(before.last(), Some(b'G' | b'g' | b'D' | b'd' | b'/'))
 }
