@@ -36,6 +36,13 @@ impl Control {
         self.codes.get(&head).into_iter().flatten().filter_map(|(at, _)| self.dialect.codes.get(*at))
     }
 
+    /// The setting, `name=value`, under which the control has a code that it has not as it is set.
+    pub fn code_under(&self, letter: char, number: f64) -> Option<&str> {
+        let head = CodeHead::new(letter, number)?;
+        let mut rows = self.dialect.other_codes.iter();
+        rows.find(|row| row.head() == Some(head))?.when.as_deref()
+    }
+
     /// True where the word that a row wants stands in the block. A word with any
     /// value does not count where another code of the block reads its letter:
     /// the P of `G54 M98 P8099` is the program.

@@ -77,6 +77,7 @@ fn read(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<Dialect> {
         system: plain(tables.system),
         words: plain(tables.words),
         codes: plain(tables.codes).into_iter().flat_map(spell_out).collect(),
+        other_codes: Vec::new(),
         arguments: plain(tables.arguments),
         settings: plain(tables.settings),
     })

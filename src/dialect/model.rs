@@ -55,6 +55,9 @@ pub struct Dialect {
     pub words: Vec<WordMeaning>,
     /// G and M codes.
     pub codes: Vec<CodeMeaning>,
+    /// G and M codes that it has under another setting.
+    #[serde(skip)]
+    pub other_codes: Vec<CodeMeaning>,
     /// Argument letters of macro calls and the local variable each sets.
     pub arguments: Vec<Argument>,
     /// Settings that a machine profile may change, with what they are by default.

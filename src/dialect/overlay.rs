@@ -108,7 +108,10 @@ impl Overlay {
             };
             of.as_deref().is_none_or(|of| of == machine) && when.as_ref().is_none_or(set) && has(option)
         };
-        dialect.codes.retain(|row| here(&row.machine, &row.when, &row.option));
+        let codes = std::mem::take(&mut dialect.codes).into_iter();
+        let (codes, others) = codes.partition(|row| here(&row.machine, &row.when, &row.option));
+        (dialect.codes, dialect.other_codes) = (codes, others);
+        dialect.other_codes.retain(|row| row.when.is_some());
         dialect.system.retain(|row| here(&row.machine, &row.when, &row.option));
         dialect.words.retain(|row| here(&row.machine, &row.when, &None));
         dialect.variables.retain(|row| has(&row.option));

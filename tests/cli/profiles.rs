@@ -39,6 +39,23 @@ fn a_profile_answers_reviews() {
     assert_eq!(known.out, plain.out, "the same program, with nothing to look at");
 }
 
+/// In its own format the control has E and H where the one like Fanuc has G54 and G43.
+#[test]
+fn a_code_of_another_setting_is_told_so() {
+    let program = "O1\nG90 G0 G55 X1. Y1.\nG43 H5 Z1.\nG41 G1 X2. D6 F10.\nG40 X0\nH7\nG42 X1.\nM2\n";
+    let shop = Shop::with(&[("a.nc", program), ("m.toml", "dialect = \"fadal\"\n[settings]\nformat = 2\n")]);
+    let own = shop.run("convert a.nc --from fadal --to fanuc");
+    assert!(
+        own.err.contains("no meaning for G55") && own.err.contains("format=2 under [settings]"),
+        "{}",
+        own.err
+    );
+    let like = shop.run("convert a.nc --from fadal --to fanuc --machine m.toml");
+    // H picks no cutter there.
+    let body = "O0001\nG90 G0 G55 X1. Y1.\nG43 H5 Z1.\nG41 G1 X2. D6 F10.\nG40 X0.\nG43 H7\nG42 X1.\nM2\n";
+    assert!(like.out.contains(body), "{}", like.out);
+}
+
 /// M910 calls O9020 only where parameter 6080 says so.
 #[test]
 fn a_profile_gives_codes_their_meaning() {

@@ -6,6 +6,7 @@ use super::steps::{FIRST_FIXED, LWord, Step, l_word, steps};
 use super::value::is_zero;
 use super::words::{Codes, is_code, word};
 use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::CodeMeaning;
 use crate::ir::{Argument, Class, Expr, Nc, NcItem, Place, StmtKind, Var};
 use crate::lower::common::{constant, says_something};
@@ -187,7 +188,15 @@ impl<'b> Lowering<'b> {
         }
         let Some(row) = reading.codes.row(item) else {
             let number = constant(value).unwrap_or_default();
-            return self.refuse(item.span, format!("the table has no meaning for {}{number}", word.letter));
+            let message = format!("the table has no meaning for {}{number}", word.letter);
+            let mut finding = Diagnostic::new(Code::NotUnderstood, item.span, message);
+            if let Some(setting) = self.control.code_under(word.letter, number) {
+                let setting = setting.trim_start_matches("setting.");
+                finding = finding
+                    .with_help(format!("it has one with {setting} under [settings] in the machine profile"));
+            }
+            self.findings.add(finding);
+            return None;
         };
         self.findings.rest_on(row, item.span);
         match row.op {
