@@ -10,10 +10,11 @@
 //! operator who edits one must edit both; the copies carry the same comments.
 
 use super::{Context, calls_of, reachable};
-use crate::ir::{Block, BlockId, Callee, Module, Program, Site, StmtKind, TermKind, Terminator};
+use crate::ir::{Block, BlockId, Callee, Module, Program, Remark, Site, StmtKind, TermKind, Terminator};
 use crate::syntax::{Label, ProgramName};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
+use thin_vec::ThinVec;
 
 /// Gives each called block a program of its own, or its place behind the program's end.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -83,7 +84,8 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
     for (&entry, name) in &names {
         let body = reachable(&program, entry);
         outlined.extend(body.iter().copied());
-        subs.push(extract(&program, entry, &body, Some(name.clone()), Site::default()));
+        let site = Site { remarks: called(&program, entry), ..Site::default() };
+        subs.push(extract(&program, entry, &body, Some(name.clone()), site));
     }
     let main = reachable(&program, BlockId(0));
     // What nothing reaches stays, and with it what that could jump to.
@@ -97,6 +99,16 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
         program.blocks.iter_mut().for_each(|block| rename_calls(block, &names));
     }
     out.extend(all);
+}
+
+/// What people call a subroutine, where that is a name and no number: it stands beside the program's number.
+fn called(program: &Program, entry: BlockId) -> ThinVec<Remark> {
+    let labels = program.block(entry).into_iter().flat_map(|block| &block.labels);
+    let names = labels.filter_map(|label| match label {
+        Label::Name(name) => Some(Remark { text: name.clone(), leading: false }),
+        Label::Number(_) => None,
+    });
+    names.take(1).collect()
 }
 
 /// A name that no program in any source has: the parent's and the label.
