@@ -3,9 +3,10 @@
 //! A line goes through four steps. [`blocks`] cuts it at its end-of-block signs;
 //! [`scanner`] reads blocks of plain words (built by [`plain`]), and the dialect's pest grammar
 //! (`grammar/macro_b.pest` and its own file) all others, both into one row of
-//! [`lexeme`]s that tiles the block; [`tree`] builds the items of the others from that row;
+//! [`lexeme`]s that tiles the block; [`known`] is the memory of such rows, for the blocks that are
+//! alike but for their digits ([`likeness`]); [`tree`] builds the items of the others from that row;
 //! [`checks`] finds what the grammar lets pass but the control does not, and [`sound`] sees from
-//! the row alone that it would find nothing; [`likeness`] tells lines that are as sound as another.
+//! the row alone that it would find nothing.
 //! [`faults`] says in a programmer's words why a block could not be read.
 
 mod blocks;
