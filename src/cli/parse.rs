@@ -106,7 +106,7 @@ fn totals(source: Source, parse: Parser, draw: bool) -> Result<(usize, ParseTota
     }
     // Drawing a fault takes the text around it.
     let input = source.read()?;
-    let faults = parse_faults(&input.bytes, parse);
+    let faults = parse_faults(&input.bytes, parse, |_, _| false);
     let sheet = Sheet::new(&input.path.display().to_string(), &input.bytes);
     faults.iter().for_each(|fault| eprint!("{}", sheet.draw(&fault.clone().into())));
     Ok((input.bytes.len(), parse_totals(&input.bytes, parse)))

@@ -6,7 +6,7 @@ use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
 use crate::lower::{self, Cuts, Lower};
-use crate::syntax::{self, Parser, Shortcuts, without_tokens};
+use crate::syntax::{self, IsSound, Parser, without_tokens};
 use std::sync::OnceLock;
 
 /// A dialect: its table, and the modules that know it by name.
@@ -22,7 +22,7 @@ pub struct Entry {
     /// Reads its blocks without their tokens.
     pub parse_items: Parser,
     /// Knows lines that need not be read whole to see that they have no fault.
-    pub shortcuts: Shortcuts,
+    pub is_sound: IsSound,
     /// Lowers its programs.
     pub lower: Lower,
     /// Cuts files that need not be lowered whole.
@@ -35,14 +35,14 @@ pub struct Entry {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $parse_items:expr, $shortcuts:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr) => {
+    ($name:literal, $parse:expr, $parse_items:expr, $is_sound:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
             table: include_str!(concat!("../../dialects/", $name, ".toml")),
             parse: $parse,
             parse_items: $parse_items,
-            shortcuts: $shortcuts,
+            is_sound: $is_sound,
             lower: $lower,
             cuts: $cuts,
             emit: $emit,
@@ -57,7 +57,7 @@ static ENTRIES: [Entry; 4] = [
         "fadal",
         syntax::fadal::parse_line,
         |source, line, out| without_tokens(syntax::fadal::parse_line, source, line, out),
-        Shortcuts::NONE,
+        |_, _| false,
         lower::fadal::lower,
         |_, _| Vec::new(),
         None,
@@ -67,7 +67,7 @@ static ENTRIES: [Entry; 4] = [
         "fanuc",
         syntax::fanuc::parse_line,
         syntax::fanuc::parse_items,
-        syntax::fanuc::SHORTCUTS,
+        syntax::fanuc::is_sound,
         lower::fanuc::lower,
         lower::fanuc::cuts,
         Some(emit::fanuc::emit),
@@ -77,7 +77,7 @@ static ENTRIES: [Entry; 4] = [
         "haas",
         syntax::haas::parse_line,
         syntax::haas::parse_items,
-        syntax::haas::SHORTCUTS,
+        syntax::haas::is_sound,
         lower::haas::lower,
         lower::haas::cuts,
         Some(emit::haas::emit),
@@ -87,7 +87,7 @@ static ENTRIES: [Entry; 4] = [
         "cc100",
         syntax::cc100::parse_line,
         |source, line, out| without_tokens(syntax::cc100::parse_line, source, line, out),
-        Shortcuts::NONE,
+        |_, _| false,
         lower::cc100::lower,
         |_, _| Vec::new(),
         None,

@@ -11,7 +11,7 @@ use crate::ir::{Module, Program};
 use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
 use crate::lower::Lowered;
 use crate::opt;
-use crate::syntax::{ProgramName, ReadLines};
+use crate::syntax::{ProgramName, parse_faults};
 use crate::text::Span;
 use crate::verify;
 use rayon::prelude::*;
@@ -235,14 +235,12 @@ pub(super) fn make(
         });
     }
     let write = target.entry().emit.map(|emit| emit(&naming, target));
-    let entry = target.entry();
-    let lines = || ReadLines::new(entry.parse, entry.shortcuts);
     let links = refused_calls::links(&module, &origins);
     // Each program is checked when it is at hand, and dropped when it is written.
     let programs = std::mem::take(&mut module.programs);
-    let emitted = programs.into_par_iter().enumerate().map_init(lines, |read, (at, program)| {
+    let emitted = programs.into_par_iter().enumerate().map(|(at, program)| {
         let broken = breaches(&program, at);
-        if broken.is_empty() { Ok(emit(&program, write.as_ref(), target, read)) } else { Err(broken) }
+        if broken.is_empty() { Ok(emit(&program, write.as_ref(), target)) } else { Err(broken) }
     });
     let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
     let broken: Vec<String> =
@@ -277,12 +275,7 @@ fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
 }
 
 /// Emits a program, and reads the text back: what the target's own grammar refuses is never written.
-fn emit(
-    program: &Program,
-    write: Option<&Writer<'_>>,
-    target: &Control,
-    read: &mut ReadLines,
-) -> Result<Emitted, Vec<Diagnostic>> {
+fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Result<Emitted, Vec<Diagnostic>> {
     let Some(write) = write else {
         let what = format!("programs cannot be written for {}", target.dialect().title);
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
@@ -290,8 +283,8 @@ fn emit(
     let mut emitted = write(program)?;
     emitted.text.shrink_to_fit();
     emitted.blocks.shrink_to_fit();
-    let faults: Vec<Diagnostic> = read
-        .faults(emitted.text.as_bytes())
+    let entry = target.entry();
+    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), entry.parse, entry.is_sound)
         .into_iter()
         .filter(|fault| fault.code.severity() == Severity::Error)
         .map(|fault| {

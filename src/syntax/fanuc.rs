@@ -1,7 +1,7 @@
 //! Fanuc Custom Macro B.
 
+use super::Block;
 use super::macro_b::{self, Keep, Known, Reading, Row, Rules, bits_among_arithmetic, lexemes_of_rules};
-use super::{Block, Shortcuts};
 use crate::text::Span;
 use std::cell::RefCell;
 
@@ -44,11 +44,8 @@ pub fn parse_items(source: &[u8], line: Span, out: &mut Vec<Block>) {
     macro_b::read_line(&RULES, source, line, Keep::Items, out);
 }
 
-/// Knows lines that need not be read whole.
-pub const SHORTCUTS: Shortcuts =
-    Shortcuts { is_plain: macro_b::is_plain, is_sound, likeness: macro_b::likeness };
-
-fn is_sound(source: &[u8], line: Span) -> bool {
+/// See [`super::IsSound`].
+pub fn is_sound(source: &[u8], line: Span) -> bool {
     macro_b::is_sound(&RULES, source, line)
 }
 

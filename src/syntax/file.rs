@@ -11,6 +11,9 @@ use rayon::prelude::*;
 /// tile the line.
 pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
 
+/// True for a line that a dialect's parser surely reads without a fault; false where only reading tells.
+pub type IsSound = fn(source: &[u8], line: Span) -> bool;
+
 /// A file with its blocks.
 #[derive(Clone, Debug)]
 pub struct ParsedFile<'s> {
@@ -59,7 +62,7 @@ pub struct ParseTotals {
 }
 
 /// Bytes of whole lines that one task reads.
-pub(super) const CHUNK: usize = 256 * 1024;
+const CHUNK: usize = 256 * 1024;
 
 /// Reads all blocks of `source`.
 pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
@@ -103,11 +106,15 @@ pub fn without_tokens(parser: Parser, source: &[u8], line: Span, out: &mut Vec<B
 
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
-    fold_lines(source, parser, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
+    fold_lines(source, parser, |_, _| false, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
 }
 
-/// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat.
-pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
+/// Reads all blocks of `source` but lines that are sound and keeps only their faults, in order: memory stays flat.
+pub fn parse_faults(
+    source: &[u8],
+    parser: Parser,
+    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
+) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
     };
@@ -115,20 +122,21 @@ pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
         a.append(&mut b);
         a
     };
-    fold_lines(source, parser, Vec::new, add, join)
+    fold_lines(source, parser, is_sound, Vec::new, add, join)
 }
 
-/// Folds the blocks of all lines in parallel; `join` is given neighbours in their order.
+/// Folds the blocks of all lines but sound ones in parallel; `join` is given neighbours in their order.
 fn fold_lines<T: Send>(
     source: &[u8],
     parser: Parser,
+    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
     none: impl Fn() -> T + Sync + Send,
     add: impl Fn(&mut T, Line, &mut [Block]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let fold = |chunk| {
         let (mut out, mut blocks) = (none(), Vec::new());
-        for line in Lines::within(source, chunk) {
+        for line in Lines::within(source, chunk).filter(|line| !is_sound(source, line.text)) {
             blocks.clear();
             parser(source, line.text, &mut blocks);
             add(&mut out, line, &mut blocks);
@@ -169,7 +177,7 @@ impl ParseTotals {
 }
 
 /// Cuts `source` behind line ends into pieces of about [`CHUNK`] bytes.
-pub(super) fn chunks(source: &[u8]) -> Vec<Span> {
+fn chunks(source: &[u8]) -> Vec<Span> {
     let mut out = Vec::new();
     let mut start = 0;
     while start < source.len() {

@@ -17,7 +17,6 @@ mod file;
 pub mod haas;
 mod macro_b;
 mod plain;
-mod read_back;
 mod support;
 #[cfg(test)]
 #[allow(missing_docs)]
@@ -28,8 +27,8 @@ mod walk;
 pub use ast::*;
 pub use block::print_blocks;
 pub use file::{
-    ParseTotals, ParsedFile, Parser, parse_faults, parse_file, parse_part, parse_totals, without_tokens,
+    IsSound, ParseTotals, ParsedFile, Parser, parse_faults, parse_file, parse_part, parse_totals,
+    without_tokens,
 };
-pub use read_back::{IsSound, LONGEST, Likeness, ReadLines, Shortcuts};
 pub use value::*;
 pub use walk::{for_each_expr, for_each_item};

@@ -2,35 +2,39 @@
 
 use super::Rules;
 use super::lexeme::{Lex, Lexeme, Row};
-use super::likeness::simplified;
+use super::likeness::{LONGEST, likeness};
 use super::rules::Reading;
-use crate::syntax::LONGEST;
 use crate::syntax::support::readable;
 use crate::text::Span;
-use foldhash::HashMap;
+use foldhash::{HashMap, HashSet};
 use std::cell::RefCell;
 use std::thread::LocalKey;
 
 /// A row of leaves: the kind of each, and which byte of the block's likeness ends it.
 type Leaves = Box<[(Lex, u8)]>;
 
-/// Rows of leaves by the likeness of their blocks.
+/// What is remembered, by likeness.
 #[derive(Default)]
-pub struct Known(HashMap<Box<[u8]>, Leaves>);
+pub struct Known {
+    /// The leaves of blocks.
+    rows: HashMap<Box<[u8]>, Leaves>,
+    /// Lines that are sound.
+    sound: HashSet<Box<[u8]>>,
+}
 
 /// What each thread remembers of a dialect.
 pub type Memory = LocalKey<RefCell<Known>>;
 
-/// Blocks that are remembered at a time.
+/// Blocks and lines that are remembered at a time.
 const REMEMBERED: usize = 8192;
 
 /// Reads the leaves of a block, by the grammar unless it has read one that is alike.
 pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<(), Reading> {
     let (mut key, mut ends) = ([0; LONGEST], [0; LONGEST]);
-    let Some(likeness) = simplified(block.of(source), &mut key, &mut ends) else {
+    let Some(likeness) = likeness(block.of(source), &mut key, &mut ends) else {
         return (rules.read)(&readable(block.of(source)), block.start, row);
     };
-    rules.known.with_borrow_mut(|Known(rows)| {
+    rules.known.with_borrow_mut(|Known { rows, .. }| {
         if let Some(leaves) = rows.get(likeness) {
             let mut at = block.start;
             row.extend(leaves.iter().map(|&(kind, last)| {
@@ -48,6 +52,25 @@ pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<
         }
         Ok(())
     })
+}
+
+/// True for a line that is as sound as one that was asked for before, or else is found to be so.
+pub fn is_sound(rules: &Rules, line: &[u8], find: impl FnOnce() -> bool) -> bool {
+    let mut key = [0; LONGEST];
+    let Some(likeness) = likeness(line, &mut key, &mut [0; LONGEST]) else { return find() };
+    if rules.known.with_borrow(|Known { sound, .. }| sound.contains(likeness)) {
+        return true;
+    }
+    let is_sound = find();
+    if is_sound {
+        rules.known.with_borrow_mut(|Known { sound, .. }| {
+            if sound.len() == REMEMBERED {
+                sound.clear();
+            }
+            sound.insert(likeness.into());
+        });
+    }
+    is_sound
 }
 
 /// The leaves of a block as they are remembered; none where they do not tile it.

@@ -1,17 +1,16 @@
 //! What lines have in common that are read alike: all but the digits of most of their numbers.
 
 use super::sound::USUAL_DIGITS;
-use crate::syntax::LONGEST;
+
+/// Bytes of the longest line that has a likeness.
+pub const LONGEST: usize = 64;
 
 /// The simplest line that is read as this one is, and is as sound as this one: digits in a row are one digit, 0 where
 /// all of them are 0 and else 1. A number is left as it is where it is long, or where its value decides about the
 /// line: that of a G code or of a loop, and behind a slash, where one digit is read otherwise than several.
-pub fn likeness<'k>(line: &[u8], key: &'k mut [u8; LONGEST]) -> Option<&'k [u8]> {
-    simplified(line, key, &mut [0; LONGEST])
-}
-
-/// The [`likeness`] of a line, and where what each byte of it stands for ends in the line.
-pub fn simplified<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; LONGEST]) -> Option<&'k [u8]> {
+///
+/// Also says where in the line ends what each of its bytes stands for. None of a long line.
+pub fn likeness<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; LONGEST]) -> Option<&'k [u8]> {
     if line.len() > LONGEST {
         return None;
     }

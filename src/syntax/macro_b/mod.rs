@@ -27,9 +27,8 @@ mod tree;
 #[cfg(test)]
 mod tests;
 
-pub(super) use blocks::{Keep, is_plain, is_sound, read_line};
+pub(super) use blocks::{Keep, is_sound, read_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
 pub(super) use known::Known;
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
-pub(super) use likeness::likeness;
 pub(super) use rules::{Reading, Rules, read};

@@ -14,17 +14,13 @@ struct Dialect {
     name: &'static str,
     rules: &'static Rules,
     parse_line: crate::syntax::Parser,
-    shortcuts: crate::syntax::Shortcuts,
+    is_sound: crate::syntax::IsSound,
 }
 
-const FANUC: Dialect = Dialect {
-    name: "fanuc",
-    rules: &fanuc::RULES,
-    parse_line: fanuc::parse_line,
-    shortcuts: fanuc::SHORTCUTS,
-};
+const FANUC: Dialect =
+    Dialect { name: "fanuc", rules: &fanuc::RULES, parse_line: fanuc::parse_line, is_sound: fanuc::is_sound };
 const HAAS: Dialect =
-    Dialect { name: "haas", rules: &haas::RULES, parse_line: haas::parse_line, shortcuts: haas::SHORTCUTS };
+    Dialect { name: "haas", rules: &haas::RULES, parse_line: haas::parse_line, is_sound: haas::is_sound };
 const BOTH: [Dialect; 2] = [FANUC, HAAS];
 
 impl Dialect {

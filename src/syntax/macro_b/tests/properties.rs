@@ -1,12 +1,12 @@
 //! Laws over random input.
 
 use super::super::{
-    bits_among_arithmetic, blocks, blocks::Keep, known, lexeme::Row, likeness, read_line, scanner, shape,
-    tree,
+    bits_among_arithmetic, blocks, blocks::Keep, known, lexeme::Row, likeness::LONGEST, likeness::likeness,
+    read_line, scanner, shape, tree,
 };
 use super::{BOTH, Dialect};
 use crate::syntax::support::readable;
-use crate::syntax::{Block, ItemKind, LONGEST, ReadLines};
+use crate::syntax::{Block, ItemKind, parse_faults};
 use crate::text::{Lines, Span};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -164,7 +164,7 @@ fn numbers() -> impl Strategy<Value = Vec<u8>> {
 /// What is remembered of a block's likeness is what the grammar makes of the block.
 fn alike_is_read_alike(dialect: &Dialect, block: &[u8]) {
     let mut key = [0; LONGEST];
-    let Some(like) = likeness(block, &mut key) else { return };
+    let Some(like) = likeness(block, &mut key, &mut [0; LONGEST]) else { return };
     let mut row = Row::new();
     let mut read = |text: &[u8], by: &dyn Fn(Span, &mut Row) -> bool| {
         row.clear();
@@ -195,10 +195,11 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
         }
         read.iter().for_each(|block| alike_is_read_alike(dialect, block.span.of(source)));
         let mut key = [0; LONGEST];
-        if let Some(like) = likeness(line.of(source), &mut key) {
+        if let Some(like) = likeness(line.of(source), &mut key, &mut [0; LONGEST]) {
             let whole = Span::new(0, like.len() as u32);
-            assert_eq!(is_sound(like, whole), is_sound(source, line), "{}: {text}", dialect.name);
-            assert_eq!(likeness(like, &mut [0; LONGEST]), Some(like), "{text}");
+            let found = |source: &[u8], line: Span| blocks::is_found_sound(dialect.rules, source, line);
+            assert_eq!(found(like, whole), found(source, line), "{}: {text}", dialect.name);
+            assert_eq!(likeness(like, &mut [0; LONGEST], &mut [0; LONGEST]), Some(like), "{text}");
         }
         faulty += usize::from(!errors.is_empty());
         faults.extend(errors);
@@ -207,9 +208,9 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
         read.iter_mut().for_each(|block| block.tokens.clear());
         assert_eq!(items, read, "{}: {text}", dialect.name);
     }
-    let mut lines = ReadLines::new(dialect.parse_line, dialect.shortcuts);
     for _ in 0..2 {
-        assert_eq!(lines.faults(source), faults, "{}: {}", dialect.name, source.escape_ascii());
+        let found = parse_faults(source, dialect.parse_line, dialect.is_sound);
+        assert_eq!(found, faults, "{}: {}", dialect.name, source.escape_ascii());
     }
     (sound, faulty)
 }
