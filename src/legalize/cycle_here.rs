@@ -1,10 +1,11 @@
 //! Running the active drilling cycle at the present place.
 //!
 //! Law: on the target a cycle runs in each block that has a position; giving it the place where the tool
-//! stands (`X#5041 Y#5042` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. In the block that defines the
-//! cycle nothing need be added where that block runs the cycle anyway. A block that defines a cycle without a position
-//! runs it where the tool stands or only stores it: the target is told by a place, or by a repeat of none, where the two
-//! controls do not agree.
+//! stands (`X#5001 Y#5002` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. The end of the block
+//! before is what is given, where the target has that: the present position may be read ahead of the moves. In the
+//! block that defines the cycle nothing need be added where that block runs the cycle anyway. A block that defines a
+//! cycle without a position runs it where the tool stands or only stores it: the target is told by a place, or by a
+//! repeat of none, where the two controls do not agree.
 //! Under a rotation the present place would be turned once more; there the block gets the words that
 //! last named the place, where they still have their values.
 //! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
@@ -29,6 +30,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     };
     let agree = runs(context.target) == runs(context.source);
     let drills = runs(context.source).as_deref() == Some("true");
+    let has_end = context.target.system_runs(Sys::EndPosition).next().is_some();
+    let stands = if has_end { Sys::EndPosition } else { Sys::WorkPosition };
     let summaries = Summaries::of(module);
     let other_planes = module
         .programs
@@ -83,7 +86,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         }
                     }
                 } else if here && !placed {
-                    place(nc, across, state.op(Group::Distance))
+                    place(nc, across, state.op(Group::Distance), stands)
                         .err()
                         .or((!defines)
                             .then_some("the cycle is run where the tool stands by giving that place"))
@@ -110,11 +113,16 @@ fn across(plane: Option<Op>) -> [(Role, f64); 2] {
 }
 
 /// Adds the present place to a block.
-fn place(nc: &mut Nc, across: [(Role, f64); 2], distance: Option<Op>) -> Result<(), &'static str> {
+fn place(
+    nc: &mut Nc,
+    across: [(Role, f64); 2],
+    distance: Option<Op>,
+    stands: Sys,
+) -> Result<(), &'static str> {
     let words = match distance {
-        Some(Op::Absolute) => across.map(|(role, axis)| {
-            NcItem::Word(role, Expr::System(Sys::WorkPosition, [Expr::Number(axis)].into()))
-        }),
+        Some(Op::Absolute) => {
+            across.map(|(role, axis)| NcItem::Word(role, Expr::System(stands, [Expr::Number(axis)].into())))
+        }
         Some(Op::Incremental) => across.map(|(role, _)| NcItem::Word(role, Expr::Number(0.0))),
         _ => return Err("a cycle is run where the tool stands, and absolute or incremental is not known"),
     };
