@@ -6,8 +6,8 @@
 //! emulated becomes a diagnostic of severity error, at its place, and the
 //! program is refused.
 //!
-//! The passes run over a whole library at once, because variables, programs and
-//! modal state are shared by it.
+//! Passes see a whole library, because variables, programs and modal state are shared by it; those that
+//! need only one program are given each alone, all of them in a row while it is at hand.
 
 mod active_offsets;
 mod alarms;
@@ -267,8 +267,14 @@ fn each(passes: &[Pass], module: &mut Module, context: &mut Context<'_>) -> (Cen
         let mut census = Census::of(std::slice::from_ref(program));
         for pass in passes {
             let Each(run) = pass.run else { continue };
-            if (pass.concerns)(&census, context) && run(program, index, context) {
+            if !(pass.concerns)(&census, context) {
+                continue;
+            }
+            let before = cfg!(debug_assertions).then(|| program.clone());
+            if run(program, index, context) {
                 (census, any) = (Census::of(std::slice::from_ref(program)), true);
+            } else {
+                debug_assert!(before.is_none_or(|before| before == *program), "{}", pass.name);
             }
         }
         all.add_all(&census);

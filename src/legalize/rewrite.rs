@@ -106,23 +106,24 @@ impl Part {
 /// Builds a program anew: `each` is given its parts in their order and lays down what becomes of them. Ids of
 /// blocks in what it lays down are those of the old program and those that the builder hands out.
 pub(super) fn rebuild(program: &mut Program, each: &mut dyn FnMut(&mut Builder, Part)) {
-    rebuild_where(program, &|_| true, each);
+    rebuild_where(program, &|_| Some(0), each);
 }
 
-/// As [`rebuild`]; the blocks that are not `touched` stay as they are.
+/// As [`rebuild`]; `more` tells of a block how many statements it gets about, none where it stays as it is.
 fn rebuild_where(
     program: &mut Program,
-    touched: &dyn Fn(BlockId) -> bool,
+    more: &dyn Fn(BlockId) -> Option<usize>,
     each: &mut dyn FnMut(&mut Builder, Part),
 ) {
     let mut builder = Builder::over(program.blocks.len());
     for (index, block) in std::mem::take(&mut program.blocks).into_iter().enumerate() {
         let id = BlockId(index as u32);
         builder.start(id);
-        if !touched(id) {
+        let Some(more) = more(id) else {
             builder.keep(block);
             continue;
-        }
+        };
+        builder.reserve(block.stmts.len() + more);
         block.labels.into_iter().for_each(|label| builder.label(label));
         each(&mut builder, Part::Start(id));
         block.stmts.into_iter().for_each(|stmt| each(&mut builder, Part::Stmt(stmt)));
@@ -168,9 +169,18 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
         return any;
     }
     let mut place = (0, 0);
-    let touched: Vec<usize> = preludes.iter().map(|(id, ..)| *id).collect();
-    let touched = |id: BlockId| touched.binary_search(&id.index()).is_ok();
-    rebuild_where(program, &touched, &mut |builder, part| {
+    let mut counts: Vec<(usize, usize)> = Vec::new();
+    for (id, _, steps) in &preludes {
+        match counts.last_mut() {
+            Some((last, count)) if last == id => *count += steps.len(),
+            _ => counts.push((*id, steps.len())),
+        }
+    }
+    let more = |id: BlockId| {
+        let at = counts.binary_search_by_key(&id.index(), |(id, _)| *id);
+        at.ok().map(|at| counts[at].1)
+    };
+    rebuild_where(program, &more, &mut |builder, part| {
         let site = match &part {
             Part::Start(id) => {
                 place = (id.index(), 0);
