@@ -61,6 +61,7 @@ mod registers;
 mod repeats;
 mod retention;
 mod rewrite;
+mod set_position;
 mod shift;
 mod state;
 mod substitutes;
@@ -171,6 +172,11 @@ pub const PASSES: &[Pass] = &[
         run: Reports(bare_arcs::run),
     },
     Pass { name: "active-offsets", concerns: |c, _| c.has(Thing::System), run: Reports(active_offsets::run) },
+    Pass {
+        name: "set-position",
+        concerns: |c, context| c.op(Op::SetPosition) && c.op(Op::SelectWork) && !context.same_family(),
+        run: Reports(set_position::run),
+    },
     Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Edits(increments::run) },
     Pass { name: "units", concerns: units::concerns, run: Edits(units::run) },
     Pass { name: "rapid-once", concerns: |c, _| c.op(Op::RapidOnce), run: Rewrites(rapid_once::run) },
