@@ -1,7 +1,7 @@
 //! Where a statement comes from, out of the block it stood in.
 
 use crate::ir::{Remark, Site};
-use crate::syntax::{Block, ItemKind};
+use crate::syntax::{Block, Fence, ItemKind};
 use crate::text::Span;
 
 /// The site of a block: its span, sequence number, comments and the block skip
@@ -15,7 +15,12 @@ pub fn site_of(block: &Block, source: &[u8]) -> Site {
             ItemKind::Sequence { number, inserted } => site.sequence = (!inserted).then_some(*number),
             ItemKind::Skip(level) if !words => site.skip = Some(level.unwrap_or(1)),
             ItemKind::Comment(comment) => {
-                site.remarks.push(Remark { text: remark_text(comment.text, source), leading: !words });
+                let mut text = remark_text(comment.text, source);
+                // The space behind a sign that opens a comment to the end of its line is that sign's.
+                if matches!(comment.fence, Fence::Apostrophe | Fence::Star) {
+                    text.drain(..text.len() - text.trim_start().len());
+                }
+                site.remarks.push(Remark { text, leading: !words });
             }
             ItemKind::EndOfBlock | ItemKind::MacroMark | ItemKind::Tape => {}
             _ => words = true,
