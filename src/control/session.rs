@@ -6,6 +6,7 @@ use super::machine::{GIVEN, Machine};
 use super::outcome::{Branches, End, Run, Stop};
 use super::scenario::Scenario;
 use super::trace::{Happening, Place, Program, Trace};
+use super::words::Increments;
 use crate::canon::Op;
 use crate::diag::Severity;
 use crate::dialect::Control;
@@ -189,15 +190,16 @@ impl<'r, 'f> Session<'r, 'f> {
         self.digits.as_ref().map_or(value, |digits| digits.keep(value))
     }
 
-    /// The least increment that computed words are rounded to where the scenario has it so and no source says whether
+    /// The least increments that computed words are rounded to where the scenario has it so and no source says whether
     /// they are, in the units in force.
-    pub fn unstated_increment(&self) -> Option<f64> {
+    pub fn unstated_increments(&self) -> Option<Increments> {
         let stated = self.control.behaviour("word.rounds.to.increment");
         if !self.scenario.rounds_words || stated.is_some_and(|row| row.value != "unknown") {
             return None;
         }
         let numbers = self.control.numbers();
-        Some(if self.machine.is_inch() { numbers.increment_inch } else { numbers.increment_mm })
+        let length = if self.machine.is_inch() { numbers.increment_inch } else { numbers.increment_mm };
+        Some(Increments { length, degrees: numbers.increment_degrees })
     }
 
     /// Notes an answer to a question of behaviour that mattered, where nobody confirmed it.

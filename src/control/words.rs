@@ -59,7 +59,7 @@ pub fn read<'c>(
     words: &[Spoken],
     lasting: &mut Lasting<'c>,
 ) -> Result<Read<'c>, Stop> {
-    let (control, increment) = (session.control, session.unstated_increment());
+    let (control, increments) = (session.control, session.unstated_increments());
     let trace = &mut session.trace;
     let block: SmallVec<[(char, Option<f64>); 12]> =
         words.iter().map(|word| (word.letter, Some(word.value))).collect();
@@ -77,7 +77,7 @@ pub fn read<'c>(
     }
     read.command.without_dwell = lasting.cycle.is_some_and(|row| !row.takes(Role::CycleDwell));
     for word in words.iter().filter(|word| !matches!(word.letter, 'G' | 'M')) {
-        value(control, *word, increment, lasting, &mut read, trace);
+        value(control, *word, increments, lasting, &mut read, trace);
     }
     Ok(read)
 }
@@ -136,7 +136,7 @@ fn doubt_distance(words: &[Spoken], read: &Read<'_>, trace: &mut Trace) {
 fn value<'c>(
     control: &'c Control,
     word: Spoken,
-    increment: Option<f64>,
+    increments: Option<Increments>,
     lasting: &Lasting<'c>,
     read: &mut Read<'c>,
     trace: &mut Trace,
@@ -167,10 +167,30 @@ fn value<'c>(
         }
         value = value.round();
     }
-    if let Some(increment) = increment.filter(|_| word.computed && (role.is_length() || role.is_axis())) {
+    if let Some(increment) = increments.filter(|_| word.computed).and_then(|all| all.of(role)) {
         value = to_increment(value, increment);
     }
     read.command.words.push((role, value));
+}
+
+/// The least increments of a control in the units in force.
+#[derive(Clone, Copy, Debug)]
+pub struct Increments {
+    /// Of lengths.
+    pub length: f64,
+    /// Of angles.
+    pub degrees: f64,
+}
+
+impl Increments {
+    /// That of a word in a role, where it has one.
+    fn of(self, role: Role) -> Option<f64> {
+        match role {
+            Role::A | Role::B | Role::C | Role::Angle => Some(self.degrees),
+            _ if role.is_length() || role.is_axis() => Some(self.length),
+            _ => None,
+        }
+    }
 }
 
 /// The nearest multiple of an increment, half-way ones away from zero.

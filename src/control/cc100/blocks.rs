@@ -57,7 +57,7 @@ impl<'r> Interpreter<'r, '_> {
                 Some(op) => *op == Op::Incremental,
                 None => session.machine.is_incremental(),
             };
-        let increment = session.unstated_increment();
+        let increment = session.unstated_increments().map(|all| all.length);
         self.polar.resolve(command, incremental, increment, &mut session.trace);
         let message = if command.has(Op::Stop) { self.message(block) } else { None };
         let command = &mut read.command;

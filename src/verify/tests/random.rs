@@ -17,6 +17,24 @@ fn what_is_read_back_of_a_word_hangs_on_whether_words_are_rounded() {
     assert_eq!(with("#5042").outcome, Outcome::Different);
 }
 
+/// A computed angle is rounded to thousandths of a degree, or is not: a position twelve inches from the centre tells.
+#[test]
+fn what_is_read_back_of_a_rotation_hangs_on_whether_its_angle_is_rounded() {
+    let source = "O1\nG20 G90 G0 X12. Y0\n#R9=17/7\nG68 X0 Y0 R+R9\nG0 X-12. Y-12.\nG69\n#V1=AX\nM30\n";
+    let with = |read: &str| {
+        let target =
+            format!("O1\nG20G90G0X12.Y0\n#509=17/7\nG68X0Y0R#509\nG0X-12.Y-12.\nG69\n#501={read}\nM30\n");
+        run("fadal", source, "fanuc", &target, &[("R9", 509), ("V1", 501)])
+    };
+    let found = with("#5041");
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(
+        found.reasons.iter().any(|reason| reason.text.contains("word.rounds.to.increment")),
+        "{found:#?}"
+    );
+    assert_eq!(with("#5041+0.0005").outcome, Outcome::Different);
+}
+
 /// O2 hands on a variable before it writes it: what its callers left there is a number on the source.
 #[test]
 fn what_a_called_program_hands_on_is_never_vacant() {
