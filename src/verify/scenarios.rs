@@ -8,7 +8,7 @@ use crate::canon::Sys;
 use crate::control::scenario::{AXES, Axes, Probe, StateValue, Tool};
 use crate::control::trace::Happening;
 use crate::control::{Run, Scenario};
-use crate::dialect::Units;
+use crate::dialect::{Control, Units};
 use std::collections::BTreeMap;
 
 /// Proposes scenarios, the telling ones first.
@@ -265,8 +265,9 @@ pub fn on_target(
     if called {
         let never_vacant =
             |name: &String| class_of(source.control, name).is_some_and(|class| !class.nullable);
-        for name in names.variables.keys().filter(|name| never_vacant(name)) {
-            if let Some(there) = names.variable(name, source.control, target.control) {
+        let all = names.variables.keys().cloned().chain(banked(names, source.control));
+        for name in all.filter(|name| never_vacant(name)) {
+            if let Some(there) = names.variable(&name, source.control, target.control) {
                 out.variables.entry(there).or_insert(0.0);
             }
         }
@@ -274,6 +275,15 @@ pub fn on_target(
     // Emulations take more blocks than what they stand for.
     out.steps = scenario.steps.saturating_mul(20);
     out
+}
+
+/// The variables that computed numbers may reach, which are named all at once.
+fn banked<'n>(names: &'n Names, control: &'n Control) -> impl Iterator<Item = String> + 'n {
+    let letters = names.variables.keys().filter_map(|name| name.strip_suffix("(..)"));
+    letters.flat_map(|letter| {
+        let rows = control.classes().iter().filter(move |row| row.name == letter);
+        rows.flat_map(|row| row.first..=row.last).map(move |number| format!("{letter}{number}"))
+    })
 }
 
 /// How many answers a run took: behind the last one of the scenario they were 0.
