@@ -4,7 +4,8 @@
 //! goes on into their operands. Order is the order of evaluation.
 
 use super::{
-    Call, Callee, Class, Cond, Expr, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind, Var,
+    Call, Callee, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind,
+    Var,
 };
 
 /// Writes a visitor by shared and by exclusive reference from one text.
@@ -183,6 +184,11 @@ impl Expr {
 }
 
 impl StmtKind {
+    /// Its NC words, where it is a block of them.
+    pub fn nc(&self) -> Option<&Nc> {
+        if let StmtKind::Nc(nc) = self { Some(nc) } else { None }
+    }
+
     /// The place that the statement writes by itself.
     pub fn target(&self) -> Option<&Place> {
         match self {

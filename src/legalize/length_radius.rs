@@ -18,8 +18,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
-    let elsewhere = stmts().filter_map(nc).any(looks);
-    let compensates = stmts().filter_map(nc).any(compensates);
+    let elsewhere = stmts().filter_map(|stmt| stmt.kind.nc()).any(looks);
+    let compensates = stmts().filter_map(|stmt| stmt.kind.nc()).any(compensates);
     let facts = ModalFacts::of(module, &context.entry);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let looked_at = looked_at(program, elsewhere);
@@ -46,13 +46,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
             }
         }
-    }
-}
-
-fn nc(stmt: &Stmt) -> Option<&Nc> {
-    match &stmt.kind {
-        StmtKind::Nc(nc) => Some(nc),
-        _ => None,
     }
 }
 
@@ -99,7 +92,7 @@ fn looked_at(program: &Program, elsewhere: bool) -> Vec<bool> {
                 cfg.succs(BlockId(at as u32)).iter().any(|to| starts.get(to.index()) == Some(&true));
             let leaves = matches!(block.term.kind, TermKind::Call { .. } | TermKind::Return { .. });
             let end = follows || leaves && elsewhere;
-            let step = |behind, stmt: &Stmt| match nc(stmt) {
+            let step = |behind, stmt: &Stmt| match stmt.kind.nc() {
                 Some(nc) => before(nc, stmt.site.skip.is_some(), behind),
                 None => behind,
             };

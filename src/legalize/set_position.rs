@@ -8,7 +8,7 @@ use super::{Context, calls_of};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::Cfg;
-use crate::ir::{Block, BlockId, Callee, Module, Nc, Program, Stmt, StmtKind};
+use crate::ir::{Block, BlockId, Callee, Module, Program, Stmt};
 use crate::text::Span;
 
 /// Reports selections behind a set position.
@@ -25,35 +25,32 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let elsewhere = sets.iter().enumerate().any(|(other, sets)| *sets && other != index);
         let called = calls().any(|call| match &call.callee {
             Callee::Program(name) => program.name.as_ref() == Some(name),
-            _ => false,
+            // Any program may be meant.
+            Callee::Computed(_) => true,
+            Callee::Block(_) | Callee::Cycle(_) => false,
         });
-        if let Some(span) = selected(program, elsewhere && called, elsewhere) {
+        if let Some(span) = selected(program, elsewhere && called, (sets[index], elsewhere)) {
             let what = "a work offset is selected where a position that was set may be in force: whether that ends it is not known of both controls";
             context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
         }
     }
 }
 
-fn nc(stmt: &Stmt) -> Option<&Nc> {
-    match &stmt.kind {
-        StmtKind::Nc(nc) => Some(nc),
-        _ => None,
-    }
-}
-
 fn has(stmt: &Stmt, op: Op) -> bool {
-    nc(stmt).is_some_and(|nc| nc.has(op))
+    stmt.kind.nc().is_some_and(|nc| nc.has(op))
 }
 
-/// The first selection behind a set position; `before`: one may be in force at the start, `by_calls`: behind calls.
-fn selected(program: &Program, before: bool, by_calls: bool) -> Option<Span> {
+/// The first selection behind a set position; `before`: one may be in force at the start. The program itself may set
+/// one, or others.
+fn selected(program: &Program, before: bool, (own, others): (bool, bool)) -> Option<Span> {
     let cfg = Cfg::of(program);
     let behind = |block: &Block, set: bool| {
         set || block.stmts.iter().any(|stmt| has(stmt, Op::SetPosition))
-            || by_calls && calls_of(block).next().is_some()
+            || calls_of(block).any(|call| others || own && matches!(call.callee, Callee::Block(_)))
     };
     let mut starts = vec![false; program.blocks.len()];
-    cfg.roots().iter().for_each(|root| starts[root.index()] = before);
+    // A subroutine is entered from wherever it is called.
+    cfg.roots().iter().for_each(|root| starts[root.index()] = before || own && *root != BlockId(0));
     let mut changed = true;
     // Each round makes one more true, or is the last.
     while changed {
