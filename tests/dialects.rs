@@ -476,3 +476,27 @@ fn the_matrix_and_the_pages_show_every_row() {
         }
     }
 }
+
+/// One value a tool is written under L11, and L1 says the same (B-63124EN p. 236); of the other memory L10 is the length's
+/// geometry. Which of #2001 and #2201 is the geometry hangs on parameter 6000.3 (fanuc-mill.md 7).
+#[test]
+fn the_kind_of_offset_memory_says_what_its_numbers_are() {
+    let memory = |kind: &str, v15: u32| {
+        profile(&format!(
+            "dialect = \"fanuc\"\n[settings]\noffset_memory = \"{kind}\"\n[parameters]\n\"6000.3\" = {v15}\n"
+        ))
+    };
+    let shared = memory("A", 0);
+    means(&shared, "G10 L11 P1", Op::WriteOffset);
+    means(&shared, "G10 L1 P1", Op::WriteOffset);
+    means(&memory("C", 0), "G10 L10 P1", Op::WriteLength);
+    let states = |control: &Control| {
+        [2001, 2201, 2401, 2601]
+            .map(|number| control.read_system("#", Some(number)).map(|(state, ..)| state.name()))
+    };
+    assert_eq!(states(&shared), [Some("offset.shared"), None, None, None]);
+    assert_eq!(states(&memory("B", 0)), [None; 4]);
+    assert_eq!(states(&memory("C", 0)), [Some("offset.length.wear"), Some("offset.length"), None, None]);
+    let fifteen = ["offset.length", "offset.length.wear", "offset.radius", "offset.radius.wear"];
+    assert_eq!(states(&memory("C", 1)), fifteen.map(Some));
+}

@@ -75,3 +75,94 @@ fn a_program_keeps_the_number_that_it_was_given() {
     assert_eq!(again.lock.programs["O30002"], number);
     assert_eq!(again.texts, first.texts);
 }
+
+/// A library of Fanuc programs, for the Haas, whose numbers end at #699 and begin again at #800.
+fn to_haas(files: &[(&str, &str)], lock: Lock) -> Conversion {
+    let (source, target) = (Control::plain("fanuc").unwrap(), Control::plain("haas").unwrap());
+    let input = |(name, text): &(&str, &str)| Input {
+        path: PathBuf::from(name),
+        name: (*name).into(),
+        bytes: text.as_bytes().to_vec(),
+    };
+    let inputs: Vec<Input> = files.iter().map(input).collect();
+    convert(&inputs, &source, &target, lock, Options::default())
+}
+
+fn codes(made: &Conversion) -> Vec<&'static str> {
+    let all = made.programs.iter().flat_map(|program| &program.diagnostics);
+    all.map(|diagnostic| diagnostic.code.number()).filter(|code| code.starts_with("MG061")).collect()
+}
+
+const MACRO: (&str, &str) = ("macro.nc", "O9000\nG21\n#700=1.5\nG0 X#700\nM99\n");
+const CALLER: (&str, &str) = ("main.nc", "O1000\nG21\n#100=50.\nM98 P9000\nG0 X#100\nM30\n");
+
+#[test]
+fn a_register_of_an_earlier_run_is_not_the_callers_own() {
+    let first = to_haas(&[MACRO], Lock::new("fanuc", "haas"));
+    assert_eq!(first.lock.variables["#700"], 100);
+    // The macro is on the machine with #700 in #100: its caller must not have #100 itself.
+    let alone = to_haas(&[CALLER], first.lock.clone());
+    assert_eq!((refused(&alone), alone.lock.variables["#700"]), (vec![true], 100));
+    assert!(codes(&alone).contains(&"MG0610"));
+    // Both together: the macro is written anew, with another register.
+    let both = to_haas(&[MACRO, CALLER], first.lock);
+    assert_eq!(refused(&both), [false, false]);
+    assert!(codes(&both).contains(&"MG0611"));
+    assert_ne!(both.lock.variables["#700"], 100);
+    assert_eq!(both.texts[1].as_deref(), Some("O1000\nG21\n#100=50\nM98 P9000\nG0 X#100\nM30\n"));
+}
+
+#[test]
+fn a_register_of_values_in_between_is_not_the_callers_own_either() {
+    // The remainder takes a temporary.
+    let between = ("macro.nc", "O9000\nG21\n#1=#2 MOD 3\nG0 X#1\nM99\n");
+    let first = to_haas(&[between], Lock::new("fanuc", "haas"));
+    assert_eq!(first.lock.scratch, [100]);
+    let alone = to_haas(&[CALLER], first.lock.clone());
+    assert_eq!((refused(&alone), &alone.lock.scratch), (vec![true], &vec![100]));
+    let both = to_haas(&[between, CALLER], first.lock);
+    assert_eq!((refused(&both), &both.lock.scratch), (vec![false, false], &vec![101]));
+}
+
+#[test]
+fn what_earlier_programs_use_themselves_is_not_taken() {
+    let first = to_haas(&[CALLER], Lock::new("fanuc", "haas"));
+    assert_eq!(first.lock.own, [100]);
+    let second = to_haas(&[MACRO], first.lock);
+    assert_eq!(second.lock.variables["#700"], 101);
+    assert_eq!(second.lock.files, ["macro.nc", "main.nc"]);
+    // #101 to #103 by a computed number, which has its bounds from AND.
+    let computed = ("main.nc", "O1000\nG21\n#[100+[#1 AND 3]]=50.\nM30\n");
+    let first = to_haas(&[computed], Lock::new("fanuc", "haas"));
+    assert_eq!(to_haas(&[MACRO], first.lock).lock.variables["#700"], 104);
+}
+
+#[test]
+fn variables_that_come_to_need_a_row_are_moved_together_or_not_at_all() {
+    let alone = ("a.nc", "O1\n#V1=1\nG0 X1.\nM2\n");
+    let row = ("b.nc", "O2\n#V2=2\n#V(V2)=3\nG0 X2.\nM2\n");
+    let first = converted(&[alone], empty(), "options = [\"common.variables\"]").lock;
+    let options = "options = [\"common.variables\"]";
+    let later = converted(&[row], first.clone(), options);
+    assert_eq!((refused(&later), codes(&later).contains(&"MG0610")), (vec![true], true));
+    assert_eq!(
+        converted(&[alone], later.lock, options).texts,
+        converted(&[alone], first.clone(), options).texts
+    );
+    let both = converted(&[alone, row], first, options);
+    assert_eq!((refused(&both), codes(&both).contains(&"MG0611")), (vec![false, false], true));
+    assert!(!both.lock.variables.contains_key("V1"));
+}
+
+#[test]
+fn a_lock_of_before_is_read() {
+    let text = "version = 1\nfrom = \"fanuc\"\nto = \"haas\"\nscratch = [105]\n\n[variables]\n\"#700\" = 103\n\n[programs]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(Lock::NAME);
+    std::fs::write(&path, text).unwrap();
+    let lock = Lock::load(&path, "fanuc", "haas").unwrap();
+    assert_eq!(to_haas(&[MACRO], lock.clone()).lock.variables["#700"], 103);
+    // It does not say which files rely on it.
+    let wants = ("main.nc", "O1000\nG21\n#103=50.\nM98 P9000\nG0 X#103\nM30\n");
+    assert_eq!(refused(&to_haas(&[wants, MACRO], lock)), [true, false]);
+}

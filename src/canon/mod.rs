@@ -7,14 +7,18 @@
 //! Names are stable: they stand in the TOML tables, in the text form of the
 //! IR and in traces.
 
+mod auxiliary;
 mod function;
 mod kinds;
 mod operation;
+mod pause;
 mod role;
 mod state;
 
+pub use auxiliary::Auxiliary;
 pub use function::Func;
 pub use operation::{Group, Op};
+pub use pause::{Pause, Running};
 pub use role::Role;
 pub use state::Sys;
 

@@ -2,7 +2,7 @@
 
 use super::UNUSABLE;
 use crate::dialect::{Control, Profile, registry};
-use crate::library::{Detected, Input, InputError, Project, detect, gather};
+use crate::library::{Detected, Input, InputError, Project, detect, gather, looks_like};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -128,6 +128,19 @@ pub fn own_profile(named: Option<&str>, inputs: &[Input]) -> Result<Option<PathB
     }
 }
 
+/// Says so where programs do not look like those of the control that they are said to be written for.
+pub fn doubt(name: &str, inputs: &[Input]) -> Option<String> {
+    let told = looks_like(inputs, name).map(|told| {
+        format!(
+            "the programs are read as {name}, and {told}. Name the right control with --from or --dialect"
+        )
+    });
+    if let Some(told) = &told {
+        eprintln!("macroglot: {told}");
+    }
+    told
+}
+
 /// The dialect that was named, or the one that the text shows.
 pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
     if let Some(name) = named {
@@ -137,6 +150,10 @@ pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
         return Ok(dialect);
     }
     match detect(inputs) {
+        Detected::Mixed(most, file, like) => Err(complain(format!(
+            "the files are not all written for one control: most look like {}, and {file} looks like {}. Name the files of one control, or say with --from or --dialect how to read all of them",
+            most.name, like.name
+        ))),
         Detected::Sure(entry) => Ok(entry.name.into()),
         Detected::Unsure(entries) => {
             let likely = entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(" or ");

@@ -2,10 +2,10 @@
 
 use super::jobs::{Job, Wish, jobs};
 use super::{FOUND, WELL, common, outcome};
-use crate::library::{Conversion, Options, convert, judge, write_all};
+use crate::library::{Certificates, Conversion, Options, convert, judge, write_all};
 use crate::opt::Level;
 use crate::report::{self, Part};
-use crate::verify::{Certificate, Effort};
+use crate::verify::Effort;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -90,10 +90,11 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             inputs: &job.inputs,
             conversion,
             targets,
+            notes: &job.notes,
         })
         .collect();
     let mut outputs = outcome::outputs(&jobs, &parts, &arguments.report);
-    outputs.extend(outcome::certificates(&targets, &certificates));
+    outputs.extend(outcome::certificates(&jobs, &certificates));
     write_all(&outputs).map_err(common::complain)?;
     match arguments.format {
         Format::Json => common::print_by(|out| report::write_json(&parts, out)),
@@ -110,18 +111,14 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
 }
 
 /// The certificates of every job's files, unless they are not wanted; the outcomes then rest on them.
-fn verified(
-    arguments: &Arguments,
-    jobs: &[Job],
-    conversions: &mut [Conversion],
-) -> Vec<Vec<Option<Certificate>>> {
+fn verified(arguments: &Arguments, jobs: &[Job], conversions: &mut [Conversion]) -> Vec<Certificates> {
     if arguments.no_verify && !arguments.verify {
         return Vec::new();
     }
     let judged =
         jobs.iter().zip(conversions).map(|(job, conversion)| match job.source.is_same_machine(&job.target) {
             // A program that stays on its machine is copied, byte for byte.
-            true => vec![None; job.inputs.len()],
+            true => Certificates::default(),
             false => judge(&job.inputs, conversion, &job.source, &job.target, Effort::default()),
         });
     judged.collect()

@@ -1,6 +1,6 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
-use super::common::{complain, control, controls, dialect_of, names, own_profile, read};
+use super::common::{complain, control, controls, dialect_of, doubt, names, own_profile, read};
 use crate::dialect::Control;
 use crate::library::{Files, Input, Lock, Project, plan};
 use std::collections::BTreeSet;
@@ -20,6 +20,8 @@ pub struct Job {
     pub lock: Lock,
     /// Where the choices are kept.
     pub lock_path: Option<PathBuf>,
+    /// What was said of the programs as a whole.
+    pub notes: Vec<String>,
 }
 
 /// What arguments say of the jobs.
@@ -113,7 +115,8 @@ fn planned(inputs: Vec<Input>, source: Control, target: Control, out: Option<&Pa
         Some(path) => Lock::load(path, source.name(), target.name()).map_err(complain)?,
         None => Lock::new(source.name(), target.name()),
     };
-    Ok(Job { inputs, source, target, places, lock, lock_path })
+    let notes = doubt(source.name(), &inputs).into_iter().collect();
+    Ok(Job { inputs, source, target, places, lock, lock_path, notes })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

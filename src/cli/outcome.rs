@@ -2,7 +2,7 @@
 
 use super::common::{complain, print};
 use super::jobs::Job;
-use crate::library::{Conversion, Output, certificate_of, same_file};
+use crate::library::{Certificates, Conversion, Output, certificate_of, same_file, withheld_of};
 use crate::report::{self, Part, Sheet};
 use crate::verify::Certificate;
 use std::path::{Path, PathBuf};
@@ -68,17 +68,18 @@ pub fn outputs<'p>(jobs: &'p [Job], parts: &[Part<'p>], reports: &[PathBuf]) -> 
     outputs
 }
 
-/// The certificates, each beside the conversion that it is of.
-pub fn certificates(
-    targets: &[Vec<Option<PathBuf>>],
-    certificates: &[Vec<Option<Certificate>>],
-) -> Vec<Output<'static>> {
-    let pairs = targets.iter().zip(certificates).flat_map(|(places, files)| places.iter().zip(files));
-    let beside = pairs.filter_map(|(place, certificate)| {
-        let path = certificate_of(place.as_ref()?);
+/// The certificates: of what is written beside it, of what is not under a name of their own.
+pub fn certificates(jobs: &[Job], judged: &[Certificates]) -> Vec<Output<'static>> {
+    let output = |path: PathBuf, certificate: &Option<Certificate>| {
         Some(Output { path, bytes: certificate.as_ref()?.print().into_bytes().into() })
-    });
-    beside.collect()
+    };
+    let mut outputs = Vec::new();
+    for (job, judged) in jobs.iter().zip(judged) {
+        let places = || job.places.iter().flatten();
+        outputs.extend(places().zip(&judged.written).filter_map(|(p, c)| output(certificate_of(p), c)));
+        outputs.extend(places().zip(&judged.withheld).filter_map(|(p, c)| output(withheld_of(p), c)));
+    }
+    outputs
 }
 
 /// Where the conversion of each file of a job is written, if it is.

@@ -6,8 +6,7 @@ use crate::control::LoadedFile;
 use crate::dialect::Control;
 use crate::library::{Input, Lock, Output, write_all};
 use crate::syntax::{ParsedFile, parse_file};
-use crate::verify::{Certificate, Effort, Job, Names, Outcome, Side, verify};
-use std::collections::BTreeMap;
+use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, verify};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -83,8 +82,8 @@ fn certify(
     let (ours_parsed, theirs_parsed) = (parsed(ours, source), parsed(theirs, target));
     let (ours, theirs) = (loaded(ours, &ours_parsed), loaded(theirs, &theirs_parsed));
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
-    let reported = BTreeMap::new();
-    let job = Job { source: &from, target: &to, names, reported: &reported, effort: Effort::default() };
+    let assumptions = Assumptions::new();
+    let job = Job { source: &from, target: &to, names, assumptions: &assumptions, effort: Effort::default() };
     Ok(verify(&job, &[]))
 }
 

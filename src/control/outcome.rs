@@ -1,7 +1,7 @@
 //! What a run amounts to.
 
 use super::machine::Left;
-use super::trace::{Event, Place, Program};
+use super::trace::{Computed, Event, Place, Program};
 use crate::canon::{Func, Op};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,15 +30,15 @@ pub struct Run {
     /// What was in force at its end; none where it did not end by itself.
     #[serde(skip)]
     pub left: Option<Left>,
-    /// The codes whose numbers it computed: the letter, the number, and how many events came before.
+    /// The codes whose numbers it computed: the letter and the number.
     #[serde(skip)]
-    pub computed_codes: Vec<(char, f64, usize)>,
-    /// The numbers of variables that it computed, and how many events came before.
+    pub computed_codes: Vec<Computed<(char, f64)>>,
+    /// The numbers of variables that it computed.
     #[serde(skip)]
-    pub computed_numbers: Vec<(u32, usize)>,
-    /// The arguments that it gave functions which few controls have, and how many events came before.
+    pub computed_numbers: Vec<Computed<u32>>,
+    /// The arguments that it gave functions which few controls have.
     #[serde(skip)]
-    pub arguments: Vec<(Func, [f64; 2], usize)>,
+    pub arguments: Vec<Computed<(Func, [f64; 2])>>,
 }
 
 /// How a run ended.
@@ -81,17 +81,31 @@ pub struct Stop {
     /// The limit that calls nest deeper than, as the tables name it, and how many levels it allows.
     #[serde(skip)]
     pub nesting: Option<(&'static str, u32)>,
+    /// True where a jump finds no block with its number: the program stops there for whoever runs it.
+    #[serde(skip)]
+    pub no_label: bool,
 }
 
 impl Stop {
     /// An alarm of the control itself.
     pub fn alarm(number: &str, text: impl Into<String>) -> Self {
-        Self { number: number.into(), program_number: None, text: text.into(), nesting: None }
+        Self {
+            number: number.into(),
+            program_number: None,
+            text: text.into(),
+            nesting: None,
+            no_label: false,
+        }
     }
 
     /// Calls that nest deeper than a limit of the control.
     pub fn too_deep(number: &str, limit: &'static str, most: u32) -> Self {
         Self { nesting: Some((limit, most)), ..Self::alarm(number, "calls nest too deep") }
+    }
+
+    /// A jump to a number that no block has.
+    pub fn no_label(number: &str, text: impl Into<String>) -> Self {
+        Self { no_label: true, ..Self::alarm(number, text) }
     }
 
     /// An alarm that the sources do not name.

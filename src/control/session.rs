@@ -7,7 +7,7 @@ use super::outcome::{Branches, End, Run, Stop};
 use super::scenario::Scenario;
 use super::trace::{Happening, Place, Program, Trace};
 use super::words::Increments;
-use crate::canon::Op;
+use crate::canon::{Op, Pause};
 use crate::diag::Severity;
 use crate::dialect::Control;
 use crate::syntax::{Block, ItemKind, ProgramName};
@@ -181,7 +181,7 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn answer(&mut self) -> f64 {
         let answer = self.scenario.answers.get(self.answered).copied().unwrap_or(0.0);
         self.answered += 1;
-        self.trace.push(Happening::Asked { answer });
+        self.pause(Pause::Message, Happening::Asked { answer });
         answer
     }
 
@@ -200,6 +200,11 @@ impl<'r, 'f> Session<'r, 'f> {
         let numbers = self.control.numbers();
         let length = if self.machine.is_inch() { numbers.increment_inch } else { numbers.increment_mm };
         Some(Increments { length, degrees: numbers.increment_degrees })
+    }
+
+    /// Stops the program: what the control ends then is ended first.
+    pub fn pause(&mut self, pause: Pause, what: Happening) {
+        self.machine.pause(pause, what, &mut self.trace);
     }
 
     /// Notes an answer to a question of behaviour that mattered, where nobody confirmed it.

@@ -27,6 +27,23 @@ pub struct Event {
     /// increment; millimetres.
     #[serde(skip)]
     pub rounded: f64,
+    /// What else is known of it.
+    #[serde(skip)]
+    pub told: Told,
+}
+
+/// What is known of an event besides what happened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Told {
+    /// Nothing.
+    #[default]
+    Plain,
+    /// A change of spindle or coolant beside a rapid move or a wait, where no source says which comes first.
+    Loose,
+    /// A change of spindle or coolant that no code of the program says: what stops the program does it.
+    Implied,
+    /// A stop of which nobody knows what it does with spindle or coolant, while they run.
+    Open,
 }
 
 /// A place of a library: a program and bytes of its file.
@@ -60,11 +77,22 @@ pub struct Program {
     pub modes: Vec<Op>,
 }
 
+/// Something that a run computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Computed<T> {
+    /// What came of it.
+    pub what: T,
+    /// The block.
+    pub at: Place,
+    /// How many events came before it was computed there first.
+    pub before: usize,
+}
+
 /// Computed codes that a run remembers.
-const MOST_CODES: usize = 64;
+const MOST_CODES: usize = 4096;
 
 /// Computed numbers of variables, and arguments of functions, that a run remembers.
-const MOST_NUMBERS: usize = 1024;
+const MOST_NUMBERS: usize = 4096;
 
 /// The events of a run in the making.
 #[derive(Debug)]
@@ -79,11 +107,11 @@ pub struct Trace {
     full: bool,
     doubted: HashSet<(String, Place)>,
     /// Codes whose number was computed, with their letter, and how many events came before each.
-    computed_codes: BTreeMap<(char, u64), usize>,
+    computed_codes: BTreeMap<(char, u64, Place), usize>,
     /// Numbers of variables that were computed, and how many events came before each.
-    computed_numbers: BTreeMap<u32, usize>,
+    computed_numbers: BTreeMap<(u32, Place), usize>,
     /// Arguments of functions that few controls have, and how many events came before each.
-    arguments: BTreeMap<(Func, u64, u64), usize>,
+    arguments: BTreeMap<(Func, u64, u64, Place), usize>,
     /// Matters that the machine's profile confirms.
     confirmed: Vec<String>,
 }
@@ -108,9 +136,16 @@ impl Trace {
     /// Records an event of the present block.
     pub fn push(&mut self, what: Happening) {
         if self.events.len() < self.limit {
-            self.events.push(Event { at: self.at, what, rounded: self.rounded });
+            self.events.push(Event { at: self.at, what, rounded: self.rounded, told: Told::Plain });
         } else {
             self.full = true;
+        }
+    }
+
+    /// Adds to the last event what is known of it.
+    pub fn tell(&mut self, told: Told) {
+        if let Some(event) = self.events.last_mut().filter(|_| !self.full) {
+            event.told = told;
         }
     }
 
@@ -122,38 +157,50 @@ impl Trace {
     /// Records a code whose number was computed.
     pub fn computed_code(&mut self, letter: char, number: f64) {
         if self.computed_codes.len() < MOST_CODES {
-            self.computed_codes.entry((letter, number.to_bits())).or_insert(self.events.len());
+            self.computed_codes.entry((letter, number.to_bits(), self.at)).or_insert(self.events.len());
         }
     }
 
-    /// The codes whose numbers were computed, with how many events came before each.
-    pub fn computed_codes(&self) -> Vec<(char, f64, usize)> {
-        self.computed_codes.iter().map(|((letter, bits), at)| (*letter, f64::from_bits(*bits), *at)).collect()
+    /// The codes whose numbers were computed, with where, and how many events came before each.
+    pub fn computed_codes(&self) -> Vec<Computed<(char, f64)>> {
+        let code = |((letter, bits, at), before): (&(char, u64, Place), &usize)| Computed {
+            what: (*letter, f64::from_bits(*bits)),
+            at: *at,
+            before: *before,
+        };
+        self.computed_codes.iter().map(code).collect()
     }
 
     /// Records the number of a variable that was computed.
     pub fn computed_number(&mut self, number: u32) {
         if self.computed_numbers.len() < MOST_NUMBERS {
-            self.computed_numbers.entry(number).or_insert(self.events.len());
+            self.computed_numbers.entry((number, self.at)).or_insert(self.events.len());
         }
     }
 
-    /// The numbers of variables that were computed, with how many events came before each.
-    pub fn computed_numbers(&self) -> Vec<(u32, usize)> {
-        self.computed_numbers.iter().map(|(number, at)| (*number, *at)).collect()
+    /// The numbers of variables that were computed, with where, and how many events came before each.
+    pub fn computed_numbers(&self) -> Vec<Computed<u32>> {
+        let number = |((what, at), before): (&(u32, Place), &usize)| Computed {
+            what: *what,
+            at: *at,
+            before: *before,
+        };
+        self.computed_numbers.iter().map(number).collect()
     }
 
     /// Records the arguments of a function; of one with a single one, the second is 0.
     pub fn argument(&mut self, function: Func, a: f64, b: f64) {
         if self.arguments.len() < MOST_NUMBERS {
-            self.arguments.entry((function, a.to_bits(), b.to_bits())).or_insert(self.events.len());
+            self.arguments.entry((function, a.to_bits(), b.to_bits(), self.at)).or_insert(self.events.len());
         }
     }
 
-    /// The arguments of functions, with how many events came before each.
-    pub fn arguments(&self) -> Vec<(Func, [f64; 2], usize)> {
-        let value = |((function, a, b), at): (&(Func, u64, u64), &usize)| {
-            (*function, [*a, *b].map(f64::from_bits), *at)
+    /// The arguments of functions, with where, and how many events came before each.
+    pub fn arguments(&self) -> Vec<Computed<(Func, [f64; 2])>> {
+        let value = |((function, a, b, at), before): (&(Func, u64, u64, Place), &usize)| Computed {
+            what: (*function, [*a, *b].map(f64::from_bits)),
+            at: *at,
+            before: *before,
         };
         self.arguments.iter().map(value).collect()
     }
@@ -178,6 +225,11 @@ impl Trace {
     /// Records an alarm.
     pub fn alarm(&mut self, stop: &Stop) {
         // The alarm is the one event that a full trace still takes.
-        self.events.push(Event { at: self.at, what: Happening::Alarm(stop.clone()), rounded: self.rounded });
+        self.events.push(Event {
+            at: self.at,
+            what: Happening::Alarm(stop.clone()),
+            rounded: self.rounded,
+            told: Told::Plain,
+        });
     }
 }

@@ -422,7 +422,9 @@ Write '*' for each blank that must be printed."
     "0349" LatheProgram Error "looks like a lathe program"
 "The table for milling machines gives this word another meaning than a lathe does, or none, and the block looks like one for a lathe. Read as a milling program it would move otherwise than it was meant to.
 
-Name a machine profile with 'machine = \"lathe\"'."
+Programs that such a program calls or that call it, those of its file, and in a library without mill programs all others, go with it, unless their own text is a mill's (Y, a length offset, M6). The message names the file and line where the sign was seen.
+
+Name a machine profile with 'machine = \"lathe\"', or with 'machine = \"mill\"' if it is a mill's after all."
 
     "0350" ComputedCode Note "a code is known only at run time"
 "The number of the G or M code is computed. What it does depends on the value when the program runs, so only a control with the same codes can do the same, and a code that ends or calls would not be followed.
@@ -480,6 +482,11 @@ See that it holds on the machine; where a machine profile can state it, state it
 
     "0406" MessageCut Note "message is shown in part"
 "The target shows fewer characters of a message than the source. The message is cut, and the whole of it stands in a comment beside it."
+
+    "0407" LettersReplaced Note "letters that the target lacks are replaced"
+"A message, a line of output or a comment has letters or signs that the target control is not known to show, as those with accents. What looks like them stands in their place: UE for Ü, C for Ç, EUR for €. Round brackets inside a message become square ones, and a per cent sign becomes PCT. It is said once a program, at the first of them.
+
+Nothing needs doing. A letter in a message for which nothing stands is told by MG0507."
 
     // ---- 05: emission ----
     "0501" Unmapped Error "the target has no spelling for this"
@@ -546,11 +553,26 @@ Convert the two in separate runs, each with its own callers."
 
 Whoever selects the program at the machine, or calls it from outside the library, must use the new number."
 
+    "0606" CalleeWithdrawn Error "calls a program that is withdrawn"
+"The program calls one whose conversion does something else than its source, by what their runs on the emulated controls show (MG0801). That one is not written, so what calls it is not written either: it would run something else, or stop with an alarm. Other programs of the file and of the library are written.
+
+Look at the program that is named first; what calls it comes back with it."
+
+    "0610" LockConflict Error "an earlier conversion has this register"
+"`macroglot.lock` in the output folder keeps registers for programs that were converted before and are not part of this run. A program of this run needs one of them for itself: its variable has that number on both controls, or variables whose numbers are computed need a row of registers.
+
+Delete `macroglot.lock`, and convert the files that the message names and these in one run."
+
+    "0611" LockChanged Note "a variable gets another register than before"
+"An earlier run chose a register that a program of the library now needs for itself. All programs that rely on the choice are part of this run, so the variable gets another one, and all of them are written anew.
+
+Load all of the programs into the machine. If a value in the old register matters, move it by hand."
+
     // ---- 07: the command line ----
 
     // ---- 08: emulated controls and verification ----
     "0801" VerifiedDifferent Error "the conversion does something else"
-"Source and conversion were run on their emulated controls, and the machine would not do the same. The message names the first difference; the certificate has the circumstances, both blocks and both events. Nothing of the program is written.
+"Source and conversion were run on their emulated controls, and the machine would not do the same. The message names the first difference; the certificate has the circumstances, both blocks and both events. Nothing of the program is written, and nothing of what calls it (MG0606); other programs of its file are. The certificate stands in the output folder as `NAME.not-written.json`, never beside a text under the name of one that is.
 
 One of three is at fault: the conversion, one of the emulated controls, or a table in `dialects/`. Please report the program with its certificate."
 

@@ -4,6 +4,7 @@ mod codes;
 
 pub use codes::{ALL, Code};
 
+use crate::assume::{Assumption, Predicate};
 use crate::text::Span;
 use std::sync::Arc;
 
@@ -31,14 +32,14 @@ pub struct Diagnostic {
     pub message: Arc<str>,
     /// What to do about it here, where that is more than the catalogue says.
     pub help: Option<Arc<str>>,
-    /// The unconfirmed fact that it reports, as machine profiles confirm it, or the limit that it is about.
-    pub fact: Option<Arc<str>>,
+    /// What the conversion supposes there.
+    pub assumes: Option<Arc<Predicate>>,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
     pub fn new(code: Code, span: Span, message: impl Into<Arc<str>>) -> Self {
-        Self { code, span, message: message.into(), help: None, fact: None }
+        Self { code, span, message: message.into(), help: None, assumes: None }
     }
 
     /// Adds what to do about it.
@@ -48,11 +49,35 @@ impl Diagnostic {
         self
     }
 
-    /// Names the unconfirmed fact or the limit that it reports.
+    /// Names the unconfirmed fact that it reports.
     #[must_use]
-    pub fn with_fact(mut self, fact: impl Into<Arc<str>>) -> Self {
-        self.fact = Some(fact.into());
+    pub fn with_fact(self, fact: impl Into<Arc<str>>) -> Self {
+        self.assuming(Predicate::Fact(fact.into()))
+    }
+
+    /// Says what the conversion supposes there.
+    #[must_use]
+    pub fn assuming(mut self, predicate: Predicate) -> Self {
+        self.assumes = Some(Arc::new(predicate));
         self
+    }
+
+    /// The unconfirmed fact that it reports, as machine profiles confirm it.
+    pub fn fact(&self) -> Option<&str> {
+        match self.assumes.as_deref()? {
+            Predicate::Fact(fact) => Some(fact),
+            _ => None,
+        }
+    }
+
+    /// What the conversion supposes there, as a value; none where it supposes nothing.
+    pub fn assumption(&self) -> Option<Assumption> {
+        let predicate = match self.assumes.as_deref() {
+            Some(predicate) => predicate.clone(),
+            None if matches!(self.code, Code::Conditional | Code::UnconfirmedFact) => Predicate::Unseen,
+            None => return None,
+        };
+        Some(Assumption { place: self.span, text: self.message.clone(), predicate })
     }
 
     /// The severity of its code.

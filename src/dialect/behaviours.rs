@@ -29,6 +29,9 @@ pub fn find(name: &str) -> Option<&'static Question> {
 
 const YES: &[&str] = &["true", "false", "unknown"];
 
+/// When a code acts that stands beside a move: with its start, or when it is done.
+const WHEN: &[&str] = &["start", "end", "unknown"];
+
 macro_rules! questions {
     ($($name:literal $values:expr, $meaning:literal;)*) => {
         /// Every question.
@@ -59,7 +62,8 @@ questions! {
     "m99.block.moves.first" YES, "the words beside M99 act before the return";
     "program.end.closes.subs" YES, "M30 ends the subroutines at the head of a program that has them";
     "arguments.mixed.later.wins" YES, "of arguments of both kinds for one local variable the later one counts";
-    "arguments.order.ijk" YES, "I, J and K that are repeated or out of order go by place";
+    "arguments.order.ijk" &["true", "repeated", "false", "unknown"], "I, J and K go by place: where they are repeated or out of order, only where one of them stands twice, or never";
+    "arguments.repeated.order" &["place", "count", "unknown"], "which local a repeated I, J or K sets: the next of its column after the letter before it, or that of the set that its own count gives";
     "call.arguments.last" YES, "the call's words must stand before its arguments";
     "call.repeat.reloads.arguments" YES, "each repeat of a call sets the arguments again";
     "call.words.alone" YES, "no other words may stand in the block of a macro call";
@@ -119,10 +123,34 @@ questions! {
     "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place";
     "rotation.direction" &["ccw", "cw", "unknown"], "which way a positive rotation turns";
     "m.codes.per.block" &["1", "3", "any", "unknown"], "how many M codes a block may have";
+    "m.forward.acts" WHEN, "when the code that turns the spindle clockwise acts, beside a move";
+    "m.start.acts" WHEN, "when a code that starts spindle or coolant acts, beside a move";
+    "m.stop.acts" WHEN, "when a code that stops spindle or coolant acts, beside a move";
+    "m.change.acts" WHEN, "when a tool change acts, beside a move";
+    "m.other.acts" WHEN, "when any other M code acts, beside a move";
+    "s.acts" WHEN, "when a new spindle speed acts, beside a move";
+    "stop.ends.spindle" YES, "a program stop stops the spindle, and the program has to start it again";
+    "stop.ends.coolant" YES, "a program stop switches coolant off, and the program has to switch it on again";
+    "message.ends.spindle" YES, "a stop with a message, or a question, stops the spindle";
+    "message.ends.coolant" YES, "a stop with a message, or a question, switches coolant off";
+    "change.ends.spindle" YES, "a tool change leaves the spindle stopped";
+    "change.ends.coolant" YES, "a tool change leaves coolant off";
+    "end.ends.spindle" YES, "the end of the program stops the spindle";
+    "end.ends.coolant" YES, "the end of the program switches coolant off";
     "one.g.per.group" YES, "of the G codes of one group in a block the last counts, or it is an error";
     "word.twice" YES, "of a letter that stands twice in a block the last value counts";
     "block.assigns.first" YES, "words use the values that their own block gave to variables before them";
     "repeat.moves" YES, "a repeat word on a move runs the block so many times";
+    "reference.length" &["kept", "cancelled", "cancelled.along", "unknown"], "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves";
+    "machine.move.length" &["kept", "cancelled.along", "unknown"], "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved";
+    "position.length" &["added", "left.out", "unknown"], "whether the present position and the touched one, read in the program's coordinates, hold the tool length too: the place of the spindle, or of the tip";
+    "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
+    "mirror.about" &["word", "zero", "unknown"], "about what an axis is mirrored: the coordinate in its word, or the work zero";
+    "shape.frame.codes" &["kept", "unknown"], "whether a change of plane or of work offset, a set position, a move in machine coordinates and a return to the reference position may stand while coordinates are turned, scaled or mirrored, and do then what they do without";
+    "scale.reaches.cycle" YES, "scaling reaches the planes and the pecks of a drilling cycle";
+    "shift.local.is.external" YES, "the local shift and the shift of all work offsets are one register";
+    "set.position.ends.local" YES, "a code that sets the position ends the local shift of its axes";
+    "end.clears.local" YES, "the end of the program clears the local shift";
     "reference.all.axes" YES, "a return to the reference position without axes moves all of them";
     "integer.divides" YES, "the quotient of two whole-number constants is cut to a whole number";
     "skip.midblock" YES, "a block skip in mid-block skips the rest of the block";
@@ -137,11 +165,13 @@ questions! {
     "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too";
     "units.without.code" &["metric", "inch", "setting", "unknown"], "the units of a program that has no code for them";
     "tool.change.word" &["m6", "t", "unknown"], "the word that changes the tool";
+    "tool.word.again" &["changes", "skipped", "unknown"], "what a word that changes the tool does for the tool in the spindle";
     "tool.word.selects.length" YES, "the tool word brings its length offset into force";
     "spindle.range.suffix" YES, "a fraction of S picks the gear range and is no speed";
     "clear.all" YES, "one statement clears all variables";
     "output.needs.port" YES, "formatted output needs a port that is open";
     "print.screen" YES, "a statement prints on the screen";
+    "text.letters" &["ascii", "upper", "unknown"], "the letters that a comment or a message may have: those of ASCII, or capitals alone";
     "message.shows.comment" YES, "the comment behind a stop is shown to the operator";
     "alarm.offset" &[], "what is added to the number of an alarm on the screen";
     "alarm.max" &[], "the largest number of an alarm";

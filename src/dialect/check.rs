@@ -1,10 +1,11 @@
 //! What a table must not say: the same thing twice, a range backwards, two
 //! answers to one question.
 
+use super::overlay;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Function, Limit, Operator, Row, Setting, Statement, SystemVariable,
-    VariableClass, WordMeaning, behaviours,
+    Argument, Behaviour, CodeMeaning, Function, InUse, Limit, Operator, Row, Setting, Statement,
+    SystemVariable, VariableClass, WordMeaning, behaviours,
 };
 use std::collections::BTreeMap;
 
@@ -16,6 +17,7 @@ pub(super) struct Tables {
     pub statements: Vec<Placed<Statement>>,
     pub behaviours: Vec<Placed<Behaviour>>,
     pub variables: Vec<Placed<VariableClass>>,
+    pub in_use: Vec<Placed<InUse>>,
     pub system: Vec<Placed<SystemVariable>>,
     pub words: Vec<Placed<WordMeaning>>,
     pub codes: Vec<Placed<CodeMeaning>>,
@@ -244,6 +246,7 @@ fn settings(reader: &mut Reader, tables: &Tables) {
                 Some(("behaviour", name)) => behaviours::find(name).is_some_and(|known| known.admits(value)),
                 Some(("limit", name)) => tables.limits.iter().any(|limit| limit.row.name == name),
                 Some(("numbers", "bare_length" | "bare_argument" | "bare_feed" | "arithmetic")) => true,
+                Some(("numbers", "feed_parts")) => value.parse().is_ok_and(|parts: f64| parts >= 1.0),
                 _ => false,
             };
             if !known {
@@ -267,7 +270,7 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
             reader.fault(place.clone(), format!("unknown machine '{machine}'"), "it is 'mill' or 'lathe'");
         }
         if let Some(when) = when {
-            let known = when.split_once('=').is_some_and(|(name, value)| {
+            let known = overlay::conditions(when).all(|(name, value)| {
                 tables.settings.iter().any(|setting| {
                     setting.row.name == name && setting.row.values.iter().any(|known| known == value)
                 })
@@ -300,6 +303,7 @@ fn sources(reader: &mut Reader, tables: &Tables) {
     section(reader, &tables.statements);
     section(reader, &tables.behaviours);
     section(reader, &tables.variables);
+    section(reader, &tables.in_use);
     section(reader, &tables.system);
     section(reader, &tables.words);
     section(reader, &tables.codes);

@@ -136,6 +136,15 @@ impl Control {
         self.dialect.numbers.bare_length
     }
 
+    /// What a length or an angle without a decimal point counts behind this letter.
+    pub fn bare_length_of(&self, letter: char) -> BareLength {
+        let numbers = &self.dialect.numbers;
+        match numbers.bare_length {
+            BareLength::Units if !numbers.calculator_reaches(letter) => BareLength::Increments,
+            bare => bare,
+        }
+    }
+
     /// What an argument of a macro call without a decimal point counts, for its letter.
     pub fn bare_argument(&self, letter: char) -> BareLength {
         let row = self.dialect.arguments.iter().find(|row| row.letter == letter);
@@ -145,6 +154,11 @@ impl Control {
     /// What a feed without a decimal point counts.
     pub fn bare_feed(&self) -> BareLength {
         self.dialect.numbers.bare_feed
+    }
+
+    /// True where the profile says how lengths without a point count, and that says nothing of feeds.
+    pub fn feed_is_open(&self) -> bool {
+        self.profile.decimal_point.is_some() && !self.dialect.numbers.feed_stated
     }
 
     /// A function, where the control has it with so many arguments.
@@ -212,6 +226,17 @@ impl Control {
     /// All classes of variables, in order.
     pub fn classes(&self) -> &[VariableClass] {
         &self.dialect.variables
+    }
+
+    /// True for a free variable that most shops have put to use.
+    pub fn is_in_use(&self, name: &str, number: u32) -> bool {
+        let rows = &self.dialect.in_use;
+        rows.iter().any(|row| row.name == name && (row.first..=row.last).contains(&number))
+    }
+
+    /// True where the profile says which variables the shop keeps for itself, be it none.
+    pub fn states_reserved(&self) -> bool {
+        !self.reserved.is_empty() || self.profile.places.contains_key("reserved")
     }
 
     /// True for a variable that the profile keeps for the shop.

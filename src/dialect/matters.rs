@@ -40,6 +40,10 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:test.of.code", "a test of a code asks what is in force in its group"),
     ("machine:tool.zero", "the tool in the spindle stays active when tool 0 takes its length away"),
     ("machine:word.without.meaning", "a word that the control has no meaning for says nothing"),
+    (
+        "numbers:bare_feed",
+        "a feed without a decimal point counts what the table says, or units where it says nothing",
+    ),
 ];
 
 /// What the emulated controls do in a matter; none where there is no such.

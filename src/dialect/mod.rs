@@ -6,6 +6,7 @@
 //! name: they ask a [`Control`] whether it has a function, how a state is
 //! addressed, which code an operation has.
 
+mod acts;
 pub mod behaviours;
 mod check;
 mod check_codes;
@@ -32,6 +33,7 @@ mod table;
 mod tests;
 mod unconfirmed;
 
+pub use acts::{Acts, Ends};
 pub use control::Control;
 pub use control_codes::Alias;
 pub use load::load;

@@ -49,6 +49,8 @@ pub struct Dialect {
     pub behaviours: Vec<Behaviour>,
     /// Classes of variables that programs may use freely.
     pub variables: Vec<VariableClass>,
+    /// Those of them that most shops have put to use.
+    pub in_use: Vec<InUse>,
     /// System variables.
     pub system: Vec<SystemVariable>,
     /// What letters mean where no code says otherwise.
@@ -74,6 +76,16 @@ pub struct Numbers {
     pub bare_argument: BareLength,
     /// What a feed without a decimal point counts.
     pub bare_feed: BareLength,
+    /// How many counts make one unit of a feed without a point that counts units: 10 where it counts tenths.
+    #[serde(default = "one")]
+    pub feed_parts: f64,
+    /// Letters whose numbers get a point from the control where lengths count units; the others count increments
+    /// still. Empty where all lengths do, and no feed.
+    #[serde(default)]
+    pub calculator_letters: String,
+    /// True where the machine profile says what a feed without a point counts.
+    #[serde(skip)]
+    pub feed_stated: bool,
     /// Least increment of a length in metric, millimetres.
     pub increment_mm: f64,
     /// Least increment of a length in inch.
@@ -87,6 +99,17 @@ pub struct Numbers {
     /// Where these come from.
     #[serde(skip_deserializing)]
     pub origin: Origin,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Numbers {
+    /// True where the control gives this letter's numbers their point, where lengths count units.
+    pub fn calculator_reaches(&self, letter: char) -> bool {
+        self.calculator_letters.is_empty() || self.calculator_letters.contains(letter)
+    }
 }
 
 /// What a number without a decimal point counts.

@@ -18,6 +18,7 @@ impl Control {
         overlay.check_dialect(entry);
         let settings = overlay.settings(&dialect);
         overlay.apply(&mut dialect, &settings);
+        overlay.check_machine(&dialect);
         overlay.keep_present(&mut dialect, &settings);
         overlay.doubt(&mut dialect);
         extents::clamp(&mut dialect, &overlay.profile);
@@ -93,6 +94,22 @@ impl Overlay {
         }
     }
 
+    /// A kind of machine that no row of the table speaks of would be read as the one that the rows are for.
+    fn check_machine(&mut self, dialect: &Dialect) {
+        let Some(machine) = self.profile.machine.filter(|machine| *machine != super::Machine::Mill) else {
+            return;
+        };
+        let name = machine.name();
+        if !dialect.codes.iter().any(|row| row.machine.as_deref() == Some(name)) {
+            let message = format!("the table of {} has no rows for a {name}", dialect.title);
+            self.fault(
+                "machine",
+                message,
+                format!("the codes of a {name} are not known for this control: leave its programs out"),
+            );
+        }
+    }
+
     /// Drops the rows of another machine, of other settings, of options that were not bought.
     fn keep_present(&mut self, dialect: &mut Dialect, settings: &BTreeMap<String, String>) {
         let machine = self.profile.machine.map_or("mill", super::profile::Machine::name);
@@ -103,8 +120,7 @@ impl Overlay {
         };
         let here = |of: &Option<String>, when: &Option<String>, option: &Option<String>| {
             let set = |when: &String| {
-                when.split_once('=')
-                    .is_some_and(|(name, value)| settings.get(name).is_some_and(|v| v == value))
+                conditions(when).all(|(name, value)| settings.get(name).is_some_and(|v| v == value))
             };
             of.as_deref().is_none_or(|of| of == machine) && when.as_ref().is_none_or(set) && has(option)
         };
@@ -245,6 +261,11 @@ impl Overlay {
             }
         }
     }
+}
+
+/// What a row's `when` asks for: `setting.NAME=VALUE`, or several of them with ` and ` between.
+pub(super) fn conditions(when: &str) -> impl Iterator<Item = (&str, &str)> {
+    when.split(" and ").map(|one| one.split_once('=').unwrap_or((one, "")))
 }
 
 /// Visits every row with the name of its fact.

@@ -1,7 +1,7 @@
 //! What the settings of a machine profile change in a table.
 
 use super::control::numbered;
-use super::overlay::Overlay;
+use super::overlay::{Overlay, conditions};
 use super::reader::closest;
 use super::{BareLength, Dialect, Origin, Setting};
 use std::collections::BTreeMap;
@@ -53,6 +53,7 @@ impl Overlay {
             let stated = self.stated.contains(&setting.name);
             let effects = values.get(&setting.name).and_then(|value| setting.sets.get(value));
             for (target, value) in effects.into_iter().flatten() {
+                dialect.numbers.feed_stated |= stated && target == "numbers:bare_feed" && value != "unknown";
                 if let Some(origin) = change(dialect, target, value)
                     && stated
                     && setting.origin.confirmed
@@ -73,6 +74,13 @@ impl Overlay {
             dialect.numbers.bare_length = point.into();
             dialect.numbers.bare_argument = point.into();
             dialect.numbers.origin.confirmed = true;
+            if dialect.numbers.bare_length == BareLength::Units
+                && dialect.numbers.calculator_letters.contains('F')
+            {
+                dialect.numbers.bare_feed = BareLength::Units;
+                dialect.numbers.feed_parts = 1.0;
+                dialect.numbers.feed_stated = true;
+            }
         }
     }
 
@@ -83,8 +91,8 @@ impl Overlay {
             .map(|setting| setting.name.clone())
             .collect();
         let rests_on = |when: &Option<String>| {
-            let (name, _) = when.as_ref()?.split_once('=')?;
-            open.iter().find(|open| *open == name).cloned()
+            let mut names = conditions(when.as_ref()?).map(|(name, _)| name);
+            names.find_map(|name| open.iter().find(|open| *open == name).cloned())
         };
         let codes = dialect.codes.iter_mut().map(|row| (&row.when, &mut row.origin));
         let words = dialect.words.iter_mut().map(|row| (&row.when, &mut row.origin));
@@ -132,6 +140,7 @@ fn change<'d>(dialect: &'d mut Dialect, target: &str, value: &str) -> Option<&'d
                 "bare_length" => numbers.bare_length = bare,
                 "bare_argument" => numbers.bare_argument = bare,
                 "bare_feed" => numbers.bare_feed = bare,
+                "feed_parts" => numbers.feed_parts = value.parse().unwrap_or(1.0),
                 _ => numbers.arithmetic = value.into(),
             }
             // One origin stands for all columns, so one setting does not confirm it.

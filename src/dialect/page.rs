@@ -68,6 +68,9 @@ pub fn page(control: &Control) -> String {
         let runs = run(&row.name, row.first, row.last, row.class == "letter");
         vec![runs, row.class.clone(), kept.into(), option(&row.option)]
     });
+    section(&mut out, "VARIABLES IN USE", &dialect.in_use, |row| {
+        vec![run(&row.name, row.first, row.last, false), row.by.clone()]
+    });
     section(&mut out, "SYSTEM VARIABLES", &dialect.system, |row| {
         let runs = match (row.first, row.last()) {
             (Some(first), Some(last)) => run(&row.name, first, last, false),

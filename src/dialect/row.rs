@@ -1,7 +1,7 @@
 //! What all rows have in common: a section, a name within it, an origin.
 
 use super::{
-    Argument, Behaviour, CodeMeaning, Function, Limit, Numbers, Operator, Origin, Setting, Statement,
+    Argument, Behaviour, CodeMeaning, Function, InUse, Limit, Numbers, Operator, Origin, Setting, Statement,
     SystemVariable, Text, VariableClass, WordMeaning,
 };
 use serde::de::DeserializeOwned;
@@ -60,6 +60,7 @@ row! {
     };
     Statement "statements" "statement" |row| row.name.clone();
     Behaviour "behaviours" "behaviour" |row| row.name.clone();
+    InUse "in_use" "in_use" |row| format!("{}{}", row.name, row.first);
     VariableClass "variables" "variable" |row| format!("{}{}", row.name, row.first);
     SystemVariable "system" "system" |row| match row.first {
         Some(first) => format!("{}{first}", row.name),

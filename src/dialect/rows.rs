@@ -132,6 +132,23 @@ pub struct VariableClass {
     pub origin: Origin,
 }
 
+/// Free variables that something of most shops has put to use: a conversion takes others while there are any.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InUse {
+    /// Their name before the number.
+    pub name: String,
+    /// First number.
+    pub first: u32,
+    /// Last number.
+    pub last: u32,
+    /// What has them.
+    pub by: String,
+    /// Where it comes from.
+    #[serde(skip_deserializing)]
+    pub origin: Origin,
+}
+
 /// A run of system variables.
 ///
 /// The number of the variable with subscripts i, j is `first + i*step[0] + j*step[1]`

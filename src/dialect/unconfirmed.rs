@@ -1,8 +1,9 @@
 //! How it is said that something rests on a fact which nothing confirms.
 
-use super::Control;
+use super::{Control, Setting};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Which control of a conversion a fact is about; a program that is only read has the source's.
@@ -30,7 +31,9 @@ impl Control {
         let title = &self.dialect().title;
         let note = note.unwrap_or("no source says so");
         let what = format!("rests on the unconfirmed fact '{fact}' of the {side}, {title}: {note}");
-        Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(to_confirm(fact, side)).with_fact(fact)
+        Diagnostic::new(Code::UnconfirmedFact, span, what)
+            .with_help(self.to_settle(fact, side))
+            .with_fact(fact)
     }
 
     /// What to do about a fact of this control: to state the setting that it hangs on where there is one and nobody
@@ -38,8 +41,13 @@ impl Control {
     pub fn to_settle(&self, fact: &str, side: Side) -> String {
         let name = fact.strip_prefix("behaviour:");
         let open = name.and_then(|name| self.behaviour(name)).is_some_and(|row| row.value == "setting");
-        let mut settings = self.dialect().settings.iter().filter(|_| open);
-        match settings.find(|row| row.sets.values().any(|sets| sets.contains_key(fact))) {
+        // A setting answers it where each of its values does, or where nothing else does.
+        let sets = |row: &&Setting| {
+            let mut answers = row.values.iter().map(|value| row.sets.get(value));
+            let says = |sets: Option<&BTreeMap<String, String>>| sets.is_some_and(|s| s.contains_key(fact));
+            if open { answers.any(says) } else { row.origin.confirmed && answers.all(says) }
+        };
+        match self.dialect().settings.iter().filter(|row| !row.values.is_empty()).find(sets) {
             Some(row) => {
                 format!(
                     "check it on the machine, then state '{}' in the machine profile of the {side}",

@@ -14,7 +14,7 @@ pub mod haas;
 pub mod macro_b;
 mod naming;
 
-pub use naming::{Index, Naming, Register};
+pub use naming::{Index, Naming, Register, last_sequence};
 
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
@@ -37,6 +37,8 @@ pub struct Emitted {
     /// Which bytes of the source each block of `text` comes from, in order; blocks that
     /// come from nowhere are not in it. Ranges leave the line feed out.
     pub blocks: Vec<(Span, Range<usize>)>,
+    /// True where blocks have sequence numbers that the source does not give them.
+    pub invents: bool,
     /// What a person must look at; none of it is an error.
     pub findings: Vec<Diagnostic>,
 }

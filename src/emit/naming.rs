@@ -1,9 +1,12 @@
 //! What things are called on the target: registers, programs, sequence numbers.
 
-use crate::ir::Var;
-use crate::syntax::ProgramName;
+use crate::ir::analysis::{Numbers, Summaries};
+use crate::ir::{Block, Program, Var};
+use crate::syntax::{Label, ProgramName};
 use foldhash::HashMap;
-use std::collections::BTreeSet;
+
+/// Sequence numbers that lie above all others start at a multiple of this.
+const ROUND: u32 = 1000;
 
 /// A variable of the target.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,8 +46,10 @@ impl Register {
 pub struct Naming {
     variables: HashMap<Var, Register>,
     programs: HashMap<ProgramName, u32>,
-    returned_to: BTreeSet<u32>,
-    returned_anywhere: bool,
+    returned_to: Numbers,
+    summaries: Option<Summaries>,
+    last_sequence: u32,
+    guard: Option<u32>,
 }
 
 impl Naming {
@@ -77,19 +82,64 @@ impl Naming {
         }
     }
 
-    /// Notes that some program of the library returns to this sequence number of its
-    /// caller: every block that has it must keep it.
-    pub fn keep_sequence(&mut self, number: u32) {
-        self.returned_to.insert(number);
-    }
-
-    /// Notes that some program returns to a computed sequence number: every block keeps its own.
-    pub fn keep_every_sequence(&mut self) {
-        self.returned_anywhere = true;
+    /// Notes that some program of the library returns to one of these sequence numbers of its
+    /// caller: every block that has one must keep it.
+    pub fn keep_sequences(&mut self, numbers: &Numbers) {
+        self.returned_to.join(numbers);
     }
 
     /// True where a program of the library returns, or may return, to this sequence number.
     pub fn is_returned_to(&self, number: u32) -> bool {
-        self.returned_anywhere || self.returned_to.contains(&number)
+        self.returned_to.contains(number)
     }
+
+    /// The sequence numbers that programs of the library return to, or may return to.
+    pub fn returned_to(&self) -> &Numbers {
+        &self.returned_to
+    }
+
+    /// Lets writers ask which numbers computed jumps look for; `last_sequence` is the largest that the library has.
+    pub fn set_summaries(&mut self, summaries: Summaries, last_sequence: u32) {
+        (self.summaries, self.last_sequence) = (Some(summaries), last_sequence);
+    }
+
+    /// What the programs of the library write, where that is known.
+    pub fn summaries(&self) -> Option<&Summaries> {
+        self.summaries.as_ref()
+    }
+
+    /// Where sequence numbers that are invented start, if nothing bounds what the library's programs return to;
+    /// `most` is the largest number.
+    pub fn returns_floor(&self, most: u32) -> Option<u32> {
+        self.returned_to.last().filter(|last| *last >= most).map(|_| above(self.last_sequence))
+    }
+
+    /// Notes that returns to a computed number stop with an alarm from this number on: a caller may have invented
+    /// ones there.
+    pub fn set_guard(&mut self, floor: u32) {
+        self.guard = Some(floor);
+    }
+
+    /// The number from which on returns to a computed number stop with an alarm.
+    pub fn guard(&self) -> Option<u32> {
+        self.guard
+    }
+}
+
+/// Where numbers begin that lie above this one, and not next to it.
+pub(super) fn above(number: u32) -> u32 {
+    (number.saturating_add(1) / ROUND).saturating_add(1).saturating_mul(ROUND)
+}
+
+/// The largest sequence number of a program: a label, or one that nothing looks for.
+pub fn last_sequence(program: &Program) -> u32 {
+    let of_block = |block: &Block| {
+        let labels = block.labels.iter().filter_map(|label| match label {
+            Label::Number(number) => Some(*number),
+            Label::Name(_) => None,
+        });
+        let sites = block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]);
+        labels.chain(sites.filter_map(|site| site.sequence)).max()
+    };
+    program.blocks.iter().filter_map(of_block).max().unwrap_or(0)
 }

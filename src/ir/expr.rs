@@ -84,6 +84,18 @@ pub enum Cond {
     Switch(u8),
 }
 
+impl BinOp {
+    /// True where an operand of `inner` reads without brackets beside this operator, as far as their ranks allow it:
+    /// sums and products have an order that everybody knows, and one operator alone has one. `FIX[#1] OR 1-3` has
+    /// none, and which of `OR` and `-` comes first no maker's text says.
+    pub const fn reads_beside(self, inner: BinOp) -> bool {
+        const fn is_word(op: BinOp) -> bool {
+            matches!(op, BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor)
+        }
+        self as u8 == inner as u8 || !is_word(self) && !is_word(inner)
+    }
+}
+
 impl Relation {
     /// The relation that holds exactly when this one does not.
     pub const fn negated(self) -> Self {
@@ -146,6 +158,9 @@ impl Expr {
             Expr::Negate(inner) => inner.is_whole(),
             Expr::Truth(_) | Expr::Vacant => true,
             Expr::Binary(BinOp::And | BinOp::Or | BinOp::Xor | BinOp::Mod, _) => true,
+            Expr::Binary(BinOp::Add | BinOp::Sub | BinOp::Mul, operands) => {
+                operands.iter().all(Self::is_whole)
+            }
             Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd, _) => true,
             Expr::System(state, _) => {
                 matches!(state, Sys::Input | Sys::InputWord | Sys::Output | Sys::OutputWord)

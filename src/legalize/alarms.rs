@@ -4,6 +4,7 @@
 //! another number is in no source; such an alarm stays, for review.
 
 use super::Context;
+use crate::assume::Predicate;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Expr, Module, StmtKind};
@@ -45,7 +46,8 @@ fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, con
         None if there < here => {
             let what =
                 format!("the number of the alarm is computed: the target is said to take 1 to {there}");
-            context.add_once(index, "computed alarm", Diagnostic::new(Code::Conditional, span, what));
+            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Alarms(there));
+            context.add_once(index, "computed alarm", finding);
         }
         None => {}
     }

@@ -7,10 +7,11 @@
 use super::Context;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::analysis::{Constant, Summaries, values_at};
+use crate::ir::analysis::{Constant, Numbers, Ranges, Summaries, values_at};
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BlockId, Expr, Module, Program};
 use crate::text::Span;
+use std::cell::LazyCell;
 
 /// Reports computed numbers that may lie outside of their space.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -21,14 +22,17 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = Summaries::of(module);
     for (index, program) in module.programs.iter().enumerate() {
         let mut found: Vec<(Span, &Space)> = Vec::new();
+        let ranges = LazyCell::new(|| Ranges::of(program, &summaries));
         each_index(program, &mut |bank, number, span, id, at| {
             let Some((_, Some(space))) = spaces.iter().find(|(own, _)| *own == bank) else { return };
             let told = found.iter().any(|(_, other)| other.name == space.name);
-            let inside = || match number {
-                Expr::Var(var) => values_at(program, &summaries, *var, id, at)
-                    .and_then(all_numbers)
-                    .is_some_and(|all| all.iter().all(|number| space.holds(*number))),
-                _ => false,
+            let inside = || {
+                let own = Numbers::of([(space.first, space.last)]);
+                let known = match number {
+                    Expr::Var(var) => values_at(program, &summaries, *var, id, at).and_then(all_numbers),
+                    _ => None,
+                };
+                own.holds(&known.unwrap_or_else(|| ranges.at(id, at, number).numbers()))
             };
             if !told && !inside() {
                 found.push((span, space));
@@ -58,19 +62,16 @@ impl Space {
         let (first, last) = (rows().map(|row| row.first).min()?, rows().map(|row| row.last).max()?);
         Some(Self { name: rows().next()?.name.clone(), first, last })
     }
-
-    fn holds(&self, number: u32) -> bool {
-        (self.first..=self.last).contains(&number)
-    }
 }
 
 /// The whole numbers that constants are; none where one is something else.
-pub(super) fn all_numbers(constants: Vec<Constant>) -> Option<Vec<u32>> {
+pub(super) fn all_numbers(constants: Vec<Constant>) -> Option<Numbers> {
     let number = |constant| match constant {
         Constant::Number(value) if value.fract() == 0.0 => whole(value),
         _ => None,
     };
-    constants.into_iter().map(number).collect()
+    let all = constants.into_iter().map(number).collect::<Option<Vec<u32>>>()?;
+    Some(Numbers::of(all.into_iter().map(|number| (number, number))))
 }
 
 /// Calls `f` on each computed number, with its space, its place and the statement that it stands in.

@@ -8,6 +8,7 @@
 //! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
 
 use super::Context;
+use crate::assume::Predicate;
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
@@ -20,7 +21,7 @@ use std::cell::LazyCell;
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = LazyCell::new(|| Summaries::of(module));
     let rounds = [context.source, context.target].iter().all(|control| control.is("integer.word.rounds"));
-    let mut found: Vec<(usize, Span, Finding)> = Vec::new();
+    let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {
@@ -32,13 +33,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                             numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
                         }
                         let finding = check(*letter, numbers, context.source, context.target);
-                        found.extend(finding.map(|finding| (index, stmt.site.span, finding)));
+                        found.extend(finding.map(|finding| (index, stmt.site.span, (*letter, finding))));
                     }
                 }
             }
         }
     }
-    for (index, span, finding) in found {
+    for (index, span, (letter, finding)) in &found {
         let (code, what) = match finding {
             Finding::Other(code) => {
                 (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
@@ -58,7 +59,11 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 (if same { Code::Conditional } else { Code::NoEquivalent }, what)
             }
         };
-        context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
+        let here = found.iter().filter(|(other, _, (l, _))| other == index && l == letter);
+        let places = here.map(|(_, span, _)| *span).collect();
+        let same = alike(*letter, context.source, context.target);
+        let predicate = Predicate::Codes { letter: *letter, places, same };
+        context.add_once(*index, &what, Diagnostic::new(code, *span, what.clone()).assuming(predicate));
     }
 }
 
@@ -127,19 +132,31 @@ pub(super) fn renumbered(group: f64, source: &Control, target: &Control) -> Opti
     Some(row.code.split(' ').next()?.to_owned())
 }
 
+/// True for a code that means the same on both controls.
+fn is_same(letter: char, number: f64, source: &Control, target: &Control) -> bool {
+    let (here, there) = (source.code(letter, number, &[]), target.code(letter, number, &[]));
+    let unnamed = |op: Op| {
+        matches!(op, Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther)
+    };
+    here.zip(there)
+        .is_some_and(|(here, there)| here.op == there.op && here.fixed == there.fixed && !unnamed(here.op))
+}
+
+/// The codes of a letter that mean the same on both controls.
+fn alike(letter: char, source: &Control, target: &Control) -> Vec<f64> {
+    let heads = source.dialect().codes.iter().filter_map(|row| row.head());
+    let mut all: Vec<f64> = heads.filter(|head| head.letter == letter).map(|head| head.number()).collect();
+    all.retain(|number| is_same(letter, *number, source, target));
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
 fn check(letter: char, numbers: Option<Vec<Number>>, source: &Control, target: &Control) -> Option<Finding> {
     let Some(numbers) = numbers else { return Some(Finding::Any(letter)) };
-    let same = |number: f64| {
-        let (here, there) = (source.code(letter, number, &[]), target.code(letter, number, &[]));
-        let unnamed = |op: Op| {
-            matches!(op, Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther)
-        };
-        here.zip(there).is_some_and(|(here, there)| {
-            here.op == there.op && here.fixed == there.fixed && !unnamed(here.op)
-        })
-    };
     // What a program names itself weighs more than what it may find in force.
-    let other = numbers.into_iter().filter(|n| !same(n.number)).min_by_key(|n| n.read)?;
+    let other =
+        numbers.into_iter().filter(|n| !is_same(letter, n.number, source, target)).min_by_key(|n| n.read)?;
     let code = format!("{letter}{}", other.number);
     Some(if other.read { Finding::Read(code) } else { Finding::Other(code) })
 }

@@ -2,32 +2,64 @@
 //!
 //! Law: such a variable stays as it is where both controls mean the same by every number that it may have; in a
 //! run of system variables that the target keeps elsewhere in the same order, the distance is added; in a run of
-//! one state that it keeps otherwise, the variable becomes that state, counted as its numbers are. Side
-//! condition, for a reviewer: the number stays in the run in which its constant part lies.
+//! one state that it keeps otherwise, the variable becomes that state, counted as its numbers are. What the number may
+//! be is followed from where it is assigned. Side condition, for a reviewer, where that leaves it open: the number stays
+//! in the run in which its constant part lies, and is none of the registers that the conversion took for itself.
 //! Counter-example: `#[2000+#1]` with `#1` = 3 is a length offset on one control and a wear on another.
 
+mod found;
+mod meaning;
+mod shift;
+
+use super::Context;
 use super::banks::{all_numbers, each_index};
-use super::{Context, rewrite_program};
+use super::registers::Registers;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Side, SystemVariable};
-use crate::ir::analysis::{Summaries, values_at};
+use crate::dialect::{Control, Side};
+use crate::ir::analysis::{self, Ranges, Summaries, Values, values_at};
 use crate::ir::eval::whole;
-use crate::ir::{Bank, BinOp, Expr, Module, Place, Program, StmtKind};
+use crate::ir::{Bank, Expr, Module};
 use crate::text::Span;
+use found::Found;
+use meaning::{Meaning, last_number, meaning};
+use shift::{constant_part, shift};
 use std::cell::LazyCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-/// Values of plain variables are looked up for so many computed numbers of a program; others are not known.
-const MOST_LOOKED_UP: usize = 50;
+/// Computed numbers are followed for so many of a program; others are not known.
+const MOST_LOOKED_UP: usize = 500;
 
-/// Checks and shifts computed numbers.
+/// What computed numbers of a library reach.
+#[derive(Debug, Default)]
+pub struct Reached {
+    /// Numbers that some are known to be: no register is taken there.
+    pub sure: analysis::Numbers,
+    /// What is supposed of the others, by program.
+    open: Vec<(usize, Found)>,
+}
+
+impl Reached {
+    /// Numbers that any of the others are supposed to be.
+    pub(super) fn everything(&self, source: &Control, target: &Control) -> analysis::Numbers {
+        let mut all = analysis::Numbers::default();
+        if !self.open.is_empty() {
+            let numbers = Numbers::new(source, target);
+            self.open.iter().for_each(|(_, found)| all.join(&found.finding.supposed(&numbers)));
+        }
+        all
+    }
+
+    /// Numbers that some are supposed to be: registers are taken elsewhere, where there are any.
+    pub fn supposed(&self) -> analysis::Numbers {
+        analysis::Numbers::of(self.open.iter().filter_map(|(_, found)| found.finding.run()))
+    }
+}
+
+/// Shifts computed numbers, and notes what they may be.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut numbers = Numbers::new(context.source, context.target);
-    if numbers.all_alike() {
-        return false;
-    }
-    look(module, &mut numbers, context);
+    context.reached = look(module, &mut numbers, context);
     let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
     let shifts = numbers.known.values().any(moves);
     if shifts {
@@ -36,49 +68,78 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     shifts
 }
 
-fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) {
+fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -> Reached {
     let summaries = LazyCell::new(|| Summaries::of(module));
-    let mut all_found: Vec<Vec<(Span, Finding)>> = Vec::new();
-    // Numbers that others are known to be: the verifier must not take them for strays.
-    let mut sure: BTreeSet<u32> = BTreeSet::new();
-    for program in &module.programs {
-        let mut found: Vec<(Span, Finding)> = Vec::new();
+    let mut reached = Reached::default();
+    for (index, program) in module.programs.iter().enumerate() {
+        let ranges = LazyCell::new(|| Ranges::of(program, &summaries));
+        let mut found: Vec<Found> = Vec::new();
+        // Numbers that others in the same block are known to be: they are no strays.
+        let mut known: Vec<(Span, analysis::Numbers)> = Vec::new();
         let mut looked_up = 0;
         each_index(program, &mut |bank, number, span, id, at| {
             if bank != Bank::Numbered {
                 return;
             }
             looked_up += 1;
-            let known = match number {
-                Expr::Var(var) if looked_up <= MOST_LOOKED_UP => {
+            // A plain variable is looked up with the literals that stand at the head.
+            let constants = match number {
+                Expr::Var(var) if looked_up <= MOST_LOOKED_UP / 10 => {
                     values_at(program, &summaries, *var, id, at).and_then(all_numbers)
                 }
                 _ => None,
             };
-            let finding = match known {
-                Some(all) => {
-                    sure.extend(&all);
-                    all.into_iter().find(|n| !numbers.alike(*n)).map(Finding::Other)
+            let (may_be, exact) = match constants {
+                Some(constants) => (constants, true),
+                None if looked_up > MOST_LOOKED_UP => (Values::ANY.numbers(), false),
+                None => {
+                    let values = ranges.at(id, at, number);
+                    (values.numbers(), matches!(values, Values::Few(_)))
                 }
-                None => Some(numbers.of(number).clone()),
             };
-            if let Some(finding) = finding
-                && found.iter().all(|(_, other)| *other != finding)
-            {
-                found.push((span, finding));
+            let (finding, sure) = numbers.judge(number, &may_be, exact);
+            if sure {
+                reached.sure.join(&may_be);
+                known.push((span, may_be));
+            }
+            let Some(finding) = finding else { return };
+            finding.rest_on_rows(index, span, context);
+            if let Finding::Other(_) = finding {
+                let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
+                context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
+            } else if !sure {
+                Found::note(&mut found, finding, span, constant_part(number).unwrap_or_default());
             }
         });
-        all_found.push(found);
-    }
-    let sure: String = sure.into_iter().map(|number| format!(", #{number}")).collect();
-    for (index, found) in all_found.into_iter().enumerate() {
-        for (span, finding) in found {
-            let fact = finding.fact(numbers).map(|fact| fact + &sure);
-            finding.rest_on_rows(index, span, context);
-            let (code, what) = finding.told(context, numbers);
-            let told = Diagnostic { fact: fact.map(Into::into), ..Diagnostic::new(code, span, what.clone()) };
-            context.add_once(index, &what, told);
+        for found in &mut found {
+            let here = known.iter().filter(|(span, _)| found.places.contains(span));
+            here.for_each(|(_, numbers)| found.sure.join(numbers));
         }
+        reached.open.extend(found.into_iter().map(|found| (index, found)));
+    }
+    reached
+}
+
+/// Says what is supposed of computed numbers, now that registers are taken.
+pub fn report(registers: &Registers, context: &mut Context<'_>) {
+    let reached = std::mem::take(&mut context.reached);
+    if reached.open.is_empty() {
+        return;
+    }
+    let numbers = Numbers::new(context.source, context.target);
+    let alike = numbers.all_alike();
+    let taken: Vec<u32> = registers.taken().collect();
+    for (index, found) in reached.open {
+        let supposed = found.finding.supposed(&numbers);
+        let safe = supposed.without(taken.iter().copied());
+        let hit = safe != supposed;
+        if alike && !hit {
+            continue;
+        }
+        let (code, what) = found.finding.clone().told(context, &safe, hit);
+        let span = found.places.first().copied().unwrap_or_default();
+        let told = Diagnostic::new(code, span, what.clone()).assuming(found.predicate(&safe));
+        context.add_once(index, &what, told);
     }
 }
 
@@ -87,7 +148,7 @@ const GAP: u32 = 20;
 
 /// What is known of a computed number.
 #[derive(Clone, Debug, PartialEq)]
-enum Finding {
+pub(super) enum Finding {
     /// It starts in these numbers, by each of which both controls mean the same.
     Alike(u32, u32),
     /// It starts in this run of a state, to whose numbers this is added.
@@ -113,20 +174,34 @@ impl Finding {
         there.into_iter().for_each(|number| context.rests_on_number(Side::Target, index, span, number));
     }
 
-    /// The numbers that it must be one of, as the verifier is told them.
-    fn fact(&self, numbers: &Numbers<'_>) -> Option<String> {
-        match self {
+    /// The run that it must stay in.
+    fn run(&self) -> Option<(u32, u32)> {
+        match *self {
             Finding::Alike(first, last)
             | Finding::Shifted(_, first, last, _)
-            | Finding::Counted(_, first, last, _) => Some(format!("numbers:#{first}-#{last}")),
-            Finding::Any => Some(format!("numbers:{}", numbers.list())),
-            Finding::Other(_) => None,
+            | Finding::Counted(_, first, last, _) => Some((first, last)),
+            Finding::Any | Finding::Other(_) => None,
         }
     }
 
-    fn told(self, context: &Context<'_>, numbers: &Numbers<'_>) -> (Code, String) {
+    /// The numbers that it must be one of, were there no registers among them.
+    fn supposed(&self, numbers: &Numbers<'_>) -> analysis::Numbers {
+        match self {
+            Finding::Any => numbers.list(),
+            other => analysis::Numbers::of(other.run()),
+        }
+    }
+
+    /// What is told of it, where the numbers in `safe` mean the same; `hit` where registers were taken among them.
+    fn told(self, context: &Context<'_>, safe: &analysis::Numbers, hit: bool) -> (Code, String) {
         let title = &context.target.dialect().title;
         match self {
+            Finding::Alike(..) if hit => (
+                Code::Conditional,
+                format!(
+                    "the number of a variable is computed: it must be one of {safe}; the conversion uses others for values of its own"
+                ),
+            ),
             Finding::Alike(first, last) => (
                 Code::Conditional,
                 must_stay(first, last)
@@ -156,8 +231,7 @@ impl Finding {
             Finding::Any => (
                 Code::Conditional,
                 format!(
-                    "which variable is meant is known only when the program runs: it must be one of {}, which mean the same on {title}",
-                    numbers.list()
+                    "which variable is meant is known only when the program runs: it must be one of {safe}, which mean the same on {title}"
                 ),
             ),
         }
@@ -166,21 +240,6 @@ impl Finding {
 
 fn must_stay(first: u32, last: u32) -> String {
     format!("the number of a variable is computed: it must stay in #{first} to #{last}")
-}
-
-/// What a number means.
-#[derive(PartialEq)]
-enum Meaning {
-    Local,
-    Shared,
-    State(Sys, Vec<u32>),
-}
-
-fn meaning(control: &Control, number: u32) -> Option<Meaning> {
-    if let Some(row) = control.variable_class("#", number) {
-        return Some(if row.class == "local" { Meaning::Local } else { Meaning::Shared });
-    }
-    control.read_system("#", Some(number)).map(|(state, subscripts, _)| Meaning::State(state, subscripts))
 }
 
 /// What both controls mean by the numbers of variables.
@@ -211,6 +270,29 @@ impl<'c> Numbers<'c> {
         };
         let alike = (0..=last_number(source)).map(same).collect();
         Self { source, target, alike, known: BTreeMap::new() }
+    }
+
+    /// What is known of a computed number that may be one of some, `exact` where it is each of them; true where they all
+    /// lie in what is known, so that nothing is supposed.
+    fn judge(&mut self, number: &Expr, may_be: &analysis::Numbers, exact: bool) -> (Option<Finding>, bool) {
+        let known = may_be.last().is_none_or(|last| (last as usize) < self.alike.len());
+        let each = || may_be.runs().iter().flat_map(|(first, last)| *first..=*last);
+        let finding = self.of(number).clone();
+        let moves = matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
+        // What neither control has stops both.
+        let differs = |number: u32| self.alike.get(number as usize).copied().flatten() == Some(false);
+        let other = known.then(|| each().find(|number| differs(*number))).flatten();
+        if known && other.is_none() && !moves {
+            return (None, true);
+        }
+        let inside = finding.run().is_some_and(|run| analysis::Numbers::of([run]).holds(may_be));
+        match may_be.runs().first() {
+            _ if known && inside => (Some(finding), true),
+            // It would be moved, and is none of those that are.
+            Some((first, _)) if known && exact && moves => (Some(Finding::Other(*first)), false),
+            _ if known && exact => (other.map(Finding::Other), false),
+            _ => (Some(finding), false),
+        }
     }
 
     fn alike(&self, number: u32) -> bool {
@@ -300,79 +382,8 @@ impl<'c> Numbers<'c> {
         runs
     }
 
-    /// The numbers that mean the same, as people write them.
-    fn list(&self) -> String {
-        let written = |(first, last): (u32, u32)| match first == last {
-            true => format!("#{first}"),
-            false => format!("#{first}-#{last}"),
-        };
-        self.runs().into_iter().map(written).collect::<Vec<_>>().join(", ")
-    }
-}
-
-/// The largest number that the control has.
-fn last_number(control: &Control) -> u32 {
-    let dialect = control.dialect();
-    let system = dialect.system.iter().filter(|row| row.name == "#").filter_map(SystemVariable::last);
-    let own = control.classes().iter().filter(|row| row.name == "#").map(|row| row.last);
-    system.chain(own).max().unwrap_or(0).min(100_000)
-}
-
-/// The sum of the constants that are added up in a number.
-fn constant_part(number: &Expr) -> Option<f64> {
-    match number {
-        Expr::Number(value) => Some(*value),
-        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) => {
-            let [a, b] = [0, 1].map(|at| constant_part(&operands[at]));
-            let b = if *op == BinOp::Sub { b.map(|b| -b) } else { b };
-            if let (Some(a), Some(b)) = (a, b) { Some(a + b) } else { a.or(b) }
-        }
-        _ => None,
-    }
-}
-
-/// Adds the distance to computed numbers that the target has elsewhere, and names what it counts otherwise.
-fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
-    let mut moved = |number: Expr| match *numbers.of(&number) {
-        Finding::Shifted(.., by) => Place::Indirect(Bank::Numbered, Box::new(add(number, by as f64))),
-        Finding::Counted(state, first, _, from) => {
-            let count = match add(number, f64::from(from) - f64::from(first)) {
-                // What is left of the number is the count itself.
-                Expr::Binary(BinOp::Add, sum) if sum[0] == Expr::Number(0.0) => {
-                    let [_, count] = *sum;
-                    count
-                }
-                count => count,
-            };
-            Place::System(state, [count].into())
-        }
-        _ => Place::Indirect(Bank::Numbered, Box::new(number)),
-    };
-    for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
-        if let StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } = &mut stmt.kind
-            && let Place::Indirect(Bank::Numbered, number) = target
-        {
-            *target = moved(std::mem::replace(number.as_mut(), Expr::Vacant));
-        }
-    }
-    rewrite_program(program, |e| matches!(e, Expr::Indirect(Bank::Numbered, _)), &mut |e, _, _| match e {
-        Expr::Indirect(Bank::Numbered, number) => moved(*number).read(),
-        other => other,
-    });
-}
-
-/// Adds to the first constant of a sum.
-fn add(number: Expr, by: f64) -> Expr {
-    match number {
-        Expr::Number(value) => Expr::Number(value + by),
-        Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) if constant_part(&operands[0]).is_some() => {
-            let [a, b] = *operands;
-            Expr::binary(op, add(a, by), b)
-        }
-        Expr::Binary(BinOp::Add, operands) if constant_part(&operands[1]).is_some() => {
-            let [a, b] = *operands;
-            Expr::binary(BinOp::Add, a, add(b, by))
-        }
-        number => Expr::binary(BinOp::Add, number, Expr::Number(by)),
+    /// The numbers that mean the same.
+    fn list(&self) -> analysis::Numbers {
+        analysis::Numbers::of(self.runs())
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Modal;
 use super::census::Census;
+use super::computed_numbers::Reached;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side};
@@ -23,6 +24,8 @@ pub struct Context<'a> {
     pub faults: Vec<Vec<Span>>,
     /// For each program the one of the source that it comes from: passes add programs.
     pub origins: Vec<usize>,
+    /// What computed numbers of variables reach, until registers are taken.
+    pub(super) reached: Reached,
     /// What stood in the library behind the last pass, where it was counted then.
     pub(super) census: Option<Census>,
     /// The operations that the target has M codes for, once they were asked for.
@@ -53,6 +56,7 @@ impl<'a> Context<'a> {
             entry: Modal::unknown(),
             faults: Vec::new(),
             origins: (0..programs).collect(),
+            reached: Reached::default(),
             census: None,
             m_codes: OnceCell::new(),
             had: OnceCell::new(),

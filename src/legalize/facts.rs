@@ -65,7 +65,7 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
             }
         }
         for finding in found.all.drain(..) {
-            let fact = finding.fact.as_deref().unwrap_or_default();
+            let fact = finding.fact().unwrap_or_default();
             context.add_once(index, &format!("{side} {fact}"), finding);
         }
     }

@@ -12,6 +12,44 @@ use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, T
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let (source, target) = (context.source, context.target);
+    let keeps = |local: u32| kept_by(local, source, target);
+    each(module, context, counts, &mut |kind, units| match kind {
+        Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
+            NcItem::Word(role, value) => word(value, *role, units, source, target),
+            _ => true,
+        }),
+        Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, keeps),
+        Counted::Call(call) => arguments(call, units, source, keeps),
+        Counted::Stmt(_) => true,
+    })
+}
+
+/// Converts those of the arguments of modal calls: they count in the unit where the call is opened, and
+/// the moves behind which the macro runs may be in the other one.
+pub(super) fn of_modal_calls(module: &mut Module, context: &mut Context<'_>) {
+    let source = context.source;
+    let modal = |block: &Block| block.stmts.iter().any(|s| matches!(s.kind, StmtKind::ModalCall(_)));
+    each(module, context, modal, &mut |kind, units| match kind {
+        Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, |_| false),
+        _ => true,
+    });
+}
+
+/// What may have counts of increments in it.
+enum Counted<'m> {
+    Stmt(&'m mut StmtKind),
+    Call(&'m mut Call),
+}
+
+/// Takes what stands in the chosen blocks through `convert`, with the unit that is known there; what it cannot
+/// convert is reported once a program. True where there are such blocks.
+fn each(
+    module: &mut Module,
+    context: &mut Context<'_>,
+    chosen: impl Fn(&Block) -> bool,
+    convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
+) -> bool {
+    let source = context.source;
     let mut entry = context.entry.clone();
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), source.units()) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
@@ -29,27 +67,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         // A program that names one unit throughout is in it wherever it is entered.
         let named = unit_named(program);
         let mut unknown = None;
-        for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| counts(block)) {
+        for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| chosen(block)) {
             changed = true;
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &mut block.stmts {
                 state.step(stmt);
                 let units = unit(&state.of(Group::Units)).or(named).or(machine);
-                let failed = match &mut stmt.kind {
-                    StmtKind::Nc(nc) => nc.items.iter_mut().any(|item| match item {
-                        NcItem::Word(role, value) => !word(value, *role, units, source, target),
-                        _ => false,
-                    }),
-                    StmtKind::ModalCall(call) => !arguments(call, units, source, target),
-                    _ => false,
-                };
-                if failed {
+                if !convert(Counted::Stmt(&mut stmt.kind), units) {
                     unknown.get_or_insert(stmt.site.span);
                 }
             }
             let units = unit(&state.of(Group::Units)).or(named).or(machine);
             if let TermKind::Call { call, .. } = &mut block.term.kind
-                && !arguments(call, units, source, target)
+                && !convert(Counted::Call(call), units)
             {
                 unknown.get_or_insert(block.term.site.span);
             }
@@ -122,16 +152,20 @@ fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, ta
     convert(value, role.is_angle(), units, source)
 }
 
-fn arguments(call: &mut Call, units: Option<Units>, source: &Control, target: &Control) -> bool {
+/// True where a number without a point counts the same behind this argument's letter on both controls.
+fn kept_by(local: u32, source: &Control, target: &Control) -> bool {
+    let letter = target.argument_letter(local);
+    let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));
+    bare == BareLength::Increments && same_increments(source, target)
+}
+
+/// Converts the arguments of a call, but those whose local says that they are kept; false where one cannot be.
+fn arguments(call: &mut Call, units: Option<Units>, source: &Control, kept: impl Fn(u32) -> bool) -> bool {
     let mut good = true;
-    for argument in &mut call.arguments {
-        let letter = target.argument_letter(argument.local);
-        let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));
-        if bare != BareLength::Increments || !same_increments(source, target) {
-            let word = source.argument_letter(argument.local).and_then(|letter| source.word(letter, false));
-            let angle = word.is_some_and(|row| row.role.is_angle());
-            good &= convert(&mut argument.value, angle, units, source);
-        }
+    for argument in call.arguments.iter_mut().filter(|argument| !kept(argument.local)) {
+        let word = source.argument_letter(argument.local).and_then(|letter| source.word(letter, false));
+        let angle = word.is_some_and(|row| row.role.is_angle());
+        good &= convert(&mut argument.value, angle, units, source);
     }
     good
 }

@@ -1,14 +1,14 @@
 //! More M codes in a block than the target takes, and codes that say what the target always does.
 //!
-//! Law: the M codes of one block act together; given one a block, in the order they were written in, the
-//! machine ends in the same state. The first stays with its block; those that stop, and those that act when a
-//! move is done, come behind it. Side condition: between two of them the machine may wait for the first to
+//! Law: the M codes of one block act together: the tool is changed, then the spindle turns, coolant comes on, what stops
+//! acts, and a program stop is last; given one a block in that order, the machine ends in the same state. The first stays
+//! with its block, and the others come behind it. Side condition: between two of them the machine may wait for the first to
 //! be finished.
 //! A code for turns per minute says nothing to a control without constant surface speed, and is left out.
 
 use super::Context;
 use super::census::{Census, Thing};
-use crate::canon::Op;
+use crate::canon::{Auxiliary, Op};
 use crate::dialect::Control;
 use crate::ir::{Nc, NcItem, Program, Site, Stmt, StmtKind};
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,11 +79,25 @@ fn split(nc: &mut Nc, most: usize, m_codes: &BTreeSet<Op>) -> Vec<NcItem> {
     if nc.items.iter().filter(|item| is_m(item)).count() <= most {
         return Vec::new();
     }
-    let mut seen = 0;
-    let (kept, behind) = std::mem::take(&mut nc.items).into_iter().partition(|item| {
-        seen += usize::from(is_m(item));
-        !is_m(item) || seen <= most
+    let mut codes: Vec<(u8, usize)> = (nc.items.iter().enumerate())
+        .filter(|(_, item)| is_m(item))
+        .map(|(at, item)| (rank(item), at))
+        .collect();
+    codes.sort();
+    let behind: Vec<usize> = codes.split_off(most).into_iter().map(|(_, at)| at).collect();
+    let taken = behind.iter().filter_map(|at| nc.items.get(*at).cloned()).collect();
+    let mut at = 0;
+    nc.items.retain(|_| {
+        at += 1;
+        !behind.contains(&(at - 1))
     });
-    nc.items = kept;
-    behind
+    taken
+}
+
+/// The order in which codes act that nothing moves beside; a stop comes last.
+fn rank(item: &NcItem) -> u8 {
+    match item {
+        NcItem::Op(op) => op.auxiliary().map_or(u8::MAX, |kind| kind as u8),
+        NcItem::Code(..) | NcItem::Word(..) => Auxiliary::Other as u8,
+    }
 }

@@ -84,8 +84,10 @@ impl<'c> Measure<'c> {
                 let spaces =
                     if matches!(op, BinOp::Add | BinOp::Sub | BinOp::Mul | BinOp::Div) { 1 } else { 5 };
                 let [left, right] = [0, 1].map(|at| operands.get(at).copied().unwrap_or_default());
-                let left = if self.binds_less(&sides[0], rank, false) { left.bracketed() } else { left };
-                let right = if self.binds_less(&sides[1], rank, true) { right.bracketed() } else { right };
+                let mixed = |side: &Expr| matches!(side, Expr::Binary(inner, _) if !op.reads_beside(*inner));
+                let joins = |at: usize| mixed(&sides[at]) || self.binds_less(&sides[at], rank, at == 1);
+                let left = if joins(0) { left.bracketed() } else { left };
+                let right = if joins(1) { right.bracketed() } else { right };
                 left.beside(right, spaces)
             }
             Expr::Call(function, arguments) => {
@@ -118,6 +120,7 @@ impl<'c> Measure<'c> {
                 let [left, right] = [0, 1].map(|at| {
                     let (operand, size) = (&operands[at], self.bound(&operands[at]));
                     let joins = matches!(operand, Expr::Call(..))
+                        || matches!(operand, Expr::Binary(inner, _) if !op.reads_beside(*inner))
                         || self.binds_less(operand, self.rank(*op), at == 1);
                     if joins { size.bracketed() } else { size }
                 });

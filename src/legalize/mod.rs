@@ -13,6 +13,8 @@ mod active_offsets;
 mod alarms;
 mod banks;
 mod bare_arcs;
+mod behind;
+mod beside_moves;
 mod blanks;
 mod carried;
 mod census;
@@ -28,12 +30,15 @@ mod cycle_words;
 mod dwell;
 mod emptied;
 mod exposed;
+mod external;
 mod facts;
 mod functions;
 mod heads;
 mod increments;
+mod kept_length;
 mod lathe;
 mod length_radius;
+mod letters;
 mod link;
 mod locked;
 mod lookahead;
@@ -51,8 +56,10 @@ mod offset_rows;
 mod operator;
 mod outline;
 mod oversize;
+mod pauses;
 mod polar;
 mod ports;
+mod position_length;
 mod probe_points;
 mod programmed;
 mod rapid_once;
@@ -62,6 +69,7 @@ mod repeats;
 mod retention;
 mod rewrite;
 mod set_position;
+mod shaped;
 mod shift;
 mod state;
 mod substitutes;
@@ -74,6 +82,7 @@ mod vacant_writes;
 
 use census::{Census, Thing};
 pub use context::Context;
+pub use locked::Locked;
 pub use modal::{Modal, Setting, calls_of, reachable, span_of};
 pub use modal_facts::{ModalFacts, replace_statements};
 pub use oversize::shares_line;
@@ -83,7 +92,6 @@ pub use rewrite::{Position, Prelude, Rewriter, Wanted, rewrite_program};
 
 use crate::canon::{Op, Role};
 use crate::ir::{Module, Program};
-use std::collections::BTreeMap;
 
 /// One step of legalization.
 pub struct Pass {
@@ -146,6 +154,16 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "link", concerns: |c, _| c.has(Thing::Call) || c.has(Thing::Chain), run: Edits(link::run) },
     Pass { name: "outline", concerns: |c, _| c.has(Thing::LocalCall), run: Rewrites(outline::run) },
     Pass { name: "codes", concerns: |c, _| c.has(Thing::Code), run: Reports(codes::run) },
+    Pass {
+        name: "beside-moves",
+        concerns: |c, _| beside_moves::concerns(c),
+        run: Rewrites(beside_moves::run),
+    },
+    Pass {
+        name: "pauses",
+        concerns: |c, context| pauses::concerns(c, &context.entry),
+        run: Rewrites(pauses::run),
+    },
     Pass { name: "chain", concerns: |c, _| c.has(Thing::Chain), run: Rewrites(chain::chain) },
     Pass { name: "repeats", concerns: |c, _| c.role(Role::Repeat), run: Rewrites(repeats::run) },
     Pass {
@@ -177,6 +195,16 @@ pub const PASSES: &[Pass] = &[
         concerns: |c, context| c.op(Op::SetPosition) && c.op(Op::SelectWork) && !context.same_family(),
         run: Reports(set_position::run),
     },
+    Pass {
+        name: "external",
+        concerns: |c, _| c.has(Thing::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift),
+        run: Rewrites(external::run),
+    },
+    Pass {
+        name: "shaped",
+        concerns: |c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn),
+        run: Rewrites(shaped::run),
+    },
     Pass { name: "increments", concerns: |c, _| c.has(Thing::Increments), run: Edits(increments::run) },
     Pass { name: "units", concerns: units::concerns, run: Edits(units::run) },
     Pass { name: "rapid-once", concerns: |c, _| c.op(Op::RapidOnce), run: Rewrites(rapid_once::run) },
@@ -187,6 +215,14 @@ pub const PASSES: &[Pass] = &[
     },
     Pass { name: "tapping", concerns: |c, _| c.role(Role::Lead), run: Rewrites(tapping::run) },
     Pass { name: "reference", concerns: |c, _| c.op(Op::ReferenceReturn), run: Rewrites(reference::run) },
+    Pass {
+        name: "kept-length",
+        concerns: |c, _| {
+            c.role(Role::LengthOffset)
+                && c.any_op(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce))
+        },
+        run: Rewrites(kept_length::run),
+    },
     Pass { name: "shift", concerns: |c, _| c.op(Op::ShiftCancel), run: Rewrites(shift::run) },
     Pass { name: "banks", concerns: |c, _| c.has(Thing::Indirect), run: Reports(banks::run) },
     Pass {
@@ -203,6 +239,11 @@ pub const PASSES: &[Pass] = &[
         name: "probe-points",
         concerns: |c, _| c.role(Role::ProbePoint),
         run: Rewrites(probe_points::run),
+    },
+    Pass {
+        name: "position-length",
+        concerns: |c, _| c.has(Thing::System),
+        run: Rewrites(position_length::run),
     },
     Pass { name: "offset-rows", concerns: |c, _| c.has(Thing::System), run: Rewrites(offset_rows::run) },
     Pass {
@@ -290,22 +331,20 @@ fn each(passes: &[Pass], module: &mut Module, context: &mut Context<'_>) -> (Cen
 
 /// Gives every variable its register, and does what needs to know them; `locked` and `scratch` are the
 /// choices of earlier runs. Nothing changes the variables of the module after this.
-pub fn assign_registers(
-    module: &mut Module,
-    locked: &BTreeMap<String, u32>,
-    scratch: &[u32],
-    context: &mut Context<'_>,
-) -> Registers {
+pub fn assign_registers(module: &mut Module, locked: &Locked<'_>, context: &mut Context<'_>) -> Registers {
     // Optimization between brings nothing in.
     let census = context.census.take().unwrap_or_else(|| Census::of(&module.programs));
     if census.has(Thing::Temp) {
         temporaries::run(module);
     }
-    let registers = allocate(module, &census, locked, scratch, context);
+    let registers = allocate(module, &census, locked, context);
+    computed_numbers::report(&registers, context);
     if clear::concerns(&census, context) {
         clear::run(module, &registers);
     }
     retention::check(module, &registers, context);
+    // Before prints and questions are made of them.
+    letters::run(module, context);
     // Questions name the register that the answer goes to, and take up the print before them.
     if census.has(Thing::Input) {
         operator::questions(module, &registers, context);

@@ -1,7 +1,7 @@
 //! What is in force of every modal group at a place, and what statements do to it.
 
 use crate::canon::{Group, Op, Role};
-use crate::ir::{Block, BlockId, Call, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Call, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -11,10 +11,26 @@ pub enum Setting {
     /// No path leads here.
     #[default]
     Unreached,
-    /// This operation; for a work offset its number, where that is constant.
+    /// This operation; for a work offset and a tool length its number, where that is constant.
     Known(Op, Option<u32>),
     /// Not known, or not the same on all paths.
     Unknown,
+}
+
+impl Setting {
+    /// What is in force where ways with each of two meet.
+    fn join(self, other: Self) -> Self {
+        match (self, other) {
+            _ if self == other => self,
+            // Lengths of two rows are applied alike.
+            (Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), _), Setting::Known(there, _))
+                if op == there =>
+            {
+                Setting::Known(op, None)
+            }
+            _ => Setting::Unknown,
+        }
+    }
 }
 
 /// The number of the last feed word.
@@ -26,12 +42,52 @@ enum Feed {
     Unknown,
 }
 
+/// What may have cancelled a tool length that the program did not end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LengthLost {
+    /// A return to the reference position along the axis of the length.
+    pub by_reference: Ways,
+    /// A return of other axes alone.
+    pub by_other_axes: Ways,
+    /// A move in machine coordinates along the axis of the length.
+    pub by_machine_move: Ways,
+}
+
+/// On which of the ways to a place something happens.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Ways {
+    /// On none.
+    #[default]
+    None,
+    /// On some, on others not.
+    Some,
+    /// On every one.
+    Every,
+}
+
+impl LengthLost {
+    /// Joins what other ways did; true where that changed anything.
+    fn join(&mut self, other: Self) -> bool {
+        let join = |a: Ways, b: Ways| if a == b { a } else { Ways::Some };
+        let joined = Self {
+            by_reference: join(self.by_reference, other.by_reference),
+            by_other_axes: join(self.by_other_axes, other.by_other_axes),
+            by_machine_move: join(self.by_machine_move, other.by_machine_move),
+        };
+        std::mem::replace(self, joined) != joined
+    }
+}
+
 /// What is in force of every group, the feed, and the modal calls that are open.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Modal {
     settings: [Setting; Group::ALL.len()],
     /// True where some way here cancelled all zero shifts and selected none since.
     pub may_be_cancelled: bool,
+    /// What some way here did since the tool length was named that may have cancelled it.
+    pub length_lost: LengthLost,
+    /// True where some way here named a tool length.
+    length_named: bool,
     feed: Feed,
     /// The open modal calls, innermost last; absent where paths disagree.
     pub calls: Option<Vec<Call>>,
@@ -45,10 +101,21 @@ impl Modal {
         Self {
             settings: [Setting::Unknown; Group::ALL.len()],
             may_be_cancelled: false,
+            length_lost: LengthLost::default(),
+            length_named: false,
             feed: Feed::Unknown,
             calls: Some(Vec::new()),
             one_unit: false,
         }
+    }
+
+    /// The state in which a program starts that follows others in its file: an end stopped spindle and coolant, or not.
+    pub fn at_head(&self) -> Self {
+        let mut state = self.clone();
+        for group in [Group::Spindle, Group::Coolant] {
+            state.settings[group as usize] = Setting::Unknown;
+        }
+        state
     }
 
     /// Nothing known but the modal calls that are open, and the unit where nothing leaves another.
@@ -85,6 +152,11 @@ impl Modal {
         }
     }
 
+    /// True where some way here named a tool length.
+    pub(super) fn names_length(&self) -> bool {
+        self.length_named
+    }
+
     /// True when no path leads here.
     pub fn is_unreached(&self) -> bool {
         self.of(Group::Motion) == Setting::Unreached
@@ -95,20 +167,7 @@ impl Modal {
         let before = stmt.site.skip.map(|_| self.clone());
         match &stmt.kind {
             StmtKind::Nc(nc) => {
-                let mut feed = None;
-                for item in &nc.items {
-                    match item {
-                        NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
-                        // A computed code may be any of its letter.
-                        NcItem::Code('G', _) => self.forget(),
-                        NcItem::Word(Role::Feed, value) => feed = feed.or(Some(value)),
-                        NcItem::Code(..) | NcItem::Word(..) => {}
-                    }
-                }
-                // Behind the unit and the feed mode, which it counts in, wherever they stand.
-                if let Some(feed) = feed {
-                    self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
-                }
+                self.step_words(nc);
                 if self.calls.as_ref().is_none_or(|calls| !calls.is_empty()) && nc.moves() {
                     // The modal call runs now, and may leave anything in force.
                     self.forget();
@@ -120,6 +179,53 @@ impl Modal {
         }
         if let Some(before) = before {
             self.join(&before);
+        }
+    }
+
+    /// Takes the effect of a block's codes, without that of a modal call that its move makes.
+    pub(super) fn step_words(&mut self, nc: &Nc) {
+        let mut feed = None;
+        for item in &nc.items {
+            match item {
+                NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
+                // A computed code may be any of its letter.
+                NcItem::Code('G', _) => self.forget(),
+                NcItem::Word(Role::Feed, value) => feed = feed.or(Some(value)),
+                NcItem::Code(..) | NcItem::Word(..) => {}
+            }
+        }
+        self.step_length(nc);
+        // Behind the unit and the feed mode, which it counts in, wherever they stand.
+        if let Some(feed) = feed {
+            self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
+        }
+    }
+
+    /// Which row the tool length is taken from, and what may cancel it.
+    fn step_length(&mut self, nc: &Nc) {
+        let row = nc.word(Role::LengthOffset);
+        let setting = &mut self.settings[Group::LengthComp as usize];
+        if let (Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), _), Some(row)) = (*setting, row) {
+            *setting = Setting::Known(op, row.constant().filter(|row| *row >= 0.0).map(|row| row as u32));
+        }
+        if row.is_some() || nc.ops().any(|op| op.group() == Group::LengthComp) {
+            self.length_lost = LengthLost::default();
+        }
+        self.length_named |= row.is_some() || nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
+        let ways = match self.of(Group::LengthComp) {
+            Setting::Known(Op::LengthPlus | Op::LengthMinus, _) => Ways::Every,
+            Setting::Unknown if self.length_named => Ways::Some,
+            // None is in force that the program knows of.
+            _ => return,
+        };
+        let along = nc.word(Role::Z).is_some();
+        let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2));
+        let lost = &mut self.length_lost;
+        match (returns, along || !nc.moves()) {
+            (true, true) => lost.by_reference = ways,
+            (true, false) => lost.by_other_axes = ways,
+            (false, _) if nc.has(Op::MachineOnce) && along => lost.by_machine_move = ways,
+            (false, _) => {}
         }
     }
 
@@ -165,10 +271,8 @@ impl Modal {
         let mut changed = false;
         self.one_unit |= other.one_unit;
         for (mine, theirs) in self.settings.iter_mut().zip(&other.settings) {
-            if *mine != *theirs && *mine != Setting::Unknown {
-                *mine = Setting::Unknown;
-                changed = true;
-            }
+            let joined = mine.join(*theirs);
+            changed |= std::mem::replace(mine, joined) != joined;
         }
         if self.feed != other.feed && self.feed != Feed::Unknown {
             self.feed = Feed::Unknown;
@@ -178,6 +282,9 @@ impl Modal {
             self.may_be_cancelled = true;
             changed = true;
         }
+        changed |= self.length_lost.join(other.length_lost);
+        changed |= other.length_named && !self.length_named;
+        self.length_named |= other.length_named;
         if self.calls != other.calls && self.calls.is_some() {
             self.calls = None;
             changed = true;

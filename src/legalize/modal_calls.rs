@@ -12,7 +12,7 @@
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
 use super::rewrite::{Part, highest_temp, rebuild, unless_skipped};
-use super::{Context, Modal, ModalFacts, carried};
+use super::{Context, Modal, ModalFacts, carried, increments};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Summaries, Vacancy};
@@ -27,6 +27,7 @@ use std::collections::BTreeSet;
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let native = context.target.statement("call.modal").is_some();
     if !native {
+        increments::of_modal_calls(module, context);
         module.programs.iter_mut().for_each(hold_arguments);
     }
     let facts = match native {

@@ -81,10 +81,11 @@ impl<'m> Analysis<'m> {
 
     fn run(mut self, entry: &Modal) -> ModalFacts {
         let called = self.called_programs();
-        let entry = &Rc::new(entry.clone());
+        let (entry, head) = (&Rc::new(entry.clone()), &Rc::new(entry.at_head()));
         for (index, program) in self.module.programs.iter().enumerate() {
             if !called.contains(&index) && !program.blocks.is_empty() {
-                self.flow(index, BlockId(0), entry);
+                // What stands without a name before the first one may go on with a program that was begun before.
+                self.flow(index, BlockId(0), if program.name.is_some() { head } else { entry });
             }
         }
         self.drain();

@@ -9,6 +9,7 @@
 mod routines;
 
 use super::Context;
+use crate::assume::Predicate;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Limit, Side, to_confirm};
 use crate::ir::Module;
@@ -47,7 +48,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     let deepest = routines.calls[*routine].iter().max_by_key(below);
                     let span = deepest.map_or(Span::default(), |edge| edge.span);
                     let sure = sure.then_some(depths[*routine]);
-                    report(program, span, (row, *most), sure, context);
+                    report(program, span, (row, *most, counted), sure, context);
                 }
             }
         }
@@ -58,7 +59,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 fn report(
     index: usize,
     span: Span,
-    (row, most): (&Limit, u32),
+    (row, most, counted): (&Limit, u32, &[bool; 2]),
     deep: Option<u32>,
     context: &mut Context<'_>,
 ) {
@@ -73,14 +74,15 @@ fn report(
         None => format!("{kind} may nest deeper from here than"),
     };
     let what = format!("{how} the {most} levels of {title}: it would stop with an alarm");
-    let fact = format!("limit:{}", row.name);
     let finding = match (row.origin.confirmed, deep) {
         (false, _) => {
+            let fact = format!("limit:{}", row.name);
             Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(to_confirm(&fact, Side::Target))
         }
         (true, None) => Diagnostic::new(Code::Conditional, span, what),
         (true, Some(_)) => Diagnostic::new(Code::NoEquivalent, span, what)
             .with_help("let a program that stands higher in the chain make one of the calls"),
     };
-    context.add_once(index, "nesting", finding.with_fact(&*fact));
+    let predicate = Predicate::Nesting { limit: row.name.as_str().into(), counts: *counted, most };
+    context.add_once(index, "nesting", finding.assuming(predicate));
 }

@@ -1,12 +1,12 @@
 //! Work offsets by a computed number, where the target keeps them in runs of variables that are apart.
 //!
 //! Law: the variable of row n is `first + (n - from) * step` of the run that holds n, so a branch on where the next run
-//! begins picks it; a run in which the source has no row is never meant. Side condition: the number is one of a row;
-//! another one names no offset on the source.
+//! begins picks it; a run in which the source has no row is never meant. A number with a fraction is rounded, as a
+//! subscript is. Side condition: the number is one of a row; another one names no offset on the source.
 
 use super::rewrite::{Part, Prelude, highest_temp, rebuild, rewrite_program};
 use super::{Context, Rewriter};
-use crate::canon::Sys;
+use crate::canon::{Func, Sys};
 use crate::dialect::Control;
 use crate::ir::{
     Bank, BinOp, Class, Cond, Expr, Module, Place, Program, Relation, Site, StmtKind, TermKind, Var,
@@ -69,6 +69,7 @@ fn has_row(control: &Control, from: u32, end: u32) -> bool {
 }
 
 fn read(row: Expr, runs: &[Run], rewriter: &mut Rewriter<'_>) -> Expr {
+    let row = whole(row);
     if let [run] = runs {
         return place(&row, *run);
     }
@@ -93,6 +94,11 @@ fn inside(row: &Expr, runs: &[Run], at: usize) -> Cond {
     }
 }
 
+/// The row that a computed number means: one with a fraction is rounded before it is counted in steps.
+fn whole(row: Expr) -> Expr {
+    if row.is_whole() { row } else { Expr::Call(Func::Round, [row].into()) }
+}
+
 fn place(row: &Expr, run: Run) -> Expr {
     Expr::Indirect(Bank::Numbered, Box::new(number(row, run)))
 }
@@ -113,6 +119,7 @@ fn write(program: &mut Program, source: &Control, target: &Control) {
             return part.keep(builder);
         };
         let Some((row, runs)) = computed(subscripts, source, target) else { return part.keep(builder) };
+        let row = &whole(row.clone());
         if let [run] = runs[..] {
             let there = Place::Indirect(Bank::Numbered, Box::new(number(row, run)));
             let kind = StmtKind::Assign { target: there, value: value.clone() };

@@ -89,7 +89,10 @@ fn ask(
     let whose = if serial { "what the serial line sends" } else { "the answer" };
     let what = format!("the operator enters {whose} in {register} at the stop, before cycle start");
     context.add(index, Diagnostic::new(Code::Conditional, span, what));
-    let question = question.map(|q| q.trim().trim_end_matches([':', '?', '=', ' ']).to_owned());
+    let question = question.map(|q| {
+        let question = q.trim().trim_end_matches([':', '?', '=', ' ']);
+        question.replace('(', "[").replace(')', "]").replace('%', "PCT")
+    });
     let text = match question.filter(|q| !q.is_empty()) {
         Some(question) => format!("{register} {question}"),
         None => format!("SET {register}"),
@@ -222,6 +225,7 @@ fn plain(text: &str) -> String {
         '[' | '(' => "/".to_owned(),
         ']' | ')' => "/".to_owned(),
         '*' => "X".to_owned(),
+        '%' => "PCT".to_owned(),
         c if c.is_ascii_alphanumeric() || " +-/.,".contains(c) => c.to_string(),
         _ => " ".to_owned(),
     };

@@ -7,10 +7,11 @@
 
 use super::census::{Census, Thing};
 use super::clear;
+use super::locked::{Effective, Locked};
 use super::{Context, Position, Rewriter, rewrite_program};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, VariableClass};
-use crate::ir::analysis::VarSet;
+use crate::ir::analysis::{Numbers, VarSet};
 use crate::ir::{Bank, BinOp, Class, Expr, Module, Place, StmtKind, Var};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,9 +34,26 @@ pub struct Registers {
     pub chosen: BTreeMap<String, u32>,
     /// The registers of temporaries.
     pub scratch: BTreeSet<u32>,
+    /// Variables that lose the register of an earlier run, by name.
+    pub freed: BTreeSet<String>,
+    /// Numbers that programs reach by computing them, or may.
+    pub reached: Numbers,
+    /// The names on the source of variables that have another number now.
+    pub names: BTreeMap<Var, String>,
 }
 
 impl Registers {
+    /// The registers that hold something else than the variable of their number.
+    pub fn taken(&self) -> impl Iterator<Item = u32> + '_ {
+        self.of.iter().filter(|(var, register)| !is_own(var, register)).map(|(_, register)| register.number)
+    }
+
+    /// The registers that hold the variable of their number, locals aside.
+    pub fn own(&self) -> impl Iterator<Item = u32> + '_ {
+        let own = self.of.iter().filter(|(var, register)| is_own(var, register) && var.class != Class::Local);
+        own.map(|(_, register)| register.number)
+    }
+
     /// The registers of variables that a program of the source has.
     pub fn held(&self) -> impl Iterator<Item = u32> + '_ {
         let named = self.of.iter().filter(|(var, _)| var.class != Class::Temp);
@@ -43,13 +61,15 @@ impl Registers {
     }
 }
 
-/// Chooses registers for everything in the library. `locked` are the choices of earlier runs, `scratch`
-/// the registers that their programs have temporaries in.
+fn is_own(var: &Var, register: &Register) -> bool {
+    var.class.nullable() && var.number == register.number
+}
+
+/// Chooses registers for everything in the library, after the choices of earlier runs.
 pub fn allocate(
     module: &mut Module,
     census: &Census,
-    locked: &BTreeMap<String, u32>,
-    scratch: &[u32],
+    locked: &Locked<'_>,
     context: &mut Context<'_>,
 ) -> Registers {
     let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
@@ -72,9 +92,17 @@ pub fn allocate(
             users.entry(Var { class: class_of(*bank), number }).or_insert(*place);
         }
     }
-    let mut pool = Pool::new(context.target, locked, scratch);
-    let mut registers = Registers::default();
-    keep_numbers(&users, &mut pool, &mut registers, context);
+    let banked: Vec<Bank> = banks.keys().copied().collect();
+    let kept: BTreeSet<Var> = users.keys().copied().filter(|var| keeps_number(*var, context)).collect();
+    let effective = super::locked::settle(module, locked, &kept, &banked, context);
+    let mut pool = Pool::new(context, &effective, locked);
+    let mut registers = Registers { freed: effective.freed.clone(), ..Registers::default() };
+    registers.reached = context.reached.sure.clone();
+    registers.reached.join(&context.reached.everything(context.source, context.target));
+    for var in kept {
+        pool.used.insert(var.number);
+        registers.of.insert(var, Register { name: pool.name.clone(), number: var.number });
+    }
     let runs: Vec<(Bank, u32)> =
         banks.keys().filter_map(|bank| run_of(*bank, &mut pool, &users, &mut registers, context)).collect();
     for (&var, &(index, span)) in &users {
@@ -101,7 +129,10 @@ pub fn allocate(
             }
         }
     }
-    super::locked::check(module, locked, &registers, context);
+    super::locked::check(module, &effective.variables, &registers, context);
+    let moved = registers.of.iter().filter(|(var, register)| !is_own(var, register));
+    let named = moved.filter_map(|(var, _)| Some((*var, name_of(*var, module, context.source)?)));
+    registers.names = named.collect();
     point(module, &runs);
     registers
 }
@@ -109,6 +140,22 @@ pub fn allocate(
 /// The class that a bank counts in.
 fn class_of(bank: Bank) -> Class {
     if bank == Bank::Parametric { Class::Parametric } else { Class::Global }
+}
+
+/// What the run of registers of a bank is called in the lock.
+pub(super) fn run_name(bank: Bank) -> String {
+    match bank {
+        Bank::Parametric => "R(..)".into(),
+        Bank::Global | Bank::Numbered => "V(..)".into(),
+    }
+}
+
+/// The variables of a bank of its own: their numbers and names.
+pub(super) fn members(bank: Bank, module: &Module, context: &Context<'_>) -> Vec<(u32, String)> {
+    let numbers = reached(bank, context.source).into_iter();
+    let named =
+        |number| Some((number, name_of(Var { class: class_of(bank), number }, module, context.source)?));
+    numbers.filter_map(named).collect()
 }
 
 /// The numbers that a computed one can be, in a bank of its own.
@@ -144,21 +191,18 @@ pub(super) fn name_of(var: Var, module: &Module, source: &Control) -> Option<Str
     Some(format!("{}{}", row.map_or("#", |row| row.name.as_str()), var.number))
 }
 
-/// Variables whose number the target has too.
-fn keep_numbers(
-    users: &BTreeMap<Var, (usize, Span)>,
-    pool: &mut Pool<'_>,
-    registers: &mut Registers,
-    context: &Context<'_>,
-) {
-    for &var in users.keys().filter(|var| var.class.nullable()) {
-        let there = context.target.variable_class(&pool.name, var.number);
-        let same_kind = there.is_some_and(|row| (row.class == "local") == (var.class == Class::Local));
-        if same_kind && !context.target.is_reserved(&pool.name, var.number) {
-            pool.used.insert(var.number);
-            registers.of.insert(var, Register { name: pool.name.clone(), number: var.number });
-        }
-    }
+/// True for a variable whose number the target has too.
+fn keeps_number(var: Var, context: &Context<'_>) -> bool {
+    let name = pool_name(context.target);
+    let there = context.target.variable_class(&name, var.number);
+    let same_kind = there.is_some_and(|row| (row.class == "local") == (var.class == Class::Local));
+    var.class.nullable() && same_kind && !context.target.is_reserved(&name, var.number)
+}
+
+/// The name that the target's registers have before their number.
+fn pool_name(target: &Control) -> String {
+    let shared = target.classes().iter().find(|row| row.class != "local" && row.class != "letter");
+    shared.map_or_else(|| "#".into(), |row| row.name.clone())
 }
 
 /// Which spaces of computed numbers the library uses, and where first.
@@ -193,17 +237,16 @@ fn run_of(
     registers: &mut Registers,
     context: &mut Context<'_>,
 ) -> Option<(Bank, u32)> {
-    let (class, letter) = match bank {
-        Bank::Global => (Class::Global, "V"),
-        Bank::Parametric => (Class::Parametric, "R"),
-        Bank::Numbered => return None,
-    };
+    if bank == Bank::Numbered {
+        return None;
+    }
+    let (class, name) = (class_of(bank), run_name(bank));
     let numbers: Vec<u32> =
         users.keys().filter(|var| var.class == class).map(|var| var.number).filter(|n| *n <= 100).collect();
     let (first, last) = (*numbers.first()?, *numbers.last()?);
-    match pool.run(first, last, &format!("{letter}(..)")) {
+    match pool.run(first, last, &name) {
         Some(base) => {
-            registers.chosen.insert(format!("{letter}(..)"), base);
+            registers.chosen.insert(name, base);
             for number in numbers {
                 let register = Register { name: pool.name.clone(), number: base + number };
                 registers.of.insert(Var { class, number }, register);
@@ -269,24 +312,33 @@ struct Pool<'a> {
     locked: &'a BTreeMap<String, u32>,
     /// Where temporaries go first, and nothing else ever.
     scratch: BTreeSet<u32>,
+    /// Numbers that computed ones reach.
+    reached: Numbers,
+    /// Numbers that computed ones are supposed to be: taken where nothing else is free.
+    supposed: Numbers,
     target: &'a Control,
 }
 
 impl<'a> Pool<'a> {
-    fn new(target: &'a Control, locked: &'a BTreeMap<String, u32>, scratch: &[u32]) -> Self {
+    fn new(context: &Context<'a>, effective: &'a Effective, locked: &Locked<'_>) -> Self {
+        let target = context.target;
+        let supposed = context.reached.supposed();
+        let mut reached = context.reached.sure.clone();
+        reached.join(&locked.reached);
         let mut rows: Vec<&VariableClass> =
             target.classes().iter().filter(|row| row.class != "local" && row.class != "letter").collect();
         // What every control of the kind has comes before what must be bought.
         rows.sort_by_key(|row| (row.option.is_some(), row.first));
-        let name = rows.first().map_or_else(|| "#".into(), |row| row.name.clone());
-        let used = locked.values().copied().collect();
-        let scratch = scratch.iter().copied().collect();
-        Self { name, rows, used, locked, scratch, target }
+        let name = pool_name(target);
+        let used = effective.variables.values().chain(locked.own).copied().collect();
+        let scratch = effective.scratch.clone();
+        Self { name, rows, used, locked: &effective.variables, scratch, reached, supposed, target }
     }
 
     fn free(&self, number: u32) -> bool {
         !self.used.contains(&number)
             && !self.scratch.contains(&number)
+            && !self.reached.contains(number)
             && !self.target.is_reserved(&self.name, number)
     }
 
@@ -300,11 +352,16 @@ impl<'a> Pool<'a> {
         let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
         let again = |number: &u32| {
             let taken = self.used.contains(number) || self.target.is_reserved(&self.name, *number);
-            class == Class::Temp && !taken
+            class == Class::Temp && !taken && !self.reached.contains(*number)
         };
-        let number = self.scratch.iter().copied().find(again).or_else(|| {
-            preferred.chain(rest).flat_map(|row| row.first..=row.last).find(|number| self.free(*number))
-        })?;
+        let free: Vec<u32> = preferred
+            .chain(rest)
+            .flat_map(|row| row.first..=row.last)
+            .filter(|number| self.free(*number))
+            .collect();
+        let in_use = |number: u32| self.target.is_in_use(&self.name, number);
+        let best = || free.iter().copied().min_by_key(|n| (self.supposed.contains(*n), in_use(*n)));
+        let number = self.scratch.iter().copied().find(again).or_else(best)?;
         self.used.insert(number);
         Some(number)
     }
@@ -322,8 +379,12 @@ impl<'a> Pool<'a> {
         let fits = |base: &u32| (base + first..=base + last).all(|n| all.contains(&n) && self.free(n));
         // Round bases read best: V12 in #512 or #612.
         let bases = numbers.iter().filter_map(|n| n.checked_sub(first));
-        let round = bases.clone().filter(|base| base % 100 == 0).find(&fits);
-        let base = round.or_else(|| bases.clone().find(&fits))?;
+        let shunned = |number| self.supposed.contains(number) || self.target.is_in_use(&self.name, number);
+        let apart = |base: &u32| !(base + first..=base + last).any(shunned);
+        let round = bases.clone().filter(|base| base % 100 == 0).find(|base| fits(base) && apart(base));
+        let base = round
+            .or_else(|| bases.clone().find(|base| fits(base) && apart(base)))
+            .or_else(|| bases.clone().find(&fits))?;
         self.used.extend(base + first..=base + last);
         Some(base)
     }

@@ -12,6 +12,7 @@ use super::emptied::drop_emptied;
 use super::exposed::roots;
 use super::increments::names_unit;
 use super::{Context, ModalFacts, calls_of, reachable};
+use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Units};
@@ -59,7 +60,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             let what = format!(
                 "{why}: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)"
             );
-            context.add_once(root, "units", Diagnostic::new(Code::Conditional, span, what));
+            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
+            context.add_once(root, "units", finding);
             continue;
         };
         let op = if units == Units::Inch { Op::Inch } else { Op::Metric };
@@ -69,7 +71,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         if theirs.is_some_and(|theirs| theirs != units) {
             let what = "the program selects the unit of the source, and the target is set to the other one: its offsets must be kept for this program's unit";
             let span = module.programs[root].site.span;
-            context.add_once(root, "units", Diagnostic::new(Code::Conditional, span, what));
+            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
+            context.add_once(root, "units", finding);
         }
         head(&mut module.programs[root], op);
         changed = true;

@@ -1,14 +1,16 @@
 //! A library from one control to another: read, lower, link, legalize, emit.
 
-use super::names::{number_programs, report_twins};
+use super::names::{naming, number_programs, report_twins};
 use super::parts::lower;
-use super::{Input, Lock, refused_calls};
+use super::refused_calls::{self, Link};
+use super::{Input, Lock, machine_kind};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
-use crate::emit::{Emitted, Naming, Register, Writer};
+use crate::emit::{Emitted, Writer};
+use crate::ir::analysis::Numbers;
 use crate::ir::validate::{Invalid, breaches};
 use crate::ir::{Module, Program};
-use crate::legalize::{Context, Modal, Registers, assign_registers, legalize};
+use crate::legalize::{Context, Modal, assign_registers, legalize};
 use crate::lower::Lowered;
 use crate::opt;
 use crate::syntax::{ProgramName, parse_faults};
@@ -45,6 +47,8 @@ pub struct ProgramReport {
     pub diagnostics: Vec<Diagnostic>,
     /// Which bytes of the target file each block comes from: source span, target range.
     pub map: Vec<(Span, std::ops::Range<usize>)>,
+    /// The bytes of the target file that are its own; empty where nothing is written.
+    pub range: std::ops::Range<usize>,
 }
 
 /// What became of a library.
@@ -56,6 +60,12 @@ pub struct Conversion {
     pub texts: Vec<Option<String>>,
     /// What the next run is to choose again.
     pub lock: Lock,
+    /// The registers that were taken on the target.
+    pub taken: Numbers,
+    /// True where the target's profile says which registers the shop keeps for itself.
+    pub states_reserved: bool,
+    /// The calls between its programs.
+    pub links: Vec<Link>,
 }
 
 /// How a library is converted.
@@ -85,6 +95,7 @@ pub fn convert(
     if source.is_same_machine(target) {
         return unchanged(inputs, source, lock);
     }
+    let lock = lock.for_run(inputs.iter().map(|input| input.name.as_str()));
     if let Some(done) = super::segments::convert(inputs, source, target, &lock, options) {
         return done;
     }
@@ -106,6 +117,7 @@ pub fn convert(
         module.programs.iter().map(|p| p.name.as_ref().map(ToString::to_string)).collect();
     name_the_nameless(&mut module, inputs, source, target);
     report_twins(&module, inputs, &mut found);
+    machine_kind::report(&module, inputs, source, &mut found);
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];
     let original = options.draft.then(|| (module.clone(), found.clone()));
@@ -124,6 +136,7 @@ pub fn convert(
             super::draft::keep_errors(&made.found, &mut next.found);
             made = next;
         }
+        refused_calls::report(&made.links, &mut made.found);
     }
     let mut texts = Vec::with_capacity(files.len());
     let mut reports: Vec<ProgramReport> = Vec::with_capacity(written.len());
@@ -142,6 +155,7 @@ pub fn convert(
             drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut map = Vec::new();
+            let start = text.len();
             if outcome != Outcome::Refused || options.draft {
                 // Nothing else shows where a program without a number begins.
                 if framed && written[index].is_none() && text.len() > head && same_family(source, target) {
@@ -167,13 +181,15 @@ pub fn convert(
                 verdict: None,
                 diagnostics,
                 map,
+                range: start..text.len(),
             });
         }
         text.push_str(if framed { "%\n" } else { "" });
         texts.push(any.then_some(text));
     }
     debug_assert!(home.windows(2).all(|w| w[0] <= w[1]));
-    Conversion { programs: reports, texts, lock: made.lock }
+    let (lock, taken, links) = (made.lock, made.taken, made.links);
+    Conversion { programs: reports, texts, lock, taken, states_reserved: target.states_reserved(), links }
 }
 
 fn same_family(source: &Control, target: &Control) -> bool {
@@ -197,6 +213,8 @@ pub(super) struct Made {
     pub found: Vec<Vec<Diagnostic>>,
     pub parts: Vec<Vec<Emitted>>,
     lock: Lock,
+    pub taken: Numbers,
+    links: Vec<Link>,
 }
 
 pub(super) fn make(
@@ -217,13 +235,11 @@ pub(super) fn make(
     legalize(&mut module, &mut context);
     let tidied = opt::run(&mut module, opt::Options { level, legalized: true, ..Default::default() });
     fault = fault.or(tidied.err());
-    let registers = assign_registers(&mut module, &lock.variables, &lock.scratch, &mut context);
+    let registers = assign_registers(&mut module, &lock.locked(), &mut context);
     let names = number_programs(&module, &mut lock, target, &mut context);
-    lock.variables.extend(registers.chosen.clone());
-    let held: BTreeSet<u32> = registers.held().collect();
-    let scratch: BTreeSet<u32> = registers.scratch.iter().chain(&lock.scratch).copied().collect();
-    lock.scratch = scratch.difference(&held).copied().collect();
-    let naming = naming(&module, &registers, &names);
+    lock.take(&registers);
+    let taken = Numbers::of(registers.taken().map(|number| (number, number)));
+    let mut naming = naming(&module, &registers, &names);
     let origins = context.origins.clone();
     let legal = context.into_findings();
     found.resize_with(count, Vec::new);
@@ -233,6 +249,15 @@ pub(super) fn make(
         found.iter_mut().for_each(|all| {
             all.push(Diagnostic::new(Code::Internal, Span::default(), fault.to_string()));
         });
+    }
+    // A return to any block must not find one that is numbered here: it stops before, where there is such a block.
+    if let (Some(floor), Some(emit)) = (naming.returns_floor(target.text().sequence_max), target.entry().emit)
+    {
+        let write = emit(&naming, target);
+        if module.programs.par_iter().any(|program| write(program).is_ok_and(|made| made.invents)) {
+            drop(write);
+            naming.set_guard(floor);
+        }
     }
     let write = target.entry().emit.map(|emit| emit(&naming, target));
     let links = refused_calls::links(&module, &origins);
@@ -262,7 +287,7 @@ pub(super) fn make(
             all.push(Diagnostic::new(Code::Internal, Span::default(), broken.join("; ")));
         }
     }
-    Made { found, parts, lock }
+    Made { found, parts, lock, taken, links }
 }
 
 /// Adds findings but for facts of the source that lowering has told already.
@@ -302,27 +327,6 @@ fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Resu
         })
         .collect();
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
-}
-
-fn naming(module: &Module, registers: &Registers, names: &[(ProgramName, u32)]) -> Naming {
-    let mut naming = Naming::new();
-    for (var, register) in &registers.of {
-        naming.set_variable(*var, Register::number(&register.name, register.number));
-    }
-    for (name, number) in names {
-        naming.set_program(name.clone(), *number);
-    }
-    for program in &module.programs {
-        for block in &program.blocks {
-            if let crate::ir::TermKind::Return { to: Some(to) } = &block.term.kind {
-                match to.constant() {
-                    Some(number) => naming.keep_sequence(number as u32),
-                    None => naming.keep_every_sequence(),
-                }
-            }
-        }
-    }
-    naming
 }
 
 /// Emission fails again where an earlier part already said why, and lowering where reading did: the first word is
@@ -371,8 +375,10 @@ fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
                 diagnostics.into_iter().filter(|d| d.severity() == Severity::Error).collect();
             let outcome = outcome(&diagnostics);
             let name = program.name.as_ref().map(ToString::to_string);
-            ProgramReport { file: at, name, outcome, verdict: None, diagnostics, map: Vec::new() }
+            let (verdict, map, range) = (None, Vec::new(), 0..0);
+            ProgramReport { file: at, name, outcome, verdict, diagnostics, map, range }
         }));
     }
-    Conversion { programs, texts, lock }
+    let (taken, links) = (Numbers::default(), Vec::new());
+    Conversion { programs, texts, lock, taken, states_reserved: control.states_reserved(), links }
 }

@@ -1,12 +1,14 @@
 //! Which control a library is written for, by its text.
 
 use super::Input;
-use crate::dialect::{Entry, registry};
-use crate::syntax::{ItemKind, for_each_item, parse_file};
+use crate::dialect::{Control, Entry, registry};
+use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
+use rayon::prelude::*;
 
-/// Bytes of each file that are looked at, and how many files.
+/// Bytes of each file that are looked at: of a few files, and of many.
 const HEAD: usize = 16 * 1024;
-const FILES: usize = 40;
+const SHORT: usize = 2 * 1024;
+const FEW: usize = 40;
 
 /// What the text says.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,42 +17,176 @@ pub enum Detected {
     Sure(&'static Entry),
     /// These read it alike.
     Unsure(Vec<&'static Entry>),
+    /// Most of it looks like the first, and a file, which is named, like the second.
+    Mixed(&'static Entry, String, &'static Entry),
+}
+
+/// How many blocks there are, and how many of them a control reads without fault and has the codes of.
+#[derive(Clone, Copy, Debug, Default)]
+struct Score {
+    good: usize,
+    all: usize,
+}
+
+impl Score {
+    fn share(self) -> f64 {
+        if self.all > 0 { self.good as f64 / self.all as f64 } else { 0.0 }
+    }
+
+    /// True where this control reads clearly more: some blocks, and a good part of all.
+    fn is_far_above(self, other: Self) -> bool {
+        self.share() > 0.5 && self.good >= other.good + 3 && self.share() > other.share() + 0.15
+    }
+
+    fn add(self, other: Self) -> Self {
+        Self { good: self.good + other.good, all: self.all + other.all }
+    }
 }
 
 /// Reads the heads of the files by every control's grammar: the one that finds fewest faults, and
-/// most words its table has a meaning for, is the one, where it is ahead of the others.
+/// most words its table has a meaning for, is the one, where it is ahead of the others and no file is clearly
+/// another control's. A file that shows nothing goes with the others.
 pub fn detect(inputs: &[Input]) -> Detected {
-    let mut scores: Vec<(f64, &'static Entry)> =
-        registry::all().iter().map(|entry| (score(entry, inputs), entry)).collect();
-    scores.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let best = scores.first().map_or(0.0, |(score, _)| *score);
+    let files = scores(inputs, if inputs.len() <= FEW { HEAD } else { SHORT });
+    let mut whole = of_all(&files);
+    whole.sort_by(|a, b| b.0.share().total_cmp(&a.0.share()));
+    let best = whole.first().map_or(0.0, |(score, _)| score.share());
     let near: Vec<&'static Entry> =
-        scores.iter().filter(|(score, _)| *score >= best - 0.02).map(|(_, entry)| *entry).collect();
+        whole.iter().filter(|(score, _)| score.share() >= best - 0.02).map(|(_, entry)| *entry).collect();
+    let Some(first) = near.first() else { return Detected::Unsure(near) };
+    for (input, file) in inputs.iter().zip(&files) {
+        let of = |entry: &Entry| file.iter().find(|(_, e)| *e == entry).map_or(Score::default(), |(s, _)| *s);
+        let above = |(score, _): &&(Score, _)| near.iter().all(|near| score.is_far_above(of(near)));
+        if let Some((_, other)) = file.iter().filter(above).max_by_key(|(score, _)| score.good) {
+            return Detected::Mixed(first, input.name.clone(), other);
+        }
+    }
     match near.as_slice() {
         [one] if best > 0.5 => Detected::Sure(one),
         _ => Detected::Unsure(near),
     }
 }
 
-/// The share of blocks without fault whose codes the table knows.
-fn score(entry: &'static Entry, inputs: &[Input]) -> f64 {
-    let Some(control) = crate::dialect::Control::plain(entry.name) else { return 0.0 };
-    let (mut good, mut all) = (0.0, 0.0);
-    for input in inputs.iter().take(FILES) {
-        let end = input.bytes.len().min(HEAD);
-        for block in parse_file(&input.bytes[..end], entry.parse).blocks {
-            let mut known = block.errors.is_empty();
-            for_each_item(&block.items, &mut |item| {
-                if let ItemKind::Word(word) = &item.kind
-                    && let ('G' | 'M', Some(value)) = (word.letter, &word.value)
-                    && let crate::syntax::ExprKind::Number(number) = &value.kind
-                {
-                    known &= control.code(word.letter, number.value, &[]).is_some();
-                }
-            });
-            all += 1.0;
-            good += f64::from(u8::from(known));
+/// What programs look like that are said to be written for `named`: a sentence, where another control clearly reads
+/// more of them, or of one file.
+pub fn looks_like(inputs: &[Input], named: &str) -> Option<String> {
+    let step = inputs.len().div_ceil(FEW).max(1);
+    let some: Vec<Input> = inputs.iter().step_by(step).map(head).collect();
+    let files = scores(&some, SHORT);
+    let of = |scores: &[(Score, &Entry)]| scores.iter().find(|(_, e)| e.name == named).map(|(s, _)| *s);
+    let told = |scores: &[(Score, &'static Entry)], what: &str| {
+        let own = of(scores)?;
+        let (best, entry) = scores.iter().max_by_key(|(score, _)| score.good)?;
+        best.is_far_above(own).then(|| {
+            format!(
+                "{what} looks like {}: of {} blocks it reads {}, and {named} reads {}",
+                entry.name, best.all, best.good, own.good
+            )
+        })
+    };
+    let single = || some.iter().zip(&files).find_map(|(input, file)| told(file, &input.name));
+    told(&of_all(&files), "the text").or_else(single)
+}
+
+/// The start of a file, to its last whole line.
+fn head(input: &Input) -> Input {
+    Input { path: input.path.clone(), name: input.name.clone(), bytes: start(&input.bytes, SHORT).to_vec() }
+}
+
+fn start(bytes: &[u8], most: usize) -> &[u8] {
+    match bytes.get(..most) {
+        Some(head) => {
+            let end = head.iter().rposition(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(most);
+            head.get(..end).unwrap_or(head)
+        }
+        None => bytes,
+    }
+}
+
+/// How each control reads each file.
+fn scores(inputs: &[Input], most: usize) -> Vec<Vec<(Score, &'static Entry)>> {
+    let plain = |entry: &'static Entry| Some((Control::plain(entry.name)?, entry));
+    let controls: Vec<(Control, &'static Entry)> = registry::all().iter().filter_map(plain).collect();
+    let of = |input: &Input| {
+        controls.iter().map(|(c, entry)| (score(c, start(&input.bytes, most)), *entry)).collect()
+    };
+    inputs.par_iter().map(of).collect()
+}
+
+fn of_all(files: &[Vec<(Score, &'static Entry)>]) -> Vec<(Score, &'static Entry)> {
+    let sum = |at: usize| {
+        files.iter().filter_map(|file| file.get(at)).map(|(s, _)| *s).fold(Score::default(), Score::add)
+    };
+    registry::all().iter().enumerate().map(|(at, entry)| (sum(at), entry)).collect()
+}
+
+/// The blocks without fault whose codes the table knows.
+fn score(control: &Control, bytes: &[u8]) -> Score {
+    let mut score = Score::default();
+    for block in parse_file(bytes, control.entry().parse).blocks {
+        let mut known = block.errors.is_empty();
+        for_each_item(&block.items, &mut |item| {
+            if let ItemKind::Word(word) = &item.kind
+                && let ('G' | 'M', Some(value)) = (word.letter, &word.value)
+                && let ExprKind::Number(number) = &value.kind
+            {
+                known &= control.code(word.letter, number.value, &[]).is_some();
+            }
+        });
+        score.all += 1;
+        score.good += usize::from(known);
+    }
+    score
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::gather;
+
+    fn corpus(dialect: &str) -> Vec<Input> {
+        let (inputs, errors) =
+            gather(&[format!("{}/corpus/{dialect}", env!("CARGO_MANIFEST_DIR")).into()], &[]);
+        assert!(errors.is_empty());
+        inputs
+    }
+
+    #[test]
+    fn the_corpus_looks_like_itself() {
+        for entry in registry::all() {
+            let inputs = corpus(entry.name);
+            assert_eq!(looks_like(&inputs, entry.name), None);
+            match detect(&inputs) {
+                Detected::Sure(found) => assert_eq!(found.name, entry.name),
+                Detected::Unsure(near) => assert!(near.iter().any(|near| near.name == entry.name)),
+                Detected::Mixed(_, file, like) => panic!("{file} is taken for {}", like.name),
+            }
         }
     }
-    if all > 0.0 { good / all } else { 0.0 }
+
+    #[test]
+    fn a_wrong_name_is_told() {
+        for (own, named) in [("fadal", "fanuc"), ("fadal", "cc100"), ("cc100", "haas"), ("fanuc", "fadal")] {
+            let told = looks_like(&corpus(own), named).unwrap_or_default();
+            assert!(
+                told.contains(&format!("looks like {own}")) || own == "fanuc" && told.contains("haas"),
+                "{told}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_folder_of_two_kinds_is_not_guessed() {
+        let mut inputs = corpus("fanuc");
+        let plain = Input { path: "p.nc".into(), name: "p.nc".into(), bytes: b"O1\nG0 X1.\nM30\n".to_vec() };
+        inputs.push(plain);
+        assert!(!matches!(detect(&inputs), Detected::Mixed(..)));
+        inputs.extend(corpus("fadal").into_iter().filter(|input| input.name == "o800-dhole.nc"));
+        let Detected::Mixed(most, file, like) = detect(&inputs) else { panic!("{:?}", detect(&inputs)) };
+        assert_eq!((file.as_str(), like.name), ("o800-dhole.nc", "fadal"));
+        assert!(["fanuc", "haas"].contains(&most.name));
+        assert!(
+            looks_like(&inputs, "fanuc").is_some_and(|told| told.contains("o800-dhole.nc looks like fadal"))
+        );
+    }
 }

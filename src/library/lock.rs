@@ -1,8 +1,10 @@
 //! `macroglot.lock`: which register holds which variable, which number a program
 //! got. Later runs honour it, so that a library stays one library; a reviewer can read it.
 
+use crate::ir::analysis::Numbers;
+use crate::legalize::{Locked, Registers};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The choices of earlier runs.
@@ -18,6 +20,18 @@ pub struct Lock {
     /// Registers of the target for values in between: no program may rely on what they hold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scratch: Vec<u32>,
+    /// The files whose programs rely on what stands here, by their names among the inputs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<String>,
+    /// Variables that programs have under their own number: nothing else goes there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub own: Vec<u32>,
+    /// Runs of numbers that programs reach by computing them: nothing else goes there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reached: Vec<(u32, u32)>,
+    /// Files of earlier runs that the present run does not convert: what they rely on stays as it is.
+    #[serde(skip)]
+    pub others: Vec<String>,
     /// Register numbers on the target, by the variable's name on the source.
     #[serde(default)]
     pub variables: BTreeMap<String, u32>,
@@ -49,11 +63,15 @@ pub enum LockError {
 /// The version that is written.
 const VERSION: u32 = 1;
 
+/// What stands for the files of a lock that does not name them.
+const UNNAMED: &str = "programs that were converted before";
+
 const HEAD: &str = "\
 # Which register of the target holds which variable of the source, which hold
 # values in between (scratch), and which number each program got that had none
-# there. Written by macroglot, honoured by its next run; keep it with the
-# converted programs.
+# there. Nothing goes to the numbers in own and reached: the programs of the files
+# use them themselves. Written by macroglot, honoured by its next run; keep it
+# with the converted programs.
 
 ";
 
@@ -64,6 +82,50 @@ impl Lock {
     /// An empty lock for a pair of dialects.
     pub fn new(from: &str, to: &str) -> Self {
         Self { version: VERSION, from: from.into(), to: to.into(), ..Self::default() }
+    }
+
+    /// The lock for a run that converts the files of these names.
+    #[must_use]
+    pub fn for_run<'n>(mut self, names: impl Iterator<Item = &'n str>) -> Self {
+        let names: BTreeSet<&str> = names.collect();
+        let chosen = !self.variables.is_empty() || !self.scratch.is_empty();
+        self.others = match self.files.is_empty() && chosen {
+            // An older lock does not say which.
+            true => vec![UNNAMED.into()],
+            false => self.files.iter().filter(|file| !names.contains(file.as_str())).cloned().collect(),
+        };
+        if self.others.is_empty() {
+            (self.own, self.reached) = Default::default();
+        }
+        let named = self.others.iter().filter(|file| *file != UNNAMED).cloned();
+        self.files = named.chain(names.into_iter().map(str::to_owned)).collect();
+        self.files.sort_unstable();
+        self
+    }
+
+    /// Takes over what a run chose.
+    pub fn take(&mut self, registers: &Registers) {
+        let freed = |name: &String, _: &mut u32| !registers.freed.contains(name);
+        self.variables.retain(freed);
+        self.variables.extend(registers.chosen.clone());
+        let held: BTreeSet<u32> = registers.held().filter(|_| self.others.is_empty()).collect();
+        let scratch: BTreeSet<u32> = registers.scratch.iter().chain(&self.scratch).copied().collect();
+        self.scratch = scratch.difference(&held).copied().collect();
+        let own: BTreeSet<u32> = self.own.iter().copied().chain(registers.own()).collect();
+        self.own = own.into_iter().collect();
+        let reached = self.reached.iter().chain(registers.reached.runs()).copied();
+        self.reached = Numbers::of(reached).runs().to_vec();
+    }
+
+    /// What the passes are told of it.
+    pub fn locked(&self) -> Locked<'_> {
+        Locked {
+            variables: &self.variables,
+            scratch: &self.scratch,
+            own: &self.own,
+            reached: Numbers::of(self.reached.iter().copied()),
+            others: &self.others,
+        }
     }
 
     /// The lock at `path`; an empty one where there is none.

@@ -1,10 +1,12 @@
-//! Program numbers on the target.
+//! Names on the target: numbers of programs, registers of variables.
 
 use super::{Input, Lock};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{Callee, Module, TermKind};
-use crate::legalize::{Context, calls_of};
+use crate::emit::{Naming, Register, last_sequence};
+use crate::ir::analysis::{Numbers, Ranges, Summaries};
+use crate::ir::{Block, Call, Callee, Module, Program, StmtKind, TermKind};
+use crate::legalize::{Context, Registers, calls_of};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,7 +34,10 @@ pub fn number_programs(
             taken.insert(*n);
         }
     }
+    // A computed call must not find a program that has its number by this conversion.
+    let looked_for = computed_calls(module);
     let max = target.text().program_max;
+    let bounded = looked_for.last().is_none_or(|last| last < max);
     // Numbers are only ever taken: each search goes on where the last one ended.
     let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| (first..=max).chain(1..first));
     let mut out = Vec::new();
@@ -44,7 +49,7 @@ pub fn number_programs(
             (Some(n), _) => Some(*n),
             _ => {
                 let sub = program.returns() && !program.ends();
-                free[usize::from(sub)].find(|n| !taken.contains(n))
+                free[usize::from(sub)].find(|n| !(taken.contains(n) || bounded && looked_for.contains(*n)))
             }
         };
         match number {
@@ -73,7 +78,104 @@ pub fn number_programs(
             }
         }
     }
+    report_looked_for(module, &looked_for, &out, context);
     out
+}
+
+fn computed(call: &Call) -> bool {
+    matches!(call.callee, Callee::Computed(_))
+}
+
+/// The numbers of programs that computed calls look for.
+fn computed_calls(module: &Module) -> Numbers {
+    let callee = |block: &Block| match &block.term.kind {
+        TermKind::Call { call, .. } => match &call.callee {
+            Callee::Computed(number) => Some(number.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    let mut all = Numbers::default();
+    if !module.programs.iter().flat_map(|program| &program.blocks).any(|block| calls_of(block).any(computed))
+    {
+        return all;
+    }
+    let summaries = Summaries::of(module);
+    for program in &module.programs {
+        let ranges = Ranges::of_any_inputs(program, &summaries);
+        for (id, block) in program.ids().zip(&program.blocks) {
+            // A modal one is called from wherever an axis moves.
+            if block
+                .stmts
+                .iter()
+                .any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call)))
+            {
+                return Numbers::of([(0, u32::MAX)]);
+            }
+            if let Some(number) = callee(block) {
+                all.join(&ranges.at(id, block.stmts.len(), &number).numbers());
+            }
+        }
+    }
+    all
+}
+
+/// Says where a computed call may look for a number that the conversion gave to a program.
+fn report_looked_for(
+    module: &Module,
+    looked_for: &Numbers,
+    given: &[(ProgramName, u32)],
+    context: &mut Context<'_>,
+) {
+    let made = given.iter().filter(|(name, n)| *name != ProgramName::Number(*n) && looked_for.contains(*n));
+    let made: BTreeSet<String> = made.map(|(_, number)| ProgramName::Number(*number).to_string()).collect();
+    if made.is_empty() {
+        return;
+    }
+    let what = format!(
+        "which program is called is computed: it must be none of {}, which this conversion numbered",
+        made.into_iter().collect::<Vec<_>>().join(", ")
+    );
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            if calls_of(block).any(computed) {
+                let told = Diagnostic::new(Code::Conditional, block.term.site.span, what.clone());
+                context.add_once(index, &what, told);
+            }
+        }
+    }
+}
+
+/// What everything is called on the target.
+pub fn naming(module: &Module, registers: &Registers, names: &[(ProgramName, u32)]) -> Naming {
+    let mut naming = Naming::new();
+    for (var, register) in &registers.of {
+        let label = registers.names.get(var).cloned();
+        naming.set_variable(*var, Register { label, ..Register::number(&register.name, register.number) });
+    }
+    for (name, number) in names {
+        naming.set_program(name.clone(), *number);
+    }
+    let looks = |program: &Program| {
+        let looks =
+            |kind: &TermKind| matches!(kind, TermKind::Computed { .. } | TermKind::Return { to: Some(_) });
+        program.blocks.iter().any(|block| looks(&block.term.kind))
+    };
+    if !module.programs.iter().any(looks) {
+        return naming;
+    }
+    let summaries = Summaries::of(module);
+    for program in module.programs.iter().filter(|program| looks(program)) {
+        let ranges = Ranges::of_any_inputs(program, &summaries);
+        for (id, block) in program.ids().zip(&program.blocks) {
+            if let TermKind::Return { to: Some(to) } = &block.term.kind {
+                naming.keep_sequences(&ranges.at(id, block.stmts.len(), to).numbers());
+            }
+        }
+    }
+    let last = module.programs.iter().map(last_sequence).max().unwrap_or(0);
+    naming.set_summaries(summaries, last);
+    naming
 }
 
 /// Reports programs that share a number: only one of them can be in a control. Where the library calls

@@ -56,16 +56,15 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
         places.push(place);
     }
     for (name, place) in names.iter().zip(&places) {
-        let beside = certificate_of(place);
-        if let Some(other) = taken.get(&format!("{name}{CERTIFICATE}").to_lowercase()) {
-            return Err(OutputError::Collision(
-                format!("the certificate of {name}"),
-                (*other).into(),
-                beside,
-            ));
-        }
-        if sources.holds(&beside) {
-            return Err(OutputError::OverInput(beside));
+        for ending in [CERTIFICATE, WITHHELD] {
+            let beside = beside(place, ending);
+            if let Some(other) = taken.get(&format!("{name}{ending}").to_lowercase()) {
+                let certificate = format!("the certificate of {name}");
+                return Err(OutputError::Collision(certificate, (*other).into(), beside));
+            }
+            if sources.holds(&beside) {
+                return Err(OutputError::OverInput(beside));
+            }
         }
     }
     let base = real(folder);
@@ -79,10 +78,22 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
 /// What a certificate's name has behind that of its program's file.
 const CERTIFICATE: &str = ".certificate.json";
 
+/// What the name of a certificate has there whose programs are not written: no text is taken for theirs.
+const WITHHELD: &str = ".not-written.json";
+
 /// Where the certificate of a conversion goes.
 pub fn certificate_of(place: &Path) -> PathBuf {
+    beside(place, CERTIFICATE)
+}
+
+/// Where the certificate of programs goes that were converted and are not written.
+pub fn withheld_of(place: &Path) -> PathBuf {
+    beside(place, WITHHELD)
+}
+
+fn beside(place: &Path, ending: &str) -> PathBuf {
     let mut path = place.as_os_str().to_owned();
-    path.push(CERTIFICATE);
+    path.push(ending);
     path.into()
 }
 

@@ -5,21 +5,37 @@
 //! else can supply that.
 
 use crate::diag::{Code, Diagnostic, Severity};
-use crate::ir::{Callee, Module};
+use crate::ir::{Callee, Module, TermKind};
 use crate::legalize::{calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A call between two programs of the source, by what either became.
-pub(super) struct Link {
-    caller: usize,
-    callee: usize,
-    /// The callee's name on the source, as it is written there.
-    name: String,
-    /// True where what is called is a copy or a part of it.
-    made: bool,
-    span: Span,
+/// A call that the conversion of a program of the source makes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// The index of that program among the reports.
+    pub caller: usize,
+    /// What it calls.
+    pub callee: Linked,
+    /// Where the call stands in the source.
+    pub span: Span,
+}
+
+/// What is called.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Linked {
+    /// A program of the library.
+    Program {
+        /// Its index among the reports.
+        at: usize,
+        /// Its name on the source, as it is written there.
+        name: String,
+        /// True where what is called is a copy that the conversion made of it.
+        made: bool,
+    },
+    /// The program with a number that is known only when the program runs.
+    Computed,
 }
 
 /// The calls of a library; `origins` says of which program of the source each of its programs is a part.
@@ -30,20 +46,30 @@ pub(super) fn links(module: &Module, origins: &[usize]) -> Vec<Link> {
     });
     let names = module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at)));
     let by_name: BTreeMap<&ProgramName, usize> = names.collect();
+    let linked = |name: &ProgramName, caller: usize| {
+        let at = *by_name.get(name)?;
+        let callee = *origins.get(at).filter(|callee| **callee != caller)?;
+        let primary = first.get(&callee).copied().unwrap_or(at);
+        let name = match module.programs.get(primary)?.name.as_ref()? {
+            ProgramName::Number(number) => format!("O{number}"),
+            ProgramName::Name(name) => name.clone(),
+        };
+        Some(Linked::Program { at: callee, name, made: primary != at })
+    };
     let mut links = Vec::new();
     for (program, &caller) in module.programs.iter().zip(origins) {
         for block in &program.blocks {
             for call in calls_of(block) {
-                let Callee::Program(name) = &call.callee else { continue };
-                let Some(&at) = by_name.get(name) else { continue };
-                let Some(&callee) = origins.get(at).filter(|callee| **callee != caller) else { continue };
-                let primary = first.get(&callee).copied().unwrap_or(at);
-                let name = match module.programs.get(primary).and_then(|program| program.name.as_ref()) {
-                    Some(ProgramName::Number(number)) => format!("O{number}"),
-                    Some(ProgramName::Name(name)) => name.clone(),
-                    None => continue,
+                let callee = match &call.callee {
+                    Callee::Program(name) => linked(name, caller),
+                    Callee::Computed(_) => Some(Linked::Computed),
+                    Callee::Block(_) | Callee::Cycle(_) => None,
                 };
-                links.push(Link { caller, callee, name, made: primary != at, span: span_of(block, call) });
+                links.extend(callee.map(|callee| Link { caller, callee, span: span_of(block, call) }));
+            }
+            if let TermKind::Chain(name) = &block.term.kind {
+                let span = block.term.site.span;
+                links.extend(linked(name, caller).map(|callee| Link { caller, callee, span }));
             }
         }
     }
@@ -62,11 +88,11 @@ pub(super) fn report(links: &[Link], found: &mut [Vec<Diagnostic>]) {
     let mut changed = true;
     while std::mem::take(&mut changed) {
         for link in links {
-            if !refused.contains(&link.callee) || !told.insert((link.caller, link.callee, link.made)) {
+            let Linked::Program { at, name, made } = &link.callee else { continue };
+            if !refused.contains(at) || !told.insert((link.caller, *at, *made)) {
                 continue;
             }
-            let Link { name, span, .. } = link;
-            let (code, what) = if link.made {
+            let (code, what) = if *made {
                 changed |= refused.insert(link.caller);
                 (Code::NoEquivalent, format!("calls a copy of {name}, which is refused"))
             } else {
@@ -75,7 +101,7 @@ pub(super) fn report(links: &[Link], found: &mut [Vec<Diagnostic>]) {
                 );
                 (Code::OutsideLibrary, what)
             };
-            found[link.caller].push(Diagnostic::new(code, *span, what));
+            found[link.caller].push(Diagnostic::new(code, link.span, what));
         }
     }
 }

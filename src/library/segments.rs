@@ -13,6 +13,7 @@ use super::{Conversion, Input, Lock, Options, Outcome};
 use crate::canon::Op;
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
+use crate::ir::analysis::Numbers;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::lower::Lowered;
@@ -93,6 +94,10 @@ fn convert_pieces(
             .into_par_iter()
             .map(|(entry, piece)| piece_made(piece, entry, source, target, lock, options))
             .collect();
+        // A register is named at the head of its program, and in the lock.
+        if made.iter().any(|(_, made, _)| !made.taken.is_empty()) {
+            return None;
+        }
         made.into_iter().for_each(|(names, made, tape)| sink.add(names, made, tape));
     }
     Some(sink.finish(source, target, lock.clone()))
@@ -158,6 +163,9 @@ fn is_plain(item: &Item, source: &Control) -> bool {
 
 /// Takes the effect of a whole piece.
 fn step(state: &mut Modal, program: &Program) {
+    if program.name.is_some() {
+        *state = state.at_head();
+    }
     program.blocks.iter().flat_map(|block| &block.stmts).for_each(|stmt| state.step(stmt));
 }
 
@@ -231,9 +239,10 @@ impl Sink {
             diagnostics.sort_by_key(|d| (d.span.start, d.code));
             drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
+            let mut length = 0;
             match outcome {
                 Outcome::Refused => drop(text.drain(start..end)),
-                _ => any = true,
+                _ => (any, length) = (true, end - start),
             }
             end = start;
             reports.push(ProgramReport {
@@ -243,14 +252,29 @@ impl Sink {
                 verdict: None,
                 diagnostics,
                 map: Vec::new(),
+                range: 0..length,
             });
         }
         reports.reverse();
-        match frames(source, target, self.tape) {
+        let framed = frames(source, target, self.tape);
+        match framed {
             true => text.push_str(FRAME),
             false => drop(text.drain(..FRAME.len())),
         }
-        Conversion { programs: reports, texts: vec![any.then_some(text)], lock }
+        let mut at = if framed { FRAME.len() } else { 0 };
+        for report in &mut reports {
+            let end = at + report.range.len();
+            report.range = at..end;
+            at = end;
+        }
+        Conversion {
+            programs: reports,
+            texts: vec![any.then_some(text)],
+            lock,
+            taken: Numbers::default(),
+            states_reserved: target.states_reserved(),
+            links: Vec::new(),
+        }
     }
 }
 

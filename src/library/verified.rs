@@ -1,6 +1,9 @@
 //! Lets the verifier judge a conversion: what differs is refused, what is not decided is for review.
 
+use super::callees::{Callees, programs_of};
+use super::withdrawn::{cut, withdraw, written};
 use super::{Conversion, Input, Outcome};
+use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
@@ -16,25 +19,44 @@ type Wanted = (usize, ProgramRef);
 /// The longest file that is verified beside its conversion, bytes: both are held in memory block by block.
 const LONGEST: usize = 8 << 20;
 
-/// Verifies every program that was converted, and lets its outcome rest on that. Yields a certificate
-/// for each file that has a conversion.
+/// The certificates of a conversion, by file.
+#[derive(Clone, Debug, Default)]
+pub struct Certificates {
+    /// Of the programs that are written: each is of the text that stands in the file.
+    pub written: Vec<Option<Certificate>>,
+    /// Of the programs that were converted and are not written: they differ, or call one that does.
+    pub withheld: Vec<Option<Certificate>>,
+}
+
+impl Certificates {
+    fn none(files: usize) -> Self {
+        Self { written: vec![None; files], withheld: vec![None; files] }
+    }
+}
+
+/// Verifies every program that was converted, and lets its outcome rest on that.
+///
+/// A program that differs is withdrawn, and so is what calls it. Drafts take no part: whoever calls one is judged
+/// as if it were not there.
 pub fn judge(
     inputs: &[Input],
     conversion: &mut Conversion,
     source: &Control,
     target: &Control,
     effort: Effort,
-) -> Vec<Option<Certificate>> {
+) -> Certificates {
     let (Some(run), Some(run_there)) = (source.entry().execute, target.entry().execute) else {
         open(conversion).for_each(|program| undecided(program, "there is no emulated control to run it on"));
-        return vec![None; inputs.len()];
+        return Certificates::none(inputs.len());
     };
     let long: Vec<bool> = inputs.iter().map(|input| input.bytes.len() > LONGEST).collect();
     open(conversion).filter(|program| long[program.file]).for_each(|program| {
         undecided(program, "the file is too long to be verified on the way; run `macroglot verify` on it");
     });
-    let texts = conversion.texts.iter().enumerate().filter(|(at, _)| !long[*at]);
-    let texts: Vec<(usize, String)> = texts.filter_map(|(at, text)| Some((at, text.clone()?))).collect();
+    let refused: BTreeSet<usize> = refused(conversion).collect();
+    let texts = (0..inputs.len()).filter(|at| !long[*at]);
+    let texts: Vec<(usize, String)> =
+        texts.filter_map(|at| Some((at, cut(conversion, at, &refused)?))).collect();
     let bytes = |at: usize| if long[at] { &[][..] } else { &inputs[at].bytes };
     let ours: Vec<ParsedFile<'_>> =
         (0..inputs.len()).map(|at| parse_file(bytes(at), source.entry().parse)).collect();
@@ -54,14 +76,12 @@ pub fn judge(
         scratch: lock.scratch.iter().copied().collect(),
         programs: lock.programs.clone(),
     };
-    let mut reported: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for program in &conversion.programs {
-        let facts =
-            program.diagnostics.iter().filter_map(|diagnostic| diagnostic.fact.as_deref().map(str::to_owned));
-        reported.entry(inputs[program.file].name.clone()).or_default().extend(facts);
-    }
-    let job = Job { source: &from, target: &to, names: &names, reported: &reported, effort };
-    let wanted = wanted(conversion, &from.programs(), inputs.len());
+    let all = from.programs();
+    let reports = programs_of(conversion, &all);
+    let assumed = |at: &usize| assumptions(&conversion.programs[*at]);
+    let assumptions = reports.iter().map(|(program, at)| (*program, assumed(at))).collect();
+    let job = Job { source: &from, target: &to, names: &names, assumptions: &assumptions, effort };
+    let wanted = wanted(conversion, &all, inputs.len());
     let mut verified: Vec<Option<Certificate>> = wanted
         .par_iter()
         .map(|wanted| {
@@ -70,17 +90,52 @@ pub fn judge(
         })
         .collect();
     verify::implicate(verified.iter_mut().flatten());
-    for (file, certificate) in verified.iter().enumerate() {
-        let Some(certificate) = certificate else { continue };
-        for ((at, program), found) in wanted[file].iter().zip(&certificate.programs) {
-            let block = ours[file].parsed.blocks.get(from.blocks(*program).start);
-            apply(conversion, *at, block.map_or_else(Span::default, |block| block.span), found);
-        }
-        if certificate.outcome == verify::Outcome::Different {
-            withdraw(conversion, file);
+    let place = |program: ProgramRef| {
+        let block = ours[program.file].parsed.blocks.get(from.blocks(program).start);
+        block.map_or_else(Span::default, |block| block.span)
+    };
+    let mut callees = Callees::of(conversion, reports, refused);
+    let mut found = BTreeMap::new();
+    for (certificate, wanted) in verified.iter_mut().flatten().zip(wanted.iter().filter(|w| !w.is_empty())) {
+        for ((at, program), found_here) in wanted.iter().zip(std::mem::take(&mut certificate.programs)) {
+            callees.look(*at, place(*program), &found_here);
+            found.insert(*at, found_here);
         }
     }
-    verified
+    callees.withdraw();
+    for (at, found) in &mut found {
+        let program = &mut conversion.programs[*at];
+        // What is withdrawn for its callee says so at the call.
+        if callees.withdrawn.contains_key(at) {
+            apply(program, callees.place(*at), found);
+            callees.reasons(*at, found);
+            program.verdict = Some(found.outcome);
+        } else {
+            callees.reasons(*at, found);
+            apply(program, callees.place(*at), found);
+        }
+    }
+    callees.tell(conversion);
+    withdraw(conversion, &callees.withdrawn);
+    let withheld = callees.withdrawn.keys().copied().collect();
+    written(conversion, inputs, verified, found, &withheld)
+}
+
+/// What the conversion of a program supposes.
+fn assumptions(program: &super::ProgramReport) -> Vec<Assumption> {
+    let mut all: Vec<Assumption> = Vec::new();
+    for assumption in program.diagnostics.iter().filter_map(Diagnostic::assumption) {
+        if !all.contains(&assumption) {
+            all.push(assumption);
+        }
+    }
+    all
+}
+
+/// The programs that have no conversion, drafts aside.
+fn refused(conversion: &Conversion) -> impl Iterator<Item = usize> + '_ {
+    let all = conversion.programs.iter().enumerate();
+    all.filter(|(_, program)| program.outcome == Outcome::Refused).map(|(at, _)| at)
 }
 
 /// The programs that have a conversion.
@@ -119,8 +174,7 @@ fn undecided(program: &mut super::ProgramReport, why: &str) {
 }
 
 /// Writes into a program's report what the verifier found.
-fn apply(conversion: &mut Conversion, at: usize, span: Span, found: &ProgramCertificate) {
-    let program = &mut conversion.programs[at];
+fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertificate) {
     program.verdict = Some(found.outcome);
     match found.outcome {
         verify::Outcome::Same => {}
@@ -151,18 +205,5 @@ fn apply(conversion: &mut Conversion, at: usize, span: Span, found: &ProgramCert
         let what = "the path changes when the target's arithmetic keeps fewer digits";
         program.diagnostics.push(Diagnostic::new(Code::RoundingSensitive, span, what));
         program.outcome = program.outcome.max(Outcome::Review);
-    }
-}
-
-/// Takes back the text of a file of which a program differs.
-fn withdraw(conversion: &mut Conversion, file: usize) {
-    conversion.texts[file] = None;
-    for program in conversion.programs.iter_mut().filter(|program| program.file == file) {
-        program.map.clear();
-        if program.outcome != Outcome::Refused {
-            let what = "stands in one file with a program that differs, so it is not written either";
-            program.diagnostics.push(Diagnostic::new(Code::VerifiedDifferent, Span::default(), what));
-            program.outcome = Outcome::Refused;
-        }
     }
 }

@@ -1,5 +1,5 @@
 //! A conversion as JSON. Its keys are a contract: `programs` with `source`, `target`, `program`,
-//! `outcome`, `diagnostics`; `totals`.
+//! `outcome`, `diagnostics`; `totals`; and `notes`, where there is something to be said of the programs as a whole.
 //!
 //! It is written piece by piece: a library of many findings makes more of it than of itself.
 
@@ -16,6 +16,8 @@ struct Report<'a> {
     #[serde(serialize_with = "programs")]
     programs: &'a [Part<'a>],
     totals: Totals,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -58,7 +60,8 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
 pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     // Of a known type: what it is given are mostly single marks.
     let mut out = io::BufWriter::with_capacity(64 * 1024, out);
-    let report = Report { programs: parts, totals: Totals::of(parts) };
+    let notes = parts.iter().flat_map(|part| part.notes).map(String::as_str).collect();
+    let report = Report { programs: parts, totals: Totals::of(parts), notes };
     serde_json::to_writer_pretty(&mut out, &report)?;
     out.write_all(b"\n")?;
     out.flush()

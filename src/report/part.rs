@@ -18,6 +18,8 @@ pub struct Part<'a> {
     pub conversion: &'a Conversion,
     /// Where the conversion of each file was written, if it was.
     pub targets: &'a [Option<PathBuf>],
+    /// What is to be said of the programs as a whole.
+    pub notes: &'a [String],
 }
 
 /// A place in a file, as people and their editors count: from 1.

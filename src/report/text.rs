@@ -145,6 +145,14 @@ fn list(out: &mut String, part: &Part<'_>) {
         let file = &part.inputs[program.file].name;
         let _ = writeln!(out, "{}", format!("{outcome:<9}  {file:<width$}  {name:<6} {codes}").trim_end());
     }
+    let taken = &part.conversion.taken;
+    if !taken.is_empty() {
+        let ask = match part.conversion.states_reserved {
+            true => "",
+            false => "; if the machine uses any of them, name it in 'reserved' of its profile",
+        };
+        let _ = writeln!(out, "registers taken: {taken}{ask}");
+    }
 }
 
 #[cfg(test)]

@@ -156,7 +156,7 @@ fn describe(what: &Happening, run: &Run) -> String {
         Other { operation, code: Some(code) } => format!("{operation} {code}"),
         Other { operation, code: None } => format!("{operation}"),
         End { by } => format!("{by}"),
-        Enter { program } => {
+        Enter { program, .. } => {
             let name = run.programs.get(*program as usize).map_or("", |program| program.name.as_str());
             format!("call    {name}")
         }

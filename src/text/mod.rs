@@ -1,11 +1,14 @@
 //! Bytes to lines and back, with nothing lost.
 //!
 //! A program file is cut at its line ends only: CRLF, LF, a lone CR, and a
-//! mixture of them are all kept as they stand. Nothing is decoded: every
+//! mixture of them are all kept as they stand. Nothing is decoded but the text
+//! of comments and messages, where a person reads it ([`decode`]): every
 //! position in the project is a byte offset into the file ([`Span`]).
 
+mod letters;
 mod lines;
 mod span;
 
+pub use letters::{decode, likeness};
 pub use lines::{Line, Lines, MAX_FILE};
 pub use span::{LineIndex, Span};

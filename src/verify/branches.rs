@@ -1,4 +1,4 @@
-//! The branches of a source program, and which ways they went.
+//! The branches of a program, and which ways they went.
 
 use super::constants::impossible;
 use super::names::Side;
@@ -21,36 +21,42 @@ pub struct NotReached {
     pub way: &'static str,
 }
 
-/// The branches of one program.
+/// A branch: its file and place.
+type Place = (usize, Span);
+
+/// The branches of one program, or of several that count as one.
 #[derive(Clone)]
 pub struct Coverage {
-    branches: BTreeMap<Span, (bool, BTreeSet<i64>)>,
+    branches: BTreeMap<Place, (bool, BTreeSet<i64>)>,
     /// All ways that were seen anywhere, those of called programs too.
     seen: BTreeSet<(usize, Span, i64)>,
-    file: usize,
     /// Ways that constants make impossible.
-    impossible: BTreeSet<(Span, i64)>,
+    impossible: BTreeSet<(Place, i64)>,
 }
 
 impl Coverage {
-    /// The branches that stand in a program.
-    pub fn new(side: &Side<'_>, program: ProgramRef) -> Self {
-        let mut branches = BTreeMap::new();
-        let file = side.files.get(program.file);
-        let blocks = file.and_then(|file| file.parsed.blocks.get(side.blocks(program)));
-        for block in blocks.unwrap_or_default() {
-            for_each_item(&block.items, &mut |item| {
-                let (span, computed) = match &item.kind {
-                    ItemKind::If { condition, .. } => (condition.span, false),
-                    ItemKind::Do { condition: Some(condition), .. } => (condition.span, false),
-                    ItemKind::Branch { .. } => (item.span, false),
-                    ItemKind::Goto(Target::Computed(target)) => (target.span, true),
-                    _ => return,
-                };
-                branches.insert(span, (computed, BTreeSet::new()));
-            });
+    /// The branches that stand in programs of a side; which ways are impossible is told `as_run` on its emulated control, or
+    /// by what sources confirm.
+    pub fn new(side: &Side<'_>, programs: &[ProgramRef], as_run: bool) -> Self {
+        let (mut branches, mut never) = (BTreeMap::new(), BTreeSet::new());
+        for program in programs {
+            for block in side.text(*program) {
+                for_each_item(&block.items, &mut |item| {
+                    let (span, computed) = match &item.kind {
+                        ItemKind::If { condition, .. } => (condition.span, false),
+                        ItemKind::Do { condition: Some(condition), .. } => (condition.span, false),
+                        ItemKind::Branch { .. } => (item.span, false),
+                        ItemKind::Goto(Target::Computed(target)) => (target.span, true),
+                        _ => return,
+                    };
+                    branches.insert((program.file, span), (computed, BTreeSet::new()));
+                });
+            }
+            never.extend(
+                impossible(side, *program, as_run).into_iter().map(|(span, way)| ((program.file, span), way)),
+            );
         }
-        Self { branches, seen: BTreeSet::new(), file: program.file, impossible: impossible(side, program) }
+        Self { branches, seen: BTreeSet::new(), impossible: never }
     }
 
     /// Notes where a run went. True where that was new.
@@ -67,15 +73,26 @@ impl Coverage {
             for way in ways {
                 self.seen.insert((program.file, span, *way));
             }
-            if program.file != self.file {
-                continue;
-            }
-            let touches = |other: &Span| other.start < span.end && span.start < other.end;
+            let touches = |(file, other): &Place| {
+                *file == program.file && other.start < span.end && span.start < other.end
+            };
             for (_, (_, seen)) in self.branches.iter_mut().filter(|(at, _)| touches(at)) {
                 seen.extend(ways);
             }
         }
         self.seen.len() > before
+    }
+
+    /// Takes in the ways that were gone in a text whose places stood elsewhere before it was edited. True
+    /// where one of them was missing.
+    pub fn add_gone(&mut self, other: &Self, place: &dyn Fn(usize, Span) -> Span) -> bool {
+        let before = self.missing().count();
+        for ((file, span), (_, gone)) in &other.branches {
+            if let Some((_, seen)) = self.branches.get_mut(&(*file, place(*file, *span))) {
+                seen.extend(gone);
+            }
+        }
+        self.missing().count() < before
     }
 
     /// How many ways there are, and how many of them were gone.
@@ -91,22 +108,22 @@ impl Coverage {
         self.missing().next().is_none()
     }
 
-    fn missing(&self) -> impl Iterator<Item = (Span, &'static str)> + '_ {
-        self.branches.iter().flat_map(|(span, (computed, seen))| {
-            let none = (*computed && seen.is_empty()).then_some((*span, "taken"));
+    fn missing(&self) -> impl Iterator<Item = (Place, &'static str)> + '_ {
+        self.branches.iter().flat_map(|(place, (computed, seen))| {
+            let none = (*computed && seen.is_empty()).then_some((*place, "taken"));
             let lacks =
-                |way: i64| !computed && !seen.contains(&way) && !self.impossible.contains(&(*span, way));
-            let no = lacks(0).then_some((*span, "false"));
-            let yes = lacks(1).then_some((*span, "true"));
+                |way: i64| !computed && !seen.contains(&way) && !self.impossible.contains(&(*place, way));
+            let no = lacks(0).then_some((*place, "false"));
+            let yes = lacks(1).then_some((*place, "true"));
             none.into_iter().chain(no).chain(yes)
         })
     }
 
     /// The ways that were never gone.
-    pub fn not_reached(&self, source: &[u8]) -> Vec<NotReached> {
-        let lines = LineIndex::new(source);
-        let report = |(span, way): (Span, &'static str)| {
-            let (line, column) = lines.place(span.start);
+    pub fn not_reached(&self, side: &Side<'_>) -> Vec<NotReached> {
+        let report = |((file, span), way): (Place, &'static str)| {
+            let source = side.files.get(file).map_or(&[][..], |file| file.parsed.source);
+            let (line, column) = LineIndex::new(source).place(span.start);
             let text = source.get(span.range()).map(String::from_utf8_lossy).unwrap_or_default();
             NotReached { line, column, text: text.into_owned(), way }
         };

@@ -5,17 +5,18 @@
 //! callers' runs come to the very place and do the same; and never more than undecided, because runs show what
 //! callers give, not that they never give anything else.
 
+use super::assumed::{excuse, tried};
 use super::compare::{Tolerance, compare, is_cut};
 use super::given::Given;
 use super::inputs::{calls, inputs};
 use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
-use super::stops::{nests_too_deep, stops_by_itself};
-use super::{Certificate, Outcome, ProgramCertificate};
+use super::stops::stops_by_itself;
+use super::{Certificate, Outcome, ProgramCertificate, Side};
 use crate::control::{ProgramRef, Run, Scenario, trace};
 use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A block of a library: its file and place.
 pub type Spot = (usize, Span);
@@ -112,7 +113,8 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
                 continue;
             }
             found.entered = true;
-            let circumstances = on_target(&scenario, job.names, (job.source, job.target), false);
+            let circumstances =
+                on_target(&scenario, job.names, (job.source, job.target), (false, &BTreeMap::new()));
             let other = (job.target.execute)(&job.target.library, there, job.target.control, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
             let cut = is_cut(&run) || is_cut(&other);
@@ -120,7 +122,7 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
                 // Where a control stops the run, nothing is shown.
                 Some(difference)
                     if stops_by_itself(&run, &difference)
-                        || nests_too_deep(&run, &other, &difference).is_some() => {}
+                        || excuse(&tried(job, &run, &other), &run, &other, &difference).is_some() => {}
                 Some(_) => {
                     found.differs = true;
                     return found;
@@ -154,6 +156,8 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
         let named = program.program.as_deref().unwrap_or_default();
         (program.source.clone(), number(named))
     };
+    let named = |program: &ProgramCertificate| number(program.program.as_deref().unwrap_or_default());
+    let names: BTreeSet<String> = all.iter().flat_map(|c| &c.programs).map(named).collect();
     let mut shown = Vec::new();
     for program in all.iter().flat_map(|certificate| &certificate.programs) {
         let moment = program.witness.as_ref().filter(|_| program.outcome == Outcome::Different);
@@ -161,6 +165,13 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
         else {
             continue;
         };
+        // Where the target runs another program of the library, the call is at fault. Nobody calls a program without a
+        // name, and a file may have several.
+        let there = witness.target.as_ref().map_or_else(String::new, |moment| number(&moment.program));
+        let another = there != number(&moment.program) && names.contains(&there) && !there.is_empty();
+        if moment.program.is_empty() || another {
+            continue;
+        }
         shown.push(((moment.file.clone(), number(&moment.program)), (witness.clone(), program.run_alone)));
     }
     for certificate in &mut all {
@@ -226,11 +237,30 @@ fn enters(job: &Job<'_>, run: &Run, program: ProgramRef) -> bool {
 
 /// A program as a run came to it first.
 pub(super) fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r trace::Program> {
-    let name = match job.source.name(program)? {
+    let name = called(job.source.name(program)?);
+    run.programs.iter().find(|other| other.file == program.file && other.name == name)
+}
+
+/// The programs that a run came through.
+pub(super) fn programs_of(side: &Side<'_>, run: &Run) -> Vec<ProgramRef> {
+    (0..run.programs.len()).filter_map(|at| program_at(side, run, at as u32)).collect()
+}
+
+/// The program that a number of a run's places stands for.
+pub(super) fn program_at(side: &Side<'_>, run: &Run, number: u32) -> Option<ProgramRef> {
+    let of = run.programs.get(number as usize)?;
+    let is = |program: &ProgramRef| {
+        program.file == of.file && side.name(*program).map_or(String::new(), called) == of.name
+    };
+    side.programs().into_iter().find(is)
+}
+
+/// A program's name as runs have it.
+fn called(name: &ProgramName) -> String {
+    match name {
         ProgramName::Number(number) => format!("O{number}"),
         ProgramName::Name(name) => name.clone(),
-    };
-    run.programs.iter().find(|other| other.file == program.file && other.name == name)
+    }
 }
 
 /// True where something happened in a block, or none is asked for.

@@ -2,12 +2,13 @@
 
 use super::{Effort, NotReached, Outcome, Side};
 use crate::control::trace::Event;
-use crate::control::{Run, Scenario};
+use crate::control::{ProgramRef, Run, Scenario};
 use crate::dialect::Control;
 use crate::text::LineIndex;
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Version of the certificate's shape.
 pub const FORMAT: u32 = 1;
@@ -76,6 +77,12 @@ pub struct ProgramCertificate {
     pub branches_total: usize,
     /// Ways that were never gone.
     pub not_reached: Vec<NotReached>,
+    /// Ways of the target's branches that were gone.
+    pub target_branches_covered: usize,
+    /// Ways that the target has.
+    pub target_branches_total: usize,
+    /// Ways of the target that were never gone.
+    pub target_not_reached: Vec<NotReached>,
     /// Constants that were edited alike in both texts, each to go a way that it decides; those ways were gone.
     pub edits: Vec<Edit>,
     /// Positions count as the same up to here where words round, millimetres.
@@ -84,12 +91,34 @@ pub struct ProgramCertificate {
     pub largest_difference_mm: f64,
     /// True where the path of the target changes when its arithmetic keeps fewer digits; none where that was not tried.
     pub rounding_sensitive: Option<bool>,
+    /// What the conversion supposes of the program.
+    pub assumptions: Vec<Assumed>,
     /// Facts that mattered in a run and that no source confirms.
     pub unconfirmed: Vec<String>,
     /// Messages, outputs and alarm numbers that read differently: source, target.
     pub texts: Vec<(String, String)>,
     /// Where they differ.
     pub witness: Option<Witness>,
+    /// The programs that its runs came through.
+    #[serde(skip)]
+    pub entered: BTreeSet<ProgramRef>,
+}
+
+/// Something that the conversion supposes of the program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assumed {
+    /// The kind of it.
+    pub kind: &'static str,
+    /// What a person was told.
+    pub text: String,
+    /// The line of the source.
+    pub line: u32,
+    /// The column.
+    pub column: u32,
+    /// Runs in which both sides did the same and that kept it; none where no run can show it.
+    pub kept: Option<usize>,
+    /// Runs that broke it.
+    pub broken: Option<usize>,
 }
 
 /// A literal at the head of both texts, and the one that stood there in a run.
@@ -132,8 +161,12 @@ pub enum Why {
     SourceAlarms,
     /// The target cannot do what the source does, and does something else or nothing in its place.
     Substituted,
-    /// The run breaks a condition that the conversion reported.
+    /// A run breaks what the conversion supposes, and what comes then was not compared.
     Condition,
+    /// No run kept something that the conversion supposes.
+    NoRunKept,
+    /// It calls a program that is not written.
+    Callee,
     /// It does the same as its library calls it, but something else where it is run by itself.
     NotByItself,
     /// With another literal at the head of both texts they do different things.
@@ -151,6 +184,8 @@ pub struct Witness {
     pub what: String,
     /// The circumstances, as the source's names have them.
     pub scenario: Scenario,
+    /// What stood in registers that the target alone has, by its own names.
+    pub target_variables: BTreeMap<String, f64>,
     /// Where the source was; none where it did nothing more.
     pub source: Option<Moment>,
     /// Where the target was.
@@ -189,7 +224,7 @@ impl Certificate {
     }
 
     /// Takes the worst outcome of its programs anew.
-    pub(super) fn sum_up(&mut self) {
+    pub fn sum_up(&mut self) {
         self.outcome = self.programs.iter().map(|program| program.outcome).max().unwrap_or(self.outcome);
     }
 
@@ -210,7 +245,7 @@ impl Identity {
 }
 
 /// The hash of a file's bytes.
-pub(super) fn sha256(bytes: &[u8]) -> String {
+pub fn sha256(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
 

@@ -2,15 +2,18 @@
 
 use super::differ::{ANOTHER_FEED, differ};
 use super::left::left_differs;
+use super::letters;
+use super::loose::moves_over;
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
+use super::pauses::{Runs, may_do_so};
 use super::substitutes::{
-    cannot_cancel, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
+    cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
 };
 use crate::control::trace::{Event, Happening, Position};
 use crate::control::{End, Run};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How far numbers may lie apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,8 +86,15 @@ pub fn compare<'r>(
 ) -> Comparison<'r> {
     let (ours, theirs) = (observe(source.0, source.1), observe(target.0, target.1));
     let found = Comparison::default();
-    let mut pairs = Pairs { target: target.0, tolerance, found, at: [None; 2], uncancelled: false };
-    pairs.walk(&ours, &theirs, is_cut(source.1) || is_cut(target.1));
+    let mut pairs = Pairs {
+        target: target.0,
+        tolerance,
+        found,
+        at: [None; 2],
+        runs: [Runs::new(), Runs::new()],
+        uncancelled: false,
+    };
+    pairs.walk(ours, theirs, is_cut(source.1) || is_cut(target.1));
     let mut found = pairs.found;
     if found.difference.is_some() || is_cut(source.1) || is_cut(target.1) {
         return found;
@@ -104,6 +114,8 @@ struct Pairs<'p, 'r> {
     found: Comparison<'r>,
     /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
     at: [Option<(Position, f64)>; 2],
+    /// What runs on each side.
+    runs: [Runs; 2],
     /// True where the source returns without a work offset, which the target cannot.
     uncancelled: bool,
 }
@@ -111,7 +123,7 @@ struct Pairs<'p, 'r> {
 impl<'r> Pairs<'_, 'r> {
     /// Pairs the acts of both sides up to the first difference; behind the last of a run that was `cut`
     /// nothing is missed.
-    fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) {
+    fn walk(&mut self, mut ours: Vec<Act<'r>>, mut theirs: Vec<Act<'r>>, cut: bool) {
         let (mut i, mut j) = (0, 0);
         loop {
             let (a, b) = (ours.get(i), theirs.get(j));
@@ -130,7 +142,22 @@ impl<'r> Pairs<'_, 'r> {
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
-            if a.is_some_and(|a| self.passes(0, a)) {
+            if moves_over(&mut ours, i) || moves_over(&mut theirs, j) {
+                continue;
+            }
+            let (a, b) = (ours.get(i), theirs.get(j));
+            let runs = |side: usize, act: Option<&Act<'r>>, others: &[Act<'r>], runs: &[Runs; 2]| {
+                act.is_some_and(|act| {
+                    may_do_so(act, others, side == 1) || runs[side].is_told(&runs[1 - side], act)
+                })
+            };
+            if runs(0, a, theirs.get(j..).unwrap_or_default(), &self.runs) {
+                a.into_iter().for_each(|a| self.moved(0, a));
+                i += 1;
+            } else if runs(1, b, ours.get(i..).unwrap_or_default(), &self.runs) {
+                b.into_iter().for_each(|b| self.moved(1, b));
+                j += 1;
+            } else if a.is_some_and(|a| self.passes(0, a)) {
                 i += 1;
             } else if b.is_some_and(|b| self.passes(1, b)) {
                 j += 1;
@@ -158,6 +185,7 @@ impl<'r> Pairs<'_, 'r> {
         if let Some(to) = leaves(&act.what) {
             self.at[side] = Some((to, act.event.rounded));
         }
+        self.runs[side].take(act);
     }
 
     /// How far apart two acts may lie that count as the same: what their words rounded, a least increment at the
@@ -192,6 +220,11 @@ impl<'r> Pairs<'_, 'r> {
             self.uncancelled = true;
             return true;
         }
+        if let Some(text) = goes_on(self.target, what, self.runs[1].coolant()) {
+            self.found.substituted.insert(text);
+            self.moved(0, act);
+            return true;
+        }
         let left_out = is_left_out(self.target, what).or_else(|| returns_to_caller(what));
         self.found.substituted.extend(left_out.clone());
         left_out.is_some()
@@ -213,6 +246,15 @@ impl<'r> Pairs<'_, 'r> {
     fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, allowed: f64) -> Option<String> {
         let stands = stands_for(self.target, &source.what, &target.what);
         let (a, b) = (&source.what, &target.what);
+        if (self.runs[0].is_open() || self.runs[1].is_open())
+            && self.runs[0].goes_on(a)
+            && self.runs[1].goes_on(b)
+            && Runs::only_turns(a, b)
+        {
+            let text = "no source says whether the spindle still turns after a tool change or a stop";
+            self.found.substituted.insert(text.to_owned());
+            return None;
+        }
         if let Some(text) = stands.or_else(|| is_builders(a, b).filter(|_| a != b)) {
             self.found.substituted.insert(text);
             return None;
@@ -234,6 +276,7 @@ impl<'r> Pairs<'_, 'r> {
         match what {
             None => {
                 self.found.largest = largest;
+                self.found.substituted.extend(letters::doubt(a, b, self.target.control));
                 self.found.texts.extend(texts(&source.what, &target.what));
                 None
             }
@@ -286,6 +329,38 @@ fn variables_differ(source: (&Side<'_>, &Run), target: (&Side<'_>, &Run), names:
         }
     }
     None
+}
+
+/// A register that the target wrote and that the source has no variable for, nor the conversion a use: it may hold what
+/// something else of the shop keeps there. `began` is what registers held at the start.
+pub fn writes_elsewhere(
+    source: &Side<'_>,
+    (target, run): (&Side<'_>, &Run),
+    began: &BTreeMap<String, f64>,
+    names: &Names,
+) -> Option<String> {
+    if is_cut(run) {
+        return None;
+    }
+    let all: BTreeSet<&String> = run.variables.keys().chain(began.keys()).collect();
+    let (from, to) = (source.control, target.control);
+    let is_scratch = |name: &str| {
+        let prefixes = to.classes().iter().map(|row| row.name.as_str());
+        prefixes.into_iter().any(|prefix| {
+            let number = name.strip_prefix(prefix).and_then(|number| number.parse::<u32>().ok());
+            number.is_some_and(|number| names.scratch.contains(&number))
+        })
+    };
+    let found = all.into_iter().find(|name| {
+        let nullable = class_of(to, name).is_some_and(|class| class.nullable);
+        let value = |all: &BTreeMap<String, f64>| all.get(*name).copied().or((!nullable).then_some(0.0));
+        value(began) != value(&run.variables)
+            && class_of(to, name).is_some_and(|class| class.class != "local")
+            && !is_scratch(name)
+            && !names.is_named(name, to)
+            && names.of_source(name, from, to).is_none()
+    })?;
+    Some(format!("the target writes {found}, which holds no variable of the source"))
 }
 
 /// Texts that count as the same and are written differently.

@@ -1,29 +1,28 @@
 //! Ways of branches that constants make impossible.
 //!
 //! `#100=6000` and in the next block `IF[#100GT2500]`: no circumstances go the other way, so nothing is missed where none
-//! did. Looked at is what stands in one row: whatever may be come to from elsewhere, calls, or moves (a call may hang on
-//! them) ends what is known. What compares a vacant variable counts only where a source confirms how.
+//! did. What a jump that was not taken says counts too: behind `IF[#1LT2]GOTO9` the variable is 2 or more, and its whole
+//! part no more than itself. Looked at is what stands in one row: whatever may be come to from elsewhere, calls, or moves
+//! (a call may hang on them) ends what is known.
+
+mod known;
 
 use super::names::{Side, class_of};
-use crate::canon::Sys;
+use crate::canon::{Func, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::Control;
 use crate::syntax::{BinaryOp, Expr, ExprKind, Index, Item, ItemKind, VarRef};
 use crate::text::Span;
+use known::{Known, Range, opposite};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is known of a variable.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Known {
-    Vacant,
-    Number(f64),
-    /// A number, and not which.
-    SomeNumber,
-}
-
 /// The conditions of a program and the way that each of them never goes: 1 for true, 0 for false.
-pub fn impossible(side: &Side<'_>, program: ProgramRef) -> BTreeSet<(Span, i64)> {
-    let mut reader = Reader { control: side.control, known: BTreeMap::new(), out: BTreeSet::new() };
+///
+/// How a vacant variable compares counts only where a source confirms it; or, with `as_run`, as the emulated control has
+/// it: runs on it tell by themselves where that mattered.
+pub fn impossible(side: &Side<'_>, program: ProgramRef, as_run: bool) -> BTreeSet<(Span, i64)> {
+    let (known, out) = (BTreeMap::new(), BTreeSet::new());
+    let mut reader = Reader { control: side.control, as_run, known, out };
     for block in side.text(program) {
         // A block that can be skipped may not have run: only what it leaves alone is still known.
         let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
@@ -38,6 +37,7 @@ pub fn impossible(side: &Side<'_>, program: ProgramRef) -> BTreeSet<(Span, i64)>
 
 struct Reader<'c> {
     control: &'c Control,
+    as_run: bool,
     known: BTreeMap<String, Known>,
     out: BTreeSet<(Span, i64)>,
 }
@@ -48,14 +48,9 @@ impl Reader<'_> {
         match &item.kind {
             Assign { target, value, .. } => {
                 let value = self.value(value);
-                match (self.name(target), value) {
-                    (Some(name), Some(value)) => {
-                        self.known.insert(name, value);
-                    }
-                    (Some(name), None) => {
-                        self.known.remove(&name);
-                    }
-                    (None, _) => self.known.clear(),
+                match self.name(target) {
+                    Some(name) => self.set(name, value),
+                    None => self.known.clear(),
                 }
             }
             If { condition, body, .. } => {
@@ -66,9 +61,7 @@ impl Reader<'_> {
                     match &item.kind {
                         // It may be done or not.
                         Assign { target, .. } => match self.name(target) {
-                            Some(name) => {
-                                self.known.remove(&name);
-                            }
+                            Some(name) => self.set(name, None),
                             // An alarm, an output, an offset: no variable of a program.
                             None if self.is_system(target) => {}
                             None => self.known.clear(),
@@ -77,9 +70,65 @@ impl Reader<'_> {
                         _ => self.known.clear(),
                     }
                 }
+                if matches!(body.first().map(|item| &item.kind), Some(Goto(_))) {
+                    self.went_on(condition);
+                }
             }
             Comment(_) | MacroMark | EndOfBlock | Tape | Program(_) | Skip(_) => {}
             _ => self.known.clear(),
+        }
+    }
+
+    /// Writes a variable; what was the whole part of its old value is that of nothing any more.
+    fn set(&mut self, name: String, value: Option<Known>) {
+        for known in self.known.values_mut() {
+            if let Known::Number(range) = known
+                && range.whole_of.as_ref() == Some(&name)
+            {
+                range.whole_of = None;
+            }
+        }
+        match value {
+            Some(Known::Number(Range { whole_of: Some(of), low, high })) if of == name => {
+                self.known.insert(name, Known::Number(Range { low, high, whole_of: None }));
+            }
+            Some(value) => {
+                self.known.insert(name, value);
+            }
+            None => {
+                self.known.remove(&name);
+            }
+        }
+    }
+
+    /// Takes in that the jump on a condition was not taken.
+    fn went_on(&mut self, condition: &Expr) {
+        let ExprKind::Binary(op, a, b) = &bare(condition).kind else { return };
+        let ExprKind::Variable(variable) = &bare(a).kind else { return };
+        let (Some(name), Some(holds)) = (self.name(variable), opposite(*op)) else { return };
+        match self.value(b) {
+            // It is not vacant.
+            Some(Known::Vacant) if *op == BinaryOp::Equal => {
+                self.known.entry(name).or_insert(Known::Number(Range::ANY));
+            }
+            Some(Known::Number(Range { low, high, .. })) if low == high => {
+                let old = match self.known.get(&name) {
+                    Some(Known::Number(range)) => range.clone(),
+                    Some(Known::Vacant) => return,
+                    // A vacant one, taken for 0, must have jumped.
+                    None if !self.is_nullable(&name) => Range::ANY,
+                    None if self.says("vacant.compares.as.zero", "true") => {
+                        let jumps = Range::one(0.0).compare(*op, &Range::one(low)) == Some(true);
+                        if !jumps || matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) {
+                            return;
+                        }
+                        Range::ANY
+                    }
+                    None => return,
+                };
+                self.known.insert(name, Known::Number(old.where_holds(holds, low)));
+            }
+            _ => {}
         }
     }
 
@@ -91,73 +140,120 @@ impl Reader<'_> {
         (own && class_of(self.control, &name).is_some()).then_some(name)
     }
 
+    fn is_nullable(&self, name: &str) -> bool {
+        class_of(self.control, name).is_some_and(|class| class.nullable)
+    }
+
     fn is_system(&self, variable: &VarRef) -> bool {
         let Index::Number(number) = variable.index else { return false };
         self.control.read_system(&variable.name, Some(number)).is_some()
     }
 
     fn value(&self, e: &Expr) -> Option<Known> {
+        let any = Some(Known::Number(Range::ANY));
+        let number = |e: &Expr| match self.value(e) {
+            Some(Known::Number(range)) => range,
+            _ => Range::ANY,
+        };
         match &e.kind {
-            ExprKind::Number(number) => Some(Known::Number(number.value)),
+            ExprKind::Number(number) => Some(Known::Number(Range::one(number.value))),
             ExprKind::Group(inner) | ExprKind::Plus(inner) => self.value(inner),
-            ExprKind::Negate(inner) => match self.value(inner) {
-                Some(Known::Number(number)) => Some(Known::Number(-number)),
-                _ => Some(Known::SomeNumber),
-            },
+            ExprKind::Negate(inner) => Some(Known::Number(number(inner).negated())),
             ExprKind::Variable(variable) => {
                 let Index::Number(number) = variable.index else { return None };
                 match self.control.read_system(&variable.name, Some(number)) {
                     Some((Sys::Empty, ..)) => Some(Known::Vacant),
                     Some(_) => None,
-                    None => self.known.get(&self.name(variable)?).copied(),
+                    None => self.known.get(&self.name(variable)?).cloned(),
                 }
             }
+            ExprKind::Binary(BinaryOp::Add, a, b) => Some(Known::Number(number(a).plus(&number(b)))),
+            ExprKind::Binary(BinaryOp::Subtract, a, b) => {
+                Some(Known::Number(number(a).plus(&number(b).negated())))
+            }
+            ExprKind::Call { function: Func::Fix, arguments, .. } => {
+                let [of] = arguments.as_slice() else { return any };
+                let variable = match &bare(of).kind {
+                    ExprKind::Variable(variable) => self.name(variable),
+                    _ => None,
+                };
+                Some(Known::Number(number(of).whole(variable)))
+            }
             // Arithmetic and functions never yield vacancy.
-            _ => Some(Known::SomeNumber),
+            _ => any,
         }
     }
 
     /// Whether a condition holds, where that is known.
     fn holds(&self, e: &Expr) -> Option<bool> {
         use BinaryOp::*;
-        let (op, a, b) = match &e.kind {
+        let (op, left, right) = match &e.kind {
             ExprKind::Group(inner) => return self.holds(inner),
-            ExprKind::Binary(op, a, b) => (*op, self.value(a)?, self.value(b)?),
+            ExprKind::Binary(op, a, b) => (*op, a, b),
             _ => return None,
         };
-        if matches!(op, Equal | NotEqual) {
-            let same = match (a, b) {
-                (Known::Number(a), Known::Number(b)) => a == b,
-                (Known::Vacant, Known::Vacant) => true,
-                (Known::Vacant, Known::Number(other)) | (Known::Number(other), Known::Vacant)
-                    if other != 0.0 =>
-                {
-                    false
-                }
-                (Known::Vacant, _) | (_, Known::Vacant) => {
-                    self.says("vacant.eq.zero", "false").then_some(false)?
-                }
-                _ => return None,
-            };
-            return Some(same == (op == Equal));
+        let (a, b) = (self.value(left)?, self.value(right)?);
+        let as_zero = |known: &Known| match known {
+            Known::Number(range) => Some(range.clone()),
+            Known::Vacant => self.says("vacant.compares.as.zero", "true").then_some(Range::one(0.0)),
+        };
+        match (op, &a, &b) {
+            (Equal | NotEqual, Known::Vacant, Known::Vacant) => Some(op == Equal),
+            (Equal | NotEqual, Known::Vacant, Known::Number(other))
+            | (Equal | NotEqual, Known::Number(other), Known::Vacant) => {
+                let never_zero = other.low > 0.0 || other.high < 0.0;
+                (never_zero || self.says("vacant.eq.zero", "false")).then_some(op == NotEqual)
+            }
+            _ => {
+                let (a, b) = (as_zero(&a)?, as_zero(&b)?);
+                let by_whole = || self.against_its_whole(op, (left, &a), (right, &b));
+                a.compare(op, &b).or_else(by_whole)
+            }
         }
-        let number = |known: Known| match known {
-            Known::Number(number) => Some(number),
-            Known::Vacant => self.says("vacant.compares.as.zero", "true").then_some(0.0),
-            Known::SomeNumber => None,
+    }
+
+    /// Whether a comparison of a variable with its whole part holds, where its sign says so.
+    fn against_its_whole(&self, op: BinaryOp, left: (&Expr, &Range), right: (&Expr, &Range)) -> Option<bool> {
+        use BinaryOp::*;
+        let is = |whole: &Range, of: &Expr| {
+            let ExprKind::Variable(variable) = &bare(of).kind else { return false };
+            whole.whole_of.is_some() && whole.whole_of == self.name(variable)
         };
-        let (a, b) = (number(a)?, number(b)?);
-        Some(match op {
-            Less => a < b,
-            LessEqual => a <= b,
-            Greater => a > b,
-            GreaterEqual => a >= b,
-            _ => return None,
-        })
+        // How it is written: the variable first.
+        let (op, of) = if is(right.1, left.0) {
+            (op, left.1)
+        } else if is(left.1, right.0) {
+            let turned = match op {
+                Less => Greater,
+                LessEqual => GreaterEqual,
+                Greater => Less,
+                GreaterEqual => LessEqual,
+                op => op,
+            };
+            (turned, right.1)
+        } else {
+            return None;
+        };
+        match op {
+            Less if of.low >= 0.0 => Some(false),
+            GreaterEqual if of.low >= 0.0 => Some(true),
+            Greater if of.high <= 0.0 => Some(false),
+            LessEqual if of.high <= 0.0 => Some(true),
+            _ => None,
+        }
     }
 
     fn says(&self, behaviour: &str, answer: &str) -> bool {
         let row = self.control.behaviour(behaviour);
-        row.is_some_and(|row| row.origin.confirmed && row.value == answer)
+        row.is_some_and(|row| (row.origin.confirmed || self.as_run) && row.value == answer)
+    }
+}
+
+/// An expression without the brackets around it.
+fn bare(e: &Expr) -> &Expr {
+    // Parsers limit how deep expressions nest.
+    match &e.kind {
+        ExprKind::Group(inner) | ExprKind::Plus(inner) => bare(inner),
+        _ => e,
     }
 }

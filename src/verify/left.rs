@@ -49,6 +49,8 @@ pub(super) fn seen_differs(ours: &Left, theirs: &Left, tolerance: Tolerance) -> 
         return Some("the machine stands elsewhere at the end".into());
     }
     let offset = first_apart(&ours.work_offsets, &theirs.work_offsets, places);
+    // What the source keeps in the register of the local shift ends as that does: it shows in the shift at a return.
+    let offset = offset.filter(|number| *number != 0 || !ours.external_is_local);
     let sizes = |tool: &Tool| [tool.length, tool.length_wear, tool.radius, tool.radius_wear];
     let tools = |a: &Tool, b: &Tool| sizes(a).iter().zip(sizes(b)).any(|(a, b)| apart(*a, b));
     let offset = offset.map(|number| format!("work offset {number}"));

@@ -12,6 +12,7 @@
 //! The outcome of a program is [`Outcome::Same`] only where every run agreed, every branch of
 //! the source went every way, and nothing that mattered rests on an unconfirmed fact.
 
+mod assumed;
 mod branches;
 mod callers;
 mod certificate;
@@ -21,9 +22,12 @@ mod differ;
 mod given;
 mod inputs;
 mod left;
+mod letters;
+mod loose;
 mod names;
 mod observe;
 mod paths;
+mod pauses;
 mod program;
 mod questions;
 mod random;
@@ -35,9 +39,12 @@ mod substitutes;
 mod tests;
 mod texts;
 
+pub use assumed::Assumptions;
 pub use branches::NotReached;
 pub use callers::implicate;
-pub use certificate::{Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness};
+pub use certificate::{
+    Assumed, Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness, sha256,
+};
 pub use names::{Names, Side};
 pub use program::{Job, verify};
 

@@ -19,12 +19,21 @@ pub struct Side<'a> {
     pub library: Library<'a>,
     /// What callers give its programs, where anybody asked.
     pub(super) given: OnceLock<BTreeMap<ProgramRef, Given>>,
+    /// Of the target: the programs that those of the source became, where anybody asked.
+    pub(super) became: OnceLock<BTreeSet<ProgramRef>>,
 }
 
 impl<'a> Side<'a> {
     /// A library on a control.
     pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
-        Self { control, execute, files, library: Library::new(files), given: OnceLock::new() }
+        Self {
+            control,
+            execute,
+            files,
+            library: Library::new(files),
+            given: OnceLock::new(),
+            became: OnceLock::new(),
+        }
     }
 
     /// Its programs, in the order of files and places.
@@ -105,6 +114,29 @@ impl Names {
         let mut others = self.variables.values().chain(&self.scratch);
         let taken = others.any(|number| name == format!("{prefix}{number}"));
         ((from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
+    }
+
+    /// The variable of the source that a register of the target holds; none where it holds none.
+    pub(super) fn of_source(&self, register: &str, source: &Control, target: &Control) -> Option<String> {
+        let number = register.find(|sign: char| sign.is_ascii_digit()).and_then(|at| register.get(at..));
+        let number: Option<u32> = number.and_then(|number| number.parse().ok());
+        let mapped =
+            self.variables.iter().filter(|(_, to)| Some(**to) == number).map(|(name, _)| name.clone());
+        let banked = self.variables.iter().filter_map(|(name, base)| {
+            Some(format!("{}{}", name.strip_suffix("(..)")?, number?.checked_sub(*base)?))
+        });
+        let mut all = mapped.chain(banked).chain([register.to_owned()]);
+        all.find(|name| {
+            class_of(source, name).is_some()
+                && self.variable(name, source, target).as_deref() == Some(register)
+        })
+    }
+
+    /// True for a register of the target that holds what the conversion named: an argument, or whether something is vacant.
+    pub(super) fn is_named(&self, register: &str, target: &Control) -> bool {
+        let is =
+            |number: &u32| target.classes().iter().any(|row| register == format!("{}{number}", row.name));
+        self.variables.values().any(is)
     }
 
     /// The program of the target that a program of the source became.

@@ -3,9 +3,9 @@
 use super::compare::is_cut;
 use super::names::Side as Library;
 use super::paths::apart;
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Sys};
 use crate::control::Run;
-use crate::control::trace::{Event, Happening, Side, Spindle};
+use crate::control::trace::{Event, Happening, Side, Spindle, Told};
 use std::borrow::Cow;
 
 /// Something that an observer could tell.
@@ -15,13 +15,15 @@ pub struct Act<'r> {
     pub event: &'r Event,
     /// What the observer tells of it: a stop at which the operator enters a value is a text and a question.
     pub what: Cow<'r, Happening>,
+    /// What is known of the event; a change of spindle or coolant may have to be looked for elsewhere.
+    pub told: Told,
     /// Of a text, how many characters more the control would have shown; none where it knows no limit.
     pub room: Option<usize>,
 }
 
 /// A group of settings, of which only what is in force at the next action counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Setting {
+pub(super) enum Setting {
     Work,
     Length,
     Cutter,
@@ -31,7 +33,8 @@ enum Setting {
     Coolant,
 }
 
-fn setting(what: &Happening) -> Option<Setting> {
+/// The group that a setting belongs to; none for what is no setting.
+pub(super) fn setting(what: &Happening) -> Option<Setting> {
     Some(match what {
         Happening::WorkOffset { .. } => Setting::Work,
         Happening::ToolLength { .. } => Setting::Length,
@@ -68,6 +71,11 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
     seen.held = initial().into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
     for (at, event) in run.events.iter().enumerate().filter(|(_, event)| is_observable(&event.what)) {
         if let Some(kind) = setting(&event.what) {
+            // What the program says before a stop is told, whatever the stop does then.
+            let ends = event.told == Told::Implied || is_end(&event.what);
+            if ends && seen.waiting.iter().any(|(other, _)| *other == kind) {
+                seen.settle(false);
+            }
             seen.waiting.retain(|(other, _)| *other != kind);
             seen.waiting.push((kind, event));
             continue;
@@ -110,7 +118,7 @@ impl<'r> Observer<'_, 'r> {
                 Some((_, what)) => *what = event.what.clone(),
                 None => self.held.push((kind, event.what.clone())),
             }
-            self.out.push(Act { event, what: Cow::Borrowed(&event.what), room: None });
+            self.out.push(Act { event, what: Cow::Borrowed(&event.what), told: event.told, room: None });
         }
     }
 
@@ -132,7 +140,11 @@ impl<'r> Observer<'_, 'r> {
             Happening::Alarm(stop) => (Cow::Borrowed(&event.what), room("message.alarm", &stop.text)),
             what => (Cow::Borrowed(what), None),
         };
-        self.out.push(Act { event, what, room });
+        self.out.push(Act { event, what, told: event.told, room });
+        if event.told == Told::Open {
+            // What runs behind it is not known, so whatever the program says next is told.
+            self.held.retain(|(kind, _)| !matches!(kind, Setting::Spindle | Setting::Coolant));
+        }
     }
 }
 
@@ -151,6 +163,16 @@ pub fn is_mode(what: &Happening) -> bool {
     operation.group() == Group::PathMode || *operation == Op::LimitLookahead
 }
 
+/// True for what stops the spindle or switches coolant off.
+fn is_end(what: &Happening) -> bool {
+    use Happening::{Coolant, Spindle};
+    matches!(
+        what,
+        Spindle { direction: crate::control::trace::Spindle::Stopped, .. }
+            | Coolant { state: Op::CoolantOff }
+    )
+}
+
 /// True for the end of a program that others call.
 pub fn returns(what: &Happening) -> bool {
     matches!(what, Happening::End { by: Op::Return | Op::SubEnd })
@@ -160,6 +182,8 @@ fn is_observable(what: &Happening) -> bool {
     match what {
         Happening::Rapid { from, to } | Happening::Feed { from, to, .. } => apart(from, to) > NOWHERE,
         Happening::Dwell { seconds } => *seconds > 0.0,
+        // It shows in the machine coordinates of the moves, and in the table at the end.
+        Happening::Write { state: Sys::ExternalShift, .. } => false,
         Happening::Variable { .. }
         | Happening::Enter { .. }
         | Happening::Leave

@@ -1,24 +1,28 @@
 //! The verification of one program.
 
+mod assumed;
 mod edited;
 mod elsewhere;
+mod explore;
 mod fewer_digits;
 
-use super::branches::Coverage;
-use super::callers::{Shown, implicate, through, ways};
+use super::assumed::{Assumptions, excuse, facts, tried};
+use super::branches::{Coverage, NotReached};
+use super::callers::{Shown, implicate, programs_of, through, ways};
 use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness, sha256};
-use super::compare::{Tolerance, compare, is_cut};
+use super::compare::{Difference, Tolerance, compare, is_cut, writes_elsewhere};
 use super::given::{Given, given};
-use super::inputs::{inputs, is_called};
+use super::inputs::is_called;
 use super::names::{Names, Side};
 use super::questions::unconfirmed;
 use super::rounding::hangs_on_rounding;
-use super::scenarios::{Proposals, asked, on_target, unit};
-use super::stops::{breaks_a_condition, nests_too_deep, off_its_circle, stops_by_itself};
+use super::scenarios::{asked, on_target};
+use super::stops::{off_its_circle, stops_by_itself};
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
 use crate::control::trace::{Event, Happening};
 use crate::control::{End, ProgramRef, Run, Scenario};
+use explore::of_target;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is to be compared.
@@ -29,30 +33,14 @@ pub struct Job<'j> {
     pub target: &'j Side<'j>,
     /// What is called what.
     pub names: &'j Names,
-    /// The unconfirmed facts and limits that the conversion has reported, by the names of files: a person looks at them
-    /// whatever is found here.
-    pub reported: &'j BTreeMap<String, BTreeSet<String>>,
+    /// What the conversion supposes: a person looks at that whatever is found here.
+    pub assumptions: &'j Assumptions,
     /// How much may be done.
     pub effort: Effort,
 }
 
-/// How the facts begin that limit how deep calls nest.
-const NESTING: &str = "limit:call.";
-
 /// Ways not gone that a reason names.
 const NAMED: usize = 3;
-
-/// How much longer the first run may be where it comes to no end.
-const LONGER: u64 = 10;
-
-/// Scenarios that are compared even where nothing is left to be reached.
-const FEWEST: usize = 16;
-
-/// How often a run may execute each block of a long program, on the average.
-const EACH_BLOCK: u64 = 4;
-
-/// Runs that come to no end before a program is given up.
-const ENDLESS: usize = 4;
 
 /// Verifies programs of the source; all of them where none is named.
 pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
@@ -71,6 +59,10 @@ struct Verifier<'v, 'j> {
     /// What all its callers give it.
     given: Given,
     coverage: Coverage,
+    /// The branches of the conversion, those of programs that the source has not among them.
+    target_coverage: Coverage,
+    /// What is in registers that the target alone has, in the scenario at hand.
+    theirs: BTreeMap<String, f64>,
     reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; with where they did, those that nobody reported.
     unconfirmed: BTreeMap<String, Option<String>>,
@@ -88,6 +80,10 @@ struct Verifier<'v, 'j> {
     witness: Option<Witness>,
     /// Where the witness was.
     shown: Shown,
+    /// The programs that runs of the source came through.
+    entered: BTreeSet<ProgramRef>,
+    /// How many runs kept each of its assumptions, and how many broke it.
+    assumed: BTreeMap<usize, (usize, usize)>,
 }
 
 impl<'v, 'j> Verifier<'v, 'j> {
@@ -99,7 +95,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
             program,
             called,
             given: if called { given().unwrap_or_default() } else { Given::default() },
-            coverage: Coverage::new(job.source, program),
+            coverage: Coverage::new(job.source, &[program], false),
+            target_coverage: Coverage::new(job.target, &of_target(job, program), true),
+            theirs: BTreeMap::new(),
             reasons: BTreeMap::new(),
             unconfirmed: BTreeMap::new(),
             texts: BTreeSet::new(),
@@ -113,6 +111,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
             sensitive: None,
             witness: None,
             shown: Shown::default(),
+            entered: BTreeSet::new(),
+            assumed: BTreeMap::new(),
         }
     }
 
@@ -130,51 +130,6 @@ impl<'v, 'j> Verifier<'v, 'j> {
         self.certificate(there)
     }
 
-    /// Tries the source in scenario after scenario, and compares in those that reach anything new.
-    fn search(&mut self, there: ProgramRef) {
-        let found = inputs(self.job.source, self.program);
-        let blocks = self.job.source.blocks(self.program).len() as u64;
-        let steps = self.job.effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
-        let mut proposals = Proposals::new(&found, Effort { steps, ..self.job.effort });
-        let mut endless = 0;
-        while let Some(mut scenario) = proposals.next() {
-            scenario.inch = unit(self.job.source, self.job.target).or(found.inch);
-            self.given.start(&mut scenario);
-            let mut run = self.run_source(&scenario);
-            // A long way to its end is tried once.
-            if is_cut(&run) && self.tried == 0 {
-                scenario.steps = scenario.steps.saturating_mul(LONGER);
-                run = self.run_source(&scenario);
-            }
-            self.tried += 1;
-            self.steps += run.steps;
-            let new = self.coverage.add(&run);
-            if is_cut(&run) && !new {
-                endless += 1;
-            }
-            let telling = proposals.are_telling();
-            let spare = self.compared < FEWEST && self.tried.is_multiple_of(2);
-            if new || telling || spare {
-                self.compare(&scenario, &run, there);
-            }
-            let done = self.coverage.is_complete() && !telling && self.compared >= FEWEST;
-            if self.witness.is_some()
-                || done
-                || endless >= ENDLESS
-                || self.compared >= self.job.effort.scenarios
-                || self.steps >= self.job.effort.all_steps
-            {
-                break;
-            }
-        }
-        if self.compared == 0 {
-            for text in std::mem::take(&mut self.endless) {
-                self.because(Why::Endless, &text);
-            }
-            self.because(Why::NothingCompared, "no scenario could be run on both sides");
-        }
-    }
-
     fn run_source(&self, scenario: &Scenario) -> Run {
         let source = self.job.source;
         (source.execute)(&source.library, self.program, source.control, scenario)
@@ -182,7 +137,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
 
     fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
         let Job { source, target, names, .. } = self.job;
-        let mut circumstances = on_target(scenario, names, (source, target), self.called);
+        let mut circumstances = on_target(scenario, names, (source, target), (self.called, &self.theirs));
         circumstances.inch = self.given.inch().or(circumstances.inch);
         circumstances.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
         if is_cut(run) {
@@ -190,6 +145,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
             circumstances.steps = scenario.steps.saturating_mul(3);
         }
         let other = (target.execute)(&target.library, there, target.control, &circumstances);
+        self.entered.extend(programs_of(source, run));
+        let assumed = facts(self.job, run);
+        self.target_coverage.add(&other);
         for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
             match &library_run.end {
                 End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
@@ -200,11 +158,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 }
                 End::Ended | End::Alarm { .. } => {}
             }
-            let files = library_run.programs.iter().filter_map(|program| library.files.get(program.file));
-            let reported: Vec<_> = files.filter_map(|file| self.job.reported.get(file.name)).collect();
             for event in &library_run.events {
                 if let Happening::Unsure { fact } = &event.what {
-                    let is_new = !reported.iter().any(|facts| facts.contains(fact));
+                    let is_new = !assumed.contains(fact.as_str());
                     let kept = self.unconfirmed.entry(fact.clone()).or_default();
                     if is_new && kept.is_none() {
                         *kept = Some(unconfirmed(fact, side, &Moment::of(library, library_run, event)));
@@ -218,7 +174,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         for text in found.substituted {
             self.because(Why::Substituted, &text);
         }
-        self.compared += usize::from(!is_cut(run) && !is_cut(&other));
+        let ended = !is_cut(run) && !is_cut(&other);
         // A hair that the last digit decides is no fault of the conversion; any other is.
         let hair = found.hair;
         let hangs = hair.is_some() && self.wavers((there, &circumstances), &other);
@@ -226,16 +182,18 @@ impl<'v, 'j> Verifier<'v, 'j> {
             let text = format!("the last digit of its arithmetic decides where it goes: {}", hair.what);
             self.because(Why::Substituted, &text);
         }
-        let difference = hair.filter(|_| !hangs).or(found.difference);
-        let broken = difference.as_ref().and_then(|difference| {
-            let files = run.programs.iter().filter_map(|program| source.files.get(program.file));
-            let facts = files.filter_map(|file| self.job.reported.get(file.name)).flatten();
-            breaks_a_condition((source, run), (target, &other), difference, facts.map(String::as_str))
+        let difference = hair.filter(|_| !hangs).or(found.difference).or_else(|| {
+            let what = writes_elsewhere(source, (target, &other), &circumstances.variables, names)?;
+            Some(Difference { source: None, target: None, what })
         });
+        let tried = tried(self.job, run, &other);
+        let excuse = difference.as_ref().and_then(|d| excuse(&tried, run, &other, d));
+        self.count(&tried, ended && difference.is_none());
+        self.compared += usize::from(ended && excuse.is_none());
         let upto = difference.as_ref().map(|difference| difference.target);
         match difference {
             // Where the source's control itself stops the program, the program says nothing.
-            Some(difference) if stops_by_itself(run, &difference) => {
+            Some(difference) if stops_by_itself(run, &difference) && !finds_no_label(run) => {
                 let text = match &run.end {
                     End::Alarm { stop, .. } => format!("{} {}", stop.number, stop.text),
                     _ => String::new(),
@@ -243,16 +201,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 let text = format!("the source stops with an alarm of the control ({})", text.trim());
                 self.because(Why::SourceAlarms, &text);
             }
-            Some(difference)
-                if self.limits_nesting() && nests_too_deep(run, &other, &difference).is_some() =>
-            {
-                let (_, most) = nests_too_deep(run, &other, &difference).unwrap_or_default();
-                let text = format!(
-                    "calls nest deeper than the {most} levels of the target, which stops with an alarm there"
-                );
-                self.because(Why::Condition, &text);
-            }
-            Some(_) if broken.is_some() => self.because(Why::Condition, &broken.unwrap_or_default()),
+            Some(_) if excuse.is_some() => self.because(Why::Condition, &excuse.unwrap_or_default()),
             Some(difference) if off_its_circle(&difference).is_some() => {
                 let off = off_its_circle(&difference).unwrap_or_default();
                 let text = format!(
@@ -286,6 +235,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 self.witness = Some(Witness {
                     what: difference.what.clone(),
                     scenario: scenario.clone(),
+                    target_variables: self.theirs.clone(),
                     source: difference.source.map(|event| Moment::of(source, run, event)),
                     target: difference.target.map(|event| Moment::of(target, &other, event)),
                 });
@@ -295,13 +245,6 @@ impl<'v, 'j> Verifier<'v, 'j> {
         if self.witness.is_none() && self.sensitive != Some(true) && !is_cut(&other) {
             self.sensitive = Some(self.is_sensitive((there, &circumstances), &other, upto));
         }
-    }
-
-    /// True where the conversion reported that calls may nest deeper than the target takes.
-    fn limits_nesting(&self) -> bool {
-        let file = self.job.source.files.get(self.program.file);
-        let facts = file.and_then(|file| self.job.reported.get(file.name));
-        facts.is_some_and(|facts| facts.iter().any(|fact| fact.starts_with(NESTING)))
     }
 
     fn because(&mut self, why: Why, text: &str) {
@@ -314,23 +257,18 @@ impl<'v, 'j> Verifier<'v, 'j> {
     fn certificate(mut self, there: Option<ProgramRef>) -> ProgramCertificate {
         let source_file = self.job.source.files.get(self.program.file);
         let target_file = there.and_then(|there| self.job.target.files.get(there.file));
-        let not_reached = match (there, source_file) {
-            (Some(_), Some(file)) => self.coverage.not_reached(file.parsed.source),
-            _ => Vec::new(),
-        };
-        if !not_reached.is_empty() {
-            let named = not_reached
-                .iter()
-                .take(NAMED)
-                .map(|way| format!("'{}' in line {} was never {}", way.text.trim(), way.line, way.way));
-            let more = not_reached.len().saturating_sub(NAMED);
-            let rest = (more > 0).then(|| format!("and {more} more ways were not gone"));
-            let text = named.chain(rest).collect::<Vec<_>>().join("; ");
-            self.because(Why::NotReached, &text);
+        let ways = |coverage: &Coverage, side| there.map_or(Vec::new(), |_| coverage.not_reached(side));
+        let not_reached = ways(&self.coverage, self.job.source);
+        let target_not_reached = ways(&self.target_coverage, self.job.target);
+        for (missed, whose) in [(&not_reached, ""), (&target_not_reached, " of the target")] {
+            if !missed.is_empty() {
+                self.because(Why::NotReached, &in_words(missed, whose));
+            }
         }
         for text in self.unconfirmed.clone().into_values().flatten() {
             self.because(Why::Unconfirmed, &text);
         }
+        let assumptions = self.assumptions();
         let mut outcome = match (&self.witness, self.reasons.is_empty()) {
             (Some(_), _) => Outcome::Different,
             (None, false) => Outcome::Undecided,
@@ -347,6 +285,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             }
         }
         let (branches_total, branches_covered) = self.coverage.totals();
+        let (target_branches_total, target_branches_covered) = self.target_coverage.totals();
         let reasons = self
             .reasons
             .into_iter()
@@ -367,6 +306,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
             branches_covered,
             branches_total,
             not_reached,
+            target_branches_covered,
+            target_branches_total,
+            target_not_reached,
             edits: self.edits,
             tolerance_mm: self.tolerance.rounded,
             largest_difference_mm: self.largest,
@@ -374,6 +316,24 @@ impl<'v, 'j> Verifier<'v, 'j> {
             unconfirmed: self.unconfirmed.into_keys().collect(),
             texts: self.texts.into_iter().take(20).collect(),
             witness: self.witness,
+            entered: self.entered,
+            assumptions,
         }
     }
+}
+
+/// The ways that were never gone, the first of them by name.
+fn in_words(missed: &[NotReached], whose: &str) -> String {
+    let named = missed
+        .iter()
+        .take(NAMED)
+        .map(|way| format!("'{}' in line {}{whose} was never {}", way.text.trim(), way.line, way.way));
+    let more = missed.len().saturating_sub(NAMED);
+    let rest = (more > 0).then(|| format!("and {more} more ways{whose} were not gone"));
+    named.chain(rest).collect::<Vec<_>>().join("; ")
+}
+
+/// True where a jump of the source finds no block with its number: that stops the program, and the target must stop too.
+fn finds_no_label(run: &Run) -> bool {
+    matches!(&run.end, End::Alarm { stop, .. } if stop.no_label)
 }

@@ -21,6 +21,12 @@ pub struct Proposals<'i> {
     singles: Vec<(usize, Option<f64>, bool)>,
     /// Pairs of variables that are compared with each other, and by how much the second is to be more.
     pairs: Vec<(usize, usize, f64)>,
+    /// Answers of the operator that are still to be tried.
+    answers: Vec<f64>,
+    /// What is in registers that the target alone has, in the last scenario.
+    theirs: BTreeMap<String, f64>,
+    /// Block-skip switches, one setting after the other.
+    skips: Vec<u32>,
 }
 
 /// The value of a variable that another one is held against.
@@ -29,8 +35,14 @@ const PAIRED: f64 = 5.0;
 /// Answers that the operator has ready.
 const ANSWERS: u32 = 48;
 
-/// The ground states that come before anything is drawn.
+/// The ground states that come before anything is drawn, at the least: each setting of the skip switches comes in them.
 const GROUNDS: usize = 8;
+
+/// The first answers to questions that are one and the same, where an answer is tried; a loop until a sensible one ends.
+const SAME_ANSWERS: u32 = 4;
+
+/// Every switch that skips blocks.
+const ALL_SKIPS: u32 = 0x3fe;
 
 impl<'i> Proposals<'i> {
     /// Proposals for a program.
@@ -46,12 +58,24 @@ impl<'i> Proposals<'i> {
         let singles = ranked.into_iter().map(|(rank, at, value)| (at, value, rank % 2 == 1)).rev().collect();
         let apart = |(a, b): &(usize, usize)| [0.0, 1.0, -1.0].map(|more| (*a, *b, more));
         let pairs = inputs.pairs.iter().flat_map(apart).collect();
-        Self { inputs, random: Random::new(effort.seed), effort, count: 0, singles, pairs }
+        let answers = if inputs.asks { inputs.numbers.iter().rev().copied().collect() } else { Vec::new() };
+        let (random, theirs, skips) = (Random::new(effort.seed), BTreeMap::new(), skips(inputs));
+        Self { inputs, random, effort, count: 0, singles, pairs, answers, theirs, skips }
+    }
+
+    /// What is in registers that the target alone has, in the last scenario.
+    pub fn theirs(&self) -> &BTreeMap<String, f64> {
+        &self.theirs
+    }
+
+    fn grounds(&self) -> usize {
+        GROUNDS.max(self.skips.len())
     }
 
     /// True while those come that every program is compared in, whether they reach anything new or not.
     pub fn are_telling(&self) -> bool {
-        self.count <= GROUNDS || !self.singles.is_empty() || !self.pairs.is_empty()
+        let tried = self.singles.is_empty() && self.pairs.is_empty() && self.answers.is_empty();
+        self.count <= self.grounds() || !tried
     }
 
     /// The next scenario, for the source.
@@ -61,10 +85,12 @@ impl<'i> Proposals<'i> {
         }
         let count = self.count;
         self.count += 1;
-        let mut variables = BTreeMap::new();
-        let drawn = count >= GROUNDS && (count % 4 == 1 || self.singles.is_empty());
-        let pair = if count < GROUNDS || drawn { None } else { self.pairs.pop() };
-        let single = if count < GROUNDS || drawn || pair.is_some() { None } else { self.singles.pop() };
+        let (mut variables, mut theirs) = (BTreeMap::new(), BTreeMap::new());
+        let is_ground = count < self.grounds();
+        let drawn = !is_ground && (count % 4 == 1 || self.singles.is_empty());
+        let pair = if is_ground || drawn { None } else { self.pairs.pop() };
+        let single = if is_ground || drawn || pair.is_some() { None } else { self.singles.pop() };
+        let answer = if is_ground || single.is_some() { None } else { self.answers.pop() };
         for (at, input) in self.inputs.variables.iter().enumerate() {
             let ordinal = at as f64 + 1.0;
             let ground = match single {
@@ -93,10 +119,16 @@ impl<'i> Proposals<'i> {
             };
             // A variable that is never vacant holds something: what a program finds at first is 0.
             if let Some(value) = value.or((!input.nullable).then_some(0.0)) {
-                variables.insert(input.name.clone(), value);
+                let side = if input.theirs { &mut theirs } else { &mut variables };
+                side.insert(input.name.clone(), value);
             }
         }
-        Some(self.around(variables, count))
+        self.theirs = theirs;
+        let mut scenario = self.around(variables, count);
+        if let Some(answer) = answer {
+            scenario.answers.iter_mut().take(SAME_ANSWERS as usize).for_each(|first| *first = answer);
+        }
+        Some(scenario)
     }
 
     fn draw(&mut self, input: &Input) -> Option<f64> {
@@ -123,9 +155,7 @@ impl<'i> Proposals<'i> {
             scenario.start[axis] = 0.0;
         }
         scenario.variables = variables;
-        if self.inputs.skips && count % 3 == 1 {
-            scenario.block_skip = 0x3fe;
-        }
+        scenario.block_skip = self.skips.get(count % self.skips.len().max(1)).copied().unwrap_or(0);
         let near =
             if self.inputs.numbers.is_empty() { vec![0.0, 1.0, 2.5] } else { self.inputs.numbers.clone() };
         scenario.answers = (0..ANSWERS)
@@ -152,7 +182,7 @@ impl<'i> Proposals<'i> {
                     .collect(),
             };
         if count > 0 {
-            scenario.state = self.cells();
+            scenario.state = self.cells(count);
         }
         scenario.optional_stop = count.is_multiple_of(2);
         scenario.steps = self.effort.steps;
@@ -160,10 +190,15 @@ impl<'i> Proposals<'i> {
         scenario
     }
 
-    /// Now and then a tool of more than two digits, and small tools: conditions name sizes of tools too.
+    /// Now and then a tool of more than two digits, small tools and near offsets: conditions name sizes and places too.
     fn tables(&mut self, scenario: &mut Scenario, count: usize) {
         if count % 4 == 2 {
+            let row = scenario.tools.get(&scenario.tool).copied().unwrap_or_default();
             scenario.tool *= 101;
+            scenario.tools.insert(scenario.tool, row);
+        }
+        if count % 3 == 2 {
+            self.places(scenario, count / 3);
         }
         if count % 5 == 3 {
             let near = self.random.pick(&self.inputs.numbers).copied().unwrap_or(0.0).abs();
@@ -177,18 +212,55 @@ impl<'i> Proposals<'i> {
         }
     }
 
+    /// Offsets that conditions name: near the numbers that they are held against, in millimetres or inches.
+    fn places(&self, scenario: &mut Scenario, count: usize) {
+        for ((state, subscripts), values) in &self.inputs.cells {
+            let Some(value) = values.get(count / 2 % values.len().max(1)) else { continue };
+            let value = value * if count.is_multiple_of(2) { 1.0 } else { 25.4 };
+            match (state, subscripts.as_slice()) {
+                (Sys::WorkOffset, [number, axis]) => {
+                    let axes = scenario.work_offsets.entry(*number).or_default();
+                    if let Some(own) = axes.get_mut((*axis as usize).wrapping_sub(1)) {
+                        *own = value;
+                    }
+                }
+                (Sys::LengthGeometry | Sys::ToolOffset, [number]) => {
+                    scenario.tools.entry(*number).or_default().length = value;
+                }
+                (Sys::LengthWear, [number]) => {
+                    scenario.tools.entry(*number).or_default().length_wear = value;
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// Inputs, counters and the like, one way or the other.
-    fn cells(&mut self) -> Vec<StateValue> {
+    fn cells(&mut self, count: usize) -> Vec<StateValue> {
         let mut out = Vec::new();
-        for (state, subscripts) in &self.inputs.cells {
+        for (at, ((state, subscripts), values)) in self.inputs.cells.iter().enumerate() {
             let value = match state {
+                Sys::Input | Sys::InputInverted | Sys::Output if count < GROUNDS => ((at + count) % 2) as f64,
                 Sys::Input | Sys::InputInverted | Sys::Output => f64::from(u8::from(self.random.one_in(2))),
                 Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds | Sys::Date | Sys::Time => continue,
-                _ => self.random.pick(&self.inputs.numbers).copied().unwrap_or(1.0).round().abs(),
+                _ => {
+                    let near = if values.is_empty() { &self.inputs.numbers } else { values };
+                    self.random.pick(near).copied().unwrap_or(1.0).round().abs()
+                }
             };
             out.push(StateValue { state: *state, subscripts: subscripts.clone(), value });
         }
         out
+    }
+}
+
+/// The settings of the switches that skip blocks: none, all, and where there are several each by itself.
+fn skips(inputs: &Inputs) -> Vec<u32> {
+    let each = inputs.skips.iter().map(|switch| 1_u32.checked_shl(u32::from(*switch)).unwrap_or(0));
+    match inputs.skips.len() {
+        0 => vec![0],
+        1 => vec![0, ALL_SKIPS, 0],
+        _ => [0, ALL_SKIPS].into_iter().chain(each).collect(),
     }
 }
 
@@ -239,7 +311,8 @@ pub fn unit(side: &Side<'_>, other: &Side<'_>) -> Option<bool> {
     side.control.units().or(other.control.units()).map(|units| units == Units::Inch)
 }
 
-/// The same circumstances on the target: variables by their names there. One that has none is left out.
+/// The same circumstances on the target: variables by their names there. One that has none is left out; `theirs` are
+/// those that the target alone has.
 ///
 /// A register that nothing has set yet may be vacant there: a conversion that is run first has to see to it, one that
 /// is `called` finds what its callers left.
@@ -247,7 +320,7 @@ pub fn on_target(
     scenario: &Scenario,
     names: &Names,
     (source, target): (&Side<'_>, &Side<'_>),
-    called: bool,
+    (called, theirs): (bool, &BTreeMap<String, f64>),
 ) -> Scenario {
     let mut out = scenario.clone();
     out.inch = unit(target, source).or(scenario.inch);
@@ -272,6 +345,7 @@ pub fn on_target(
             }
         }
     }
+    out.variables.extend(theirs.iter().map(|(name, value)| (name.clone(), *value)));
     // Emulations take more blocks than what they stand for.
     out.steps = scenario.steps.saturating_mul(20);
     out

@@ -19,6 +19,19 @@ pub fn stands_for(target: &Side<'_>, source: &Happening, there: &Happening) -> O
     (both && lacks(target, *state)).then(|| format!("the target has no {state}: it does {other}"))
 }
 
+/// The other coolant coming on where the target has one kind only, which is on already.
+pub fn goes_on(target: &Side<'_>, source: &Happening, there: Op) -> Option<String> {
+    let Happening::Coolant { state } = *source else { return None };
+    let other = match state {
+        Op::Mist => Op::Flood,
+        Op::Flood => Op::Mist,
+        _ => return None,
+    };
+    let one_kind = lacks(target, state) || lacks(target, other);
+    (one_kind && (there == state || there == other))
+        .then(|| format!("the target has one coolant: {there} goes on"))
+}
+
 /// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
 pub fn is_left_out(target: &Side<'_>, source: &Happening) -> Option<String> {
     let Happening::Other { operation, .. } = source else { return None };

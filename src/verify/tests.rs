@@ -1,15 +1,18 @@
 //! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
 
 mod arguments;
+mod assumed;
 mod callers;
 mod codes;
 mod edited;
 mod ends;
 mod nesting;
 mod random;
+mod skips;
 
-use super::{Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
-use crate::control::LoadedFile;
+use super::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
+use crate::assume::Assumption;
+use crate::control::{LoadedFile, ProgramRef};
 use crate::dialect::{Control, registry};
 use crate::syntax::parse_file;
 
@@ -32,15 +35,15 @@ fn programs(
 
 /// Verifies a pair of files, with what a conversion tells of its names.
 fn named(source: (&str, &str), target: (&str, &str), names: Names) -> Vec<ProgramCertificate> {
-    reported(source, target, names, &[])
+    supposing(source, target, names, &[])
 }
 
-/// The same, with the facts and limits that a conversion reported.
-fn reported(
+/// The same, with what a conversion supposes of the programs, by their places in the file.
+fn supposing(
     (from, source): (&str, &str),
     (to, target): (&str, &str),
     names: Names,
-    facts: &[&str],
+    supposed: &[(usize, Assumption)],
 ) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());
     let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
@@ -54,10 +57,12 @@ fn reported(
     let theirs = [LoadedFile { name: "cycle2.nc", parsed: &parsed[1] }];
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
-    let facts = facts.iter().map(|fact| (*fact).to_owned()).collect();
-    let reported = [("cycle1.nc".to_owned(), facts)].into();
+    let mut assumptions = Assumptions::new();
+    for (program, assumption) in supposed.iter().cloned() {
+        assumptions.entry(ProgramRef { file: 0, program }).or_default().push(assumption);
+    }
     let effort = Effort::default();
-    let job = Job { source: &source, target: &target, names: &names, reported: &reported, effort };
+    let job = Job { source: &source, target: &target, names: &names, assumptions: &assumptions, effort };
     verify(&job, &[]).programs
 }
 
@@ -383,16 +388,4 @@ fn facts_are_reasons_that_say_where() {
         "{texts:#?}"
     );
     assert_eq!(texts.len(), found.unconfirmed.len());
-}
-
-#[test]
-fn what_a_skipped_block_sets_is_not_certain() {
-    // By #100=6000 the jump would be certain; the block may be skipped, and then #100 is what it was.
-    let program = "O1\n/#100=6000\nIF[#100GT2500]GOTO5\nG0X1.\nN5M30\n";
-    let found = within("fanuc", program, program);
-    assert_eq!((found.branches_covered, found.branches_total), (2, 2));
-    differs("fanuc", program, &program.replace("X1.", "X2."), "elsewhere");
-    // Without the skip it is certain.
-    let certain = program.replace('/', "");
-    assert_eq!(within("fanuc", &certain, &certain).branches_total, 1);
 }

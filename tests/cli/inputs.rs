@@ -77,6 +77,26 @@ fn a_control_that_is_not_certain_is_asked_for() {
 }
 
 #[test]
+fn a_folder_of_two_kinds_is_not_guessed_and_a_wrong_name_is_told() {
+    let fadal = "O2\n#V1=5\n#R1=V1\n#IF V1 GT 3 THEN GOTO :A\n#V1=1\n#:A\nG90 G0 X+R1\nM2\n";
+    let fanuc =
+        "O1\n#1=5\nWHILE [#1 GT 3] DO1\n#1=#1-1\nEND1\nIF [#1 EQ 3] GOTO 9\nG66 P9010 A1.\nG67\nN9 M30\n";
+    let shop = Shop::with(&[("in/a.nc", fanuc), ("in/b.nc", fadal), ("in/c.nc", "O3\nG0 X1.\nM30\n")]);
+    shop.fails(
+        "convert in --to haas --out out",
+        &["not all written for one control", "a.nc looks like fanuc", "--from"],
+    );
+    let run = shop.run("convert in/b.nc --from fanuc --to haas --out out --format json");
+    assert!(run.err.contains("looks like fadal"), "{}", run.err);
+    let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    assert!(json["notes"][0].as_str().unwrap().contains("looks like fadal"));
+    assert_eq!(json["programs"][0]["outcome"], "refused");
+    let run = shop.run("convert in/b.nc in/c.nc --to haas --out out2");
+    assert!(run.out.contains("2 programs in 2 files"), "{}", run.out);
+    assert!(!run.err.contains("looks like"), "{}", run.err);
+}
+
+#[test]
 fn one_name_in_two_folders_is_an_error_and_one_file_named_twice_is_not() {
     let shop = Shop::with(&[("one/a.nc", CLEAN), ("two/a.nc", CLEAN)]);
     shop.fails("convert one two --from fanuc --to haas --out out", &["one/a.nc", "two/a.nc"]);

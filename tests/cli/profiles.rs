@@ -111,3 +111,27 @@ fn a_doubled_value_that_is_vacant_writes_nothing_either() {
     let run = shop.run(&format!("convert b.nc {line}"));
     assert!(run.out.contains("R[#2*2]") && !run.out.contains("IF"), "{} {}", run.out, run.err);
 }
+
+/// Whoever has said which variables the shop keeps is told what is taken, and not asked again.
+#[test]
+fn the_registers_taken_are_told_and_reserved_is_asked_for() {
+    let taking = "%\nO1\n#500=ASIN[#501]\nM30\n%\n";
+    let shop = Shop::with(&[
+        ("a.nc", taking),
+        ("clean.nc", CLEAN),
+        ("none.toml", "dialect = \"fanuc\"\nreserved = []\n"),
+        ("some.toml", "dialect = \"fanuc\"\nreserved = [\"#100-#109\"]\n"),
+    ]);
+    let line = "convert a.nc --from haas --to fanuc";
+    let asked = shop.run(line).err;
+    assert!(
+        asked.contains("registers taken: #100; if the machine") && asked.contains("'reserved'"),
+        "{asked}"
+    );
+    let none = shop.run(&format!("{line} --machine none.toml")).err;
+    assert!(none.contains("registers taken: #100\n"), "{none}");
+    let some = shop.run(&format!("{line} --machine some.toml")).err;
+    assert!(some.contains("registers taken: #110\n"), "{some}");
+    let clean = shop.run("convert clean.nc --from haas --to fanuc").err;
+    assert!(!clean.contains("registers"), "{clean}");
+}

@@ -4,9 +4,10 @@
 
 use crate::machine::machine;
 use crate::{Case, claims};
+use macroglot::ir::analysis::Numbers;
 use macroglot::ir::text::{parse, print};
 use macroglot::ir::validate;
-use macroglot::legalize::{Context, PASSES, Pass, Registers, assign_registers};
+use macroglot::legalize::{Context, Locked, PASSES, Pass, Registers, assign_registers};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -24,7 +25,15 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
     let mut after = before;
     let mut context = Context::new(&source, &target, after.programs.len());
     let registers = if pass == "registers" {
-        assign_registers(&mut after, &locked(options)?, &[], &mut context)
+        let variables = locked(options)?;
+        let locked = Locked {
+            variables: &variables,
+            scratch: &[],
+            own: &[],
+            reached: Numbers::default(),
+            others: &[],
+        };
+        assign_registers(&mut after, &locked, &mut context)
     } else {
         named(pass)?.iter().for_each(|pass| pass.apply(&mut after, &mut context));
         Registers::default()

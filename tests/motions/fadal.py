@@ -353,3 +353,4 @@ for y, back in ((1.0, 1.0), (2.0, None)):
 part.hole(5.0, 1.0, r=0.1, bottom=-0.25, dwell=0.5, back=1.0)
 part.hole(6.0, 1.0, r=0.1, bottom=-0.25, back=1.0)
 part.feed(7.0)
+part.spindle("stopped")

@@ -1,5 +1,6 @@
 """Programs in programs/haas/, written with what the Haas class (seed 002, facts/haas.md) says: few programs
-of the corpus move. Computed words are rounded to .0001 inch or .001 mm.
+of the corpus move. Computed words are rounded to .0001 inch or .001 mm. M codes act when the move of their block is
+done (seed 002:1496).
 """
 
 from decimal import ROUND_HALF_UP, Decimal
@@ -179,11 +180,13 @@ part.hole(10.0, 0.0, r=2.0, bottom=-12.0, f=625.0, out="feed")
 part.hole(20.0, 0.0, r=2.0, bottom=-12.0, back=20.0, out="feed")
 part.feed(30.0)
 
+TURNS = '[parameters]\n"278.cncr_spindle" = 0'
+
 part = Milled("taps", "G74 with M04 stays at R3. (G99), then back to Z20. (G98); G84 twice by L2 under G91 from\n"
-                      "R20-16 to 4-14. The feed stays.", metric=True, tools={3: 33.0}, turns=True)
-part.spindle("counter_clockwise", 400.0)
+                      "R20-16 to 4-14. The feed stays.", metric=True, tools={3: 33.0}, turns=True, profile=TURNS)
 part.work(1)
 part.rapid(0.0, 0.0)
+part.spindle("counter_clockwise", 400.0)
 part.tool(3)
 part.rapid(z=20.0)
 part.tap(10.0, 5.0, r=3.0, bottom=-12.0, f=500.0)
@@ -192,15 +195,18 @@ part.spindle("clockwise")
 for x in (30.0, 40.0):
     part.tap(x, 5.0, r=20.0 - 16.0, bottom=4.0 - 14.0, f=300.0)
 part.feed(95.0)
+# M30 stops the spindle (seed 002:216).
+part.spindle("stopped")
+part.to("fanuc", "beside_moves.rs", "pauses.rs", "pauses/after.rs")
 
 part = Milled("bores", "Each bore back to the initial level (G98) and to R2. (G99). G76 and G77 go aside by I and J where no Q stands (96-8000,\n"
                        "1999, p. 188); G77 dives to R-25. and cuts up to Z-20., from Z2. where G80 left the tool. G88 is bore, dwell, out by\n"
                        "hand, G87 the same without the dwell (seed 002:1368). L repeats under G91; G80 took the\n"
                        "dwell away.", metric=True,
-              tools={3: 33.0}, turns=True)
-part.spindle("clockwise", 600.0)
+              tools={3: 33.0}, turns=True, profile=TURNS)
 part.work(1)
 part.rapid(0.0, 0.0)
+part.spindle("clockwise", 600.0)
 part.tool(3)
 part.rapid(z=30.0)
 part.set_feed(60.0)
@@ -222,3 +228,4 @@ for x in (50.0, 40.0, 30.0):
 for x in (20.0, 10.0):
     part.hole(x, 15.0, r=2.0, bottom=2.0 - 4.0, out="feed")
 part.rapid(z=60.0)
+part.spindle("stopped")

@@ -105,7 +105,7 @@ part.work(1)
 part.rapid(0.0, 0.0)
 part.rapid(3.5, 7.0)
 part.rapid(7.0)
-part.to("haas", "computed_numbers.rs")
+part.to("haas", "computed_numbers.rs", "computed_numbers/shift.rs")
 
 part = Short("fadal", "repeats", "G91 X.5 Y.25 L3 moves three times; G5 is rapid for its block, and X3. feeds on.", units="inch")
 part.work(1)

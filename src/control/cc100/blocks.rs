@@ -2,12 +2,13 @@
 
 use super::store::Cell;
 use super::{Interpreter, Next};
-use crate::canon::{Op, Role};
+use crate::canon::{Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
 use crate::control::words::{self, Read, Spoken};
 use crate::syntax::{Block, ExprKind, ItemKind};
+use crate::text::decode;
 use smallvec::SmallVec;
 
 /// G800: cycle nn has the code G8nn.
@@ -69,7 +70,7 @@ impl<'r> Interpreter<'r, '_> {
             session.machine.run(command, &mut session.trace)?;
         }
         if let Some(text) = message {
-            session.trace.push(Happening::Message { text });
+            session.pause(Pause::Stop, Happening::Message { text });
         }
         self.flow(&read, words)
     }
@@ -110,7 +111,7 @@ impl<'r> Interpreter<'r, '_> {
         })?;
         let source = self.session.source(self.at.section);
         let text = source.get(comment.start as usize..comment.end as usize)?;
-        Some(String::from_utf8_lossy(text).trim().to_owned())
+        Some(decode(text).trim().to_owned())
     }
 
     /// The end of a called part; that of a cycle where the code is M2.

@@ -131,7 +131,13 @@ impl<'r> Interpreter<'r, '_> {
         let Register::R(number) = PLANE else { return };
         let role =
             read.rows(&self.lasting).find_map(|row| control.parametric_role('R', number as u32, Some(row)));
-        let Some(role) = role.filter(|role| read.command.word(*role).is_none()) else { return };
+        let Some(role) = role else { return };
+        if read.command.word(role).is_some() {
+            if role == Role::CycleR {
+                self.session.rest_on("cycle.r.word");
+            }
+            return;
+        }
         let kept = !line.set.contains(&PLANE);
         let begins = read.codes.iter().any(|row| row.op.is_cycle());
         match role {
@@ -141,7 +147,9 @@ impl<'r> Interpreter<'r, '_> {
             Role::OffsetValue => self.session.trace.doubt("machine:offset.value.kept"),
             _ => return,
         }
-        let Some(value) = self.registers.get(PLANE) else { return };
+        // A register that nothing set holds zero, as where a word reads it.
+        let otherwise = (role == Role::CycleR).then_some(0.0);
+        let Some(value) = self.registers.get(PLANE).or(otherwise) else { return };
         read.command.words.push((role, value));
     }
 

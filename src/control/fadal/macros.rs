@@ -2,7 +2,7 @@
 
 use super::registers::Register;
 use super::{At, Interpreter};
-use crate::canon::Op;
+use crate::canon::{Op, Pause};
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
 use crate::syntax::{Item, ItemKind, SetOption, Target, VarRef};
@@ -138,7 +138,7 @@ impl Interpreter<'_, '_> {
         if self.depth > 0 {
             self.session.trace.doubt("machine:start.in.subprogram");
         }
-        self.session.trace.push(Happening::Stop);
+        self.session.pause(Pause::Stop, Happening::Stop);
         self.at = At { section, index: 0 };
         self.level = super::Level::Main;
         self.modal.clear();

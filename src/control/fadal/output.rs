@@ -4,6 +4,7 @@ use super::Interpreter;
 use crate::control::session::Flow;
 use crate::control::trace::Happening;
 use crate::syntax::PrintPart;
+use crate::text::decode;
 
 /// The longest line that commas at the end of PRINT can build.
 const LONGEST: usize = 10_000;
@@ -16,7 +17,7 @@ impl Interpreter<'_, '_> {
                 PrintPart::Text(span) => {
                     let source = self.session.source(self.at.section);
                     let text = source.get(span.start as usize..span.end as usize).unwrap_or_default();
-                    self.line.push_str(&String::from_utf8_lossy(text));
+                    self.line.push_str(&decode(text));
                 }
                 PrintPart::Value(expr) => {
                     let value = self.value(expr)?;

@@ -1,16 +1,22 @@
 //! The order in which a block's operations and words act.
 //!
-//! Modes come first, then tool, spindle and coolant, then what moves, then what stops; so
-//! that `G1 X1 M5` moves with the spindle turning.
+//! Modes come first, then tool, spindle and coolant as far as they act with the start of the move, then what moves,
+//! then the rest of them, then a stop.
 
-use super::{Command, Machine, motion, offsets, state, tooling};
-use crate::canon::{Group, Op, Role};
+use super::{Command, Machine, auxiliary, motion, offsets, state, tooling};
+use crate::canon::{Group, Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::trace::{Happening, Trace};
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    if machine.frame.is_shaped() && command.ops.iter().any(|op| is_of_frame(*op)) {
+        machine.rules.frame_codes_when_shaped.ask(trace);
+    }
     state::modes(machine, command, trace);
-    tooling::before(machine, command, trace);
+    let before = auxiliary::Before::of(machine, trace);
+    tooling::tool(machine, command, trace);
+    auxiliary::with_start(machine, command, trace);
+    tooling::compensation(machine, command, trace);
     state::frames(machine, command, trace);
     for &op in &command.ops {
         one_shot(machine, op, command, trace)?;
@@ -18,16 +24,33 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     if command.has_axes() {
         machine.place_by_offset(trace);
     }
+    if places_length(machine, command) {
+        machine.place_by_length(trace);
+    }
     motion::run(machine, command, trace)?;
-    tooling::after(machine, command, trace);
+    auxiliary::behind(machine, command, &before, trace);
     for &op in &command.ops {
         match op {
-            Op::Stop => trace.push(Happening::Stop),
-            Op::OptionalStop => trace.push(Happening::OptionalStop),
+            Op::Stop => machine.pause(Pause::Stop, Happening::Stop, trace),
+            Op::OptionalStop => machine.pause(Pause::Stop, Happening::OptionalStop, trace),
             _ => {}
         }
     }
     Ok(())
+}
+
+/// True where a block places something by the tool length, in coordinates of the program.
+fn places_length(machine: &Machine, command: &Command) -> bool {
+    let aside = |op: &Op| matches!(op, Op::MachineOnce | Op::WriteWork | Op::LocalShift | Op::Dwell);
+    let depth = command.word(Role::Z).is_some() && !machine.incremental;
+    (depth || command.word(Role::CycleR).is_some()) && !command.ops.iter().any(aside)
+}
+
+/// True for a code that chooses or leaves the frame of coordinates.
+fn is_of_frame(op: Op) -> bool {
+    matches!(op.group(), Group::Plane | Group::WorkOffset)
+        || matches!(op, Op::LocalShift | Op::SetPosition | Op::MachineOnce | Op::ReferenceFrom)
+        || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home)
 }
 
 /// Operations that act once and do not move by the words of motion.
@@ -49,6 +72,9 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         Op::CheckMetric if machine.inch => return Err(Stop::unnamed("the control is set to inch")),
         // These move, or are modes, or were done in their places.
         _ if op.group() != Group::OneShot || is_done_elsewhere(op) => {}
+        // An M code of its own, which has its time.
+        op if auxiliary::is_own(op)
+            && command.own_code.as_ref().is_some_and(|code| code.starts_with('M')) => {}
         _ => trace.push(Happening::Other { operation: op, code: command.own_code.clone() }),
     }
     Ok(())
@@ -57,6 +83,7 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
 fn is_done_elsewhere(op: Op) -> bool {
     use Op::*;
     op.is_flow()
+        || op.auxiliary().is_some()
         || matches!(
             op,
             RapidOnce
@@ -75,10 +102,6 @@ fn is_done_elsewhere(op: Op) -> bool {
                 | CycleHere
                 | Stop
                 | OptionalStop
-                | SpindleOrient
-                | ToolChange
-                | ThroughSpindle
-                | ThroughSpindleOff
                 | CheckInch
                 | CheckMetric
         )

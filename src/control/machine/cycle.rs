@@ -128,6 +128,9 @@ fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
         // The dwell that an earlier cycle was given is none of this one.
         cycle.dwell = 0.0;
     }
+    if machine.frame.scale.is_some() {
+        machine.rules.scale_reaches_cycle.ask(trace);
+    }
     let frozen = machine.rules.planes_frozen.peek();
     if cycle.mixes(machine.incremental) {
         machine.rules.planes_frozen.ask(trace);

@@ -39,6 +39,8 @@ pub struct Left {
     pub rotation: Option<Rotation>,
     /// Machine position, millimetres.
     pub position: Axes,
+    /// True where the shift of all work offsets lies in the register of the local shift.
+    pub external_is_local: bool,
     /// Work offsets by common number, and the shift of all of them as number 0, millimetres.
     pub work_offsets: BTreeMap<u32, Axes>,
     /// The tool table.
@@ -48,6 +50,10 @@ pub struct Left {
 impl Machine {
     /// What is in force now, at the end of a run: the machine's tables go with it.
     pub fn left(&mut self) -> Left {
+        // Whether a length that a return or a machine move may have cancelled is back shows where it counts.
+        if self.length_lost.is_some() {
+            self.frame.length = 0.0;
+        }
         let mut work_offsets = std::mem::take(&mut self.work_offsets);
         work_offsets.insert(0, self.frame.external);
         Left {
@@ -60,6 +66,7 @@ impl Machine {
             scale: self.frame.scale,
             rotation: self.frame.rotation,
             position: self.position,
+            external_is_local: self.rules.local_is_external.peek(),
             work_offsets,
             tools: std::mem::take(&mut self.tools),
         }

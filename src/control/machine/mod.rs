@@ -6,6 +6,7 @@
 //! millimetres.
 
 mod arc;
+mod auxiliary;
 mod block;
 mod command;
 mod cycle;
@@ -14,6 +15,7 @@ mod frame;
 mod left;
 mod motion;
 mod offsets;
+mod pauses;
 mod rounding;
 mod rules;
 mod state;
@@ -29,12 +31,13 @@ pub use left::Left;
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};
 use super::trace::{FeedMode, Plane, Side, Spindle, Trace};
-use crate::canon::{Group, Op, Sys};
+use crate::canon::{Group, Op, Pause, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
 use rounding::Rounding;
 use rules::Rules;
 use std::collections::{BTreeMap, HashMap};
+use tooling::LostBy;
 
 /// The groups of modes that a called program finds as its caller left them.
 pub const GIVEN: [Group; 5] = [Group::Units, Group::Motion, Group::Distance, Group::Plane, Group::FeedMode];
@@ -72,11 +75,15 @@ pub struct Machine {
     surface_speed: bool,
     spindle: Spindle,
     coolant: Op,
+    /// What stopped the program last, where nobody knows what it did with spindle and coolant, which ran.
+    unsure_running: [Option<Pause>; 2],
     tool_ready: f64,
     tool: f64,
     tools: BTreeMap<u32, Tool>,
     length_op: Op,
     length_offset: u32,
+    /// What may have cancelled the length since the program named it, and whether it did.
+    length_lost: Option<(LostBy, bool)>,
     side: Side,
     radius_offset: u32,
     /// True where the word of the length named it.
@@ -122,11 +129,13 @@ impl Machine {
             surface_speed: false,
             spindle: Spindle::Stopped,
             coolant: Op::CoolantOff,
+            unsure_running: [None; 2],
             tool_ready: f64::from(scenario.tool),
             tool: f64::from(scenario.tool),
             tools: scenario.tools.clone(),
             length_op: Op::LengthOff,
             length_offset: 0,
+            length_lost: None,
             side: Side::Off,
             radius_offset: 0,
             radius_with_length: false,

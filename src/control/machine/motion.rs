@@ -2,11 +2,15 @@
 
 use super::command::is_rotary;
 use super::state::axes_of;
+use super::tooling::LostBy;
 use super::{Command, Machine, arc, cycle};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
 use crate::control::trace::{Happening, Position, Trace};
+
+/// The axis that tool lengths lie along.
+const LENGTH_AXIS: usize = 2;
 
 /// The words for a corner, and whether they cut it off straight.
 const CORNERS: [(Role, bool); 2] = [(Role::CornerRadius, false), (Role::CornerChamfer, true)];
@@ -131,12 +135,14 @@ fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut
         machine.rapid_to(by, trace);
     }
     let mut to = machine.position;
+    let along = named.contains(&LENGTH_AXIS);
     for axis in named {
         let axis = machine.own_axis(axis).0;
         to[axis] = home[axis];
         machine.round_home(axis);
     }
     machine.rapid_to(to, trace);
+    machine.may_lose_length(LostBy::Reference, along);
     Ok(())
 }
 
@@ -148,6 +154,8 @@ fn in_machine_coordinates(machine: &mut Machine, command: &Command, trace: &mut 
     if machine.incremental && command.has_axes() {
         trace.doubt("machine:machine.coordinates.incremental");
     }
+    let named = machine.named_axes(command);
+    machine.may_lose_length(LostBy::MachineMove, named.iter().any(|(axis, _)| *axis == LENGTH_AXIS));
     if to == machine.position {
         return;
     }

@@ -46,6 +46,9 @@ impl Machine {
         trace.push(Happening::Write { state, subscripts, value });
         let Some(number) = number else {
             self.frame.external[axis] = value;
+            if self.rules.local_is_external.peek() {
+                self.frame.local[axis] = 0.0;
+            }
             return;
         };
         self.work_offsets.entry(number).or_insert([0.0; AXES])[axis] = value;

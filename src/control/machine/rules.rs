@@ -1,6 +1,6 @@
 //! The facts of a control that the machine acts by, read once.
 
-use crate::canon::Sys;
+use crate::canon::{Auxiliary, Pause, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine};
 
@@ -18,6 +18,11 @@ impl<T: Copy> Fact<T> {
             trace.doubt(name);
         }
         self.value
+    }
+
+    /// True where nobody confirmed it.
+    pub fn is_unsure(&self) -> bool {
+        self.unsure.is_some()
     }
 
     /// The answer, in a place where it does not matter yet.
@@ -56,6 +61,17 @@ pub enum RadiusTable {
     Diameter,
 }
 
+/// What a return or a move in machine coordinates does to the tool length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthAfter {
+    /// It is in force in the next block.
+    Kept,
+    /// It is gone until the program names it again.
+    Cancelled,
+    /// The same, where the axis of the length moved.
+    CancelledAlong,
+}
+
 /// What becomes of an arc without a centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCentre {
@@ -68,6 +84,10 @@ pub enum NoCentre {
 /// The facts.
 #[derive(Debug)]
 pub struct Rules {
+    /// Whether each kind of [`Auxiliary`] acts when the move of its block is done.
+    late: [Fact<bool>; Auxiliary::ALL.len()],
+    /// Whether each kind of stop ends spindle and coolant, and whether that is known.
+    ends: [[(Option<bool>, bool); Running::ALL.len()]; Pause::ALL.len()],
     pub negative_radius_is_long: Fact<bool>,
     pub positive_radius_is_short: Fact<bool>,
     pub no_centre: Fact<NoCentre>,
@@ -82,11 +102,23 @@ pub struct Rules {
     pub offset_acts_at_once: Fact<bool>,
     pub radius_table: Fact<RadiusTable>,
     pub tool_word_changes: Fact<bool>,
+    /// The word changes the tool that is in the spindle anew.
+    pub tool_word_again: Fact<bool>,
     pub tool_word_selects_length: Fact<bool>,
     pub cutter_takes_tool: Fact<bool>,
     pub length_picks_radius: Fact<bool>,
     pub end_cancels_length: Fact<bool>,
     pub reference_takes_all: Fact<bool>,
+    pub length_after_reference: Fact<LengthAfter>,
+    pub length_after_machine_move: Fact<LengthAfter>,
+    pub mirrors_about_word: Fact<bool>,
+    pub positions_hold_length: Fact<bool>,
+    /// What codes of the frame do under a rotation, a scale or a mirror is nowhere another answer.
+    pub frame_codes_when_shaped: Fact<()>,
+    pub scale_reaches_cycle: Fact<()>,
+    pub local_is_external: Fact<bool>,
+    pub set_position_ends_local: Fact<bool>,
+    pub end_clears_local: Fact<bool>,
     /// True where length and radius share a table.
     pub shared_offsets: bool,
     /// True on a lathe: U, V and W are incremental X, Y and Z, and X is a diameter.
@@ -99,10 +131,17 @@ impl Rules {
         let word = |yes: &'static str, no: &'static str| {
             move |value: &str| (value == yes || value == no).then_some(value == yes)
         };
+        let only = |answer: &'static str| move |value: &str| (value == answer).then_some(());
         let has = |state| control.system_run(state).is_some();
         let table = |value: &str| match value {
             "radius" => Some(RadiusTable::Radius),
             "diameter" => Some(RadiusTable::Diameter),
+            _ => None,
+        };
+        let length_after = |value: &str| match value {
+            "kept" => Some(LengthAfter::Kept),
+            "cancelled" => Some(LengthAfter::Cancelled),
+            "cancelled.along" => Some(LengthAfter::CancelledAlong),
             _ => None,
         };
         let no_centre = |value: &str| match value {
@@ -113,7 +152,18 @@ impl Rules {
         let negative_is_long = fact(control, "arc.radius.negative", word("long", "short"), true);
         // Where only the minus is known, the plus is the other arc.
         let plus = negative_is_long.peek();
+        let late = |kind: Auxiliary| {
+            let acts = control.acts(kind);
+            Fact { value: acts.late, unsure: (!acts.known).then(|| format!("behaviour:{}", acts.question)) }
+        };
         Self {
+            late: Auxiliary::ALL.map(late),
+            ends: Pause::ALL.map(|pause| {
+                Running::ALL.map(|running| {
+                    let ends = control.ends(pause, running);
+                    (ends.answer, ends.known)
+                })
+            }),
             positive_radius_is_short: fact(control, "arc.radius.positive", word("short", "long"), plus),
             negative_radius_is_long: negative_is_long,
             no_centre: fact(control, "arc.without.centre", no_centre, NoCentre::Alarm),
@@ -130,14 +180,40 @@ impl Rules {
             // Where it is a setting nobody stated, as conversions take it.
             radius_table: fact(control, "radius.offset.table", table, RadiusTable::Diameter),
             tool_word_changes: fact(control, "tool.change.word", |value| Some(value == "t"), false),
+            tool_word_again: fact(
+                control,
+                "tool.word.again",
+                |value| ["changes", "skipped"].contains(&value).then_some(value == "changes"),
+                true,
+            ),
             tool_word_selects_length: yes(control, "tool.word.selects.length", false),
             cutter_takes_tool: yes(control, "radius.offset.active.tool", false),
             length_picks_radius: yes(control, "length.word.picks.radius", false),
             end_cancels_length: yes(control, "end.cancels.length", false),
             reference_takes_all: yes(control, "reference.all.axes", false),
+            length_after_reference: fact(control, "reference.length", length_after, LengthAfter::Kept),
+            length_after_machine_move: fact(control, "machine.move.length", length_after, LengthAfter::Kept),
+            positions_hold_length: fact(control, "position.length", word("added", "left.out"), false),
+            mirrors_about_word: fact(control, "mirror.about", word("word", "zero"), true),
+            frame_codes_when_shaped: fact(control, "shape.frame.codes", only("kept"), ()),
+            scale_reaches_cycle: fact(control, "scale.reaches.cycle", only("true"), ()),
+            local_is_external: yes(control, "shift.local.is.external", false)
+                .or_silent(control, "shift.local.is.external"),
+            set_position_ends_local: yes(control, "set.position.ends.local", false),
+            end_clears_local: yes(control, "end.clears.local", false),
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),
             lathe: control.machine() == Machine::Lathe,
         }
+    }
+
+    /// Whether a stop ends what is running, and whether that is known.
+    pub fn ends(&self, pause: Pause, running: Running) -> (Option<bool>, bool) {
+        self.ends[pause as usize][running as usize]
+    }
+
+    /// Whether an operation of a kind acts when the move of its block is done.
+    pub fn acts_late(&self, kind: Auxiliary) -> &Fact<bool> {
+        &self.late[kind as usize]
     }
 }
 

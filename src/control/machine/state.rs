@@ -60,19 +60,26 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
             Op::LocalShift => {
                 for (axis, value) in machine.named_axes(command) {
                     machine.frame.local[axis] = value;
+                    if machine.rules.local_is_external.peek() {
+                        machine.frame.external[axis] = 0.0;
+                    }
                 }
             }
             Op::SetPosition => {
                 let at = machine.frame.program(&machine.position);
                 for (axis, value) in machine.named_axes(command) {
                     machine.frame.datum[axis] += at[axis] - value;
+                    if machine.frame.local[axis] != 0.0 && machine.rules.set_position_ends_local.ask(trace) {
+                        machine.frame.datum[axis] += std::mem::take(&mut machine.frame.local[axis]);
+                    }
                 }
             }
             Op::RotateOn => rotate(machine, command, trace),
             Op::RotateOff => machine.frame.rotation = None,
             Op::MirrorOn => {
                 for (axis, value) in machine.named_axes(command) {
-                    machine.frame.mirror[axis] = Some(value);
+                    let by_word = value == 0.0 || machine.rules.mirrors_about_word.ask(trace);
+                    machine.frame.mirror[axis] = Some(if by_word { value } else { 0.0 });
                 }
             }
             Op::MirrorOff => {

@@ -30,6 +30,11 @@ impl Machine {
         let passed = self.clock;
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             self.place_by_offset(trace);
+            self.place_by_length(trace);
+            let depth = subscripts.last() == Some(&3) && state != Sys::EndPosition;
+            if depth && self.frame.length != 0.0 {
+                self.rules.positions_hold_length.ask(trace);
+            }
         }
         match state {
             Sys::TimerMs => {
@@ -67,13 +72,20 @@ impl Machine {
         let both = factor(self.rules.radius_table.peek());
         Some(match state {
             Sys::MachinePosition => along(&self.position)?,
-            Sys::EndPosition | Sys::WorkPosition | Sys::AxisPosition => {
-                along(&self.frame.program(&self.position))?
+            Sys::EndPosition => along(&self.frame.program(&self.position))?,
+            Sys::WorkPosition | Sys::AxisPosition => {
+                along(&self.frame.program(&self.position))? + length(2, self.held_length(axis()?))
             }
-            Sys::SkipPosition => along(&self.frame.program(&self.probed))?,
+            Sys::SkipPosition => {
+                along(&self.frame.program(&self.probed))? + length(2, self.held_length(axis()?))
+            }
             Sys::ActiveOffset => {
                 let axis = axis()?;
                 if axis == 2 { length(axis, self.frame.length) } else { 0.0 }
+            }
+            // Who wrote the one register shows in which of the two is not zero.
+            Sys::ExternalShift if self.rules.local_is_external.peek() => {
+                along(&self.frame.external)? + along(&self.frame.local)?
             }
             Sys::ExternalShift => along(&self.frame.external)?,
             Sys::SetPosition => along(&self.frame.datum)?,
@@ -108,6 +120,11 @@ impl Machine {
             Sys::Euler => std::f64::consts::E,
             _ => self.cells.get(&cell(state, subscripts)).copied().unwrap_or(0.0),
         })
+    }
+
+    /// The tool length that a position along an axis holds.
+    fn held_length(&self, axis: usize) -> f64 {
+        if axis == 2 && self.rules.positions_hold_length.peek() { self.frame.length } else { 0.0 }
     }
 
     /// Keeps the place where the probe touched under a number, in the coordinates and the unit of the program.

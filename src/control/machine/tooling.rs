@@ -1,96 +1,53 @@
-//! Tool, spindle, coolant and compensation.
+//! The tool, and compensation.
 
-use super::rules::RadiusTable;
+use super::rules::{LengthAfter, RadiusTable};
 use super::{Command, Machine};
-use crate::canon::{Op, Role};
-use crate::control::trace::{Happening, Side, Spindle, Trace};
+use crate::canon::{Op, Pause, Role};
+use crate::control::scenario::AXES;
+use crate::control::trace::{Happening, Side, Trace};
 
-/// What acts before the block's motion.
-pub(super) fn before(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    tool(machine, command, trace);
-    spindle(machine, command, trace);
-    for &op in &command.ops {
-        match op {
-            Op::Mist | Op::Flood | Op::ThroughSpindle => coolant(machine, op, trace),
-            _ => {}
-        }
-    }
+/// Takes the codes and words of compensation.
+pub(super) fn compensation(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     length(machine, command, trace);
     radius(machine, command, trace);
 }
 
-/// What acts when the motion is done.
-pub(super) fn after(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    for &op in &command.ops {
-        match op {
-            Op::SpindleStop => turn(machine, Spindle::Stopped, trace),
-            Op::CoolantOff | Op::ThroughSpindleOff => coolant(machine, op, trace),
-            _ => {}
-        }
+/// Takes the tool word.
+pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    let Some(tool) = command.word(Role::Tool) else { return };
+    if machine.rules.lathe {
+        trace.doubt("machine:lathe.tool.word");
     }
-}
-
-fn coolant(machine: &mut Machine, op: Op, trace: &mut Trace) {
-    machine.coolant = op;
-    trace.push(Happening::Coolant { state: op });
-}
-
-fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    let word = command.word(Role::Tool);
-    let changes = word.is_some() && machine.rules.tool_word_changes.peek();
-    if let Some(tool) = word {
-        if machine.rules.lathe {
-            trace.doubt("machine:lathe.tool.word");
-        }
-        machine.tool_ready = tool;
-        if !command.has(Op::ToolChange) && !changes {
+    machine.tool_ready = tool;
+    if !machine.rules.tool_word_changes.peek() {
+        if !command.has(Op::ToolChange) {
             trace.push(Happening::ToolReady { tool });
         }
-    }
-    if !changes && !command.has(Op::ToolChange) {
         return;
     }
-    if changes {
-        machine.rules.tool_word_changes.ask(trace);
-    }
-    let selects = changes && machine.rules.tool_word_selects_length.peek();
-    if selects && machine.tool_ready == 0.0 {
+    machine.rules.tool_word_changes.ask(trace);
+    let selects = machine.rules.tool_word_selects_length.peek();
+    if selects && tool == 0.0 {
         // Tool 0 takes the length away; the tool stays where it is.
         machine.rules.tool_word_selects_length.ask(trace);
         machine.length_op = Op::LengthOff;
         return apply_length(machine, trace);
     }
-    machine.tool = machine.tool_ready;
-    trace.push(Happening::ToolChange { tool: machine.tool });
+    if machine.tool != tool || machine.rules.tool_word_again.ask(trace) {
+        change(machine, trace);
+    }
     if selects {
         machine.rules.tool_word_selects_length.ask(trace);
         machine.length_op = Op::LengthPlus;
-        machine.length_offset = machine.tool as u32;
+        machine.length_offset = machine.tool_ready as u32;
         apply_length(machine, trace);
     }
 }
 
-fn spindle(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    let speed = command.word(Role::Speed);
-    if let Some(speed) = speed {
-        // Surface speed comes in metres or feet a minute.
-        let unit = if machine.inch { 304.8 } else { 1000.0 };
-        machine.speed = if machine.surface_speed { speed * unit } else { speed };
-    }
-    let direction = command.ops.iter().rev().find_map(|op| match op {
-        Op::SpindleCw => Some(Spindle::Clockwise),
-        Op::SpindleCcw => Some(Spindle::CounterClockwise),
-        Op::SpindleOrient => Some(Spindle::Oriented),
-        _ => None,
-    });
-    if direction.is_some() || speed.is_some() {
-        turn(machine, direction.unwrap_or(machine.spindle), trace);
-    }
-}
-
-fn turn(machine: &mut Machine, direction: Spindle, trace: &mut Trace) {
-    machine.spindle = direction;
-    trace.push(Happening::Spindle { direction, speed: machine.speed, surface: machine.surface_speed });
+/// Puts the tool that is ready into the spindle.
+pub(super) fn change(machine: &mut Machine, trace: &mut Trace) {
+    machine.tool = machine.tool_ready;
+    machine.pause(Pause::Change, Happening::ToolChange { tool: machine.tool }, trace);
 }
 
 fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
@@ -112,7 +69,17 @@ fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     }
 }
 
+/// What cancels a length that the program did not end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LostBy {
+    /// A return to the reference position.
+    Reference,
+    /// A move in machine coordinates.
+    MachineMove,
+}
+
 fn apply_length(machine: &mut Machine, trace: &mut Trace) {
+    machine.length_lost = None;
     let value = machine.length_value();
     machine.frame.length = value;
     let offset = if machine.length_op == Op::LengthOff { 0 } else { machine.length_offset };
@@ -151,6 +118,36 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 }
 
 impl Machine {
+    /// What a return or a move in machine coordinates does to the tool length; `along` where it moved its axis.
+    pub(super) fn may_lose_length(&mut self, by: LostBy, along: bool) {
+        if self.length_op == Op::LengthOff {
+            return;
+        }
+        let after = match by {
+            LostBy::Reference => self.rules.length_after_reference.peek(),
+            LostBy::MachineMove => self.rules.length_after_machine_move.peek(),
+        };
+        let gone = after == LengthAfter::Cancelled || (after == LengthAfter::CancelledAlong && along);
+        let before = self.length_lost.is_some_and(|(_, gone)| gone);
+        self.length_lost = Some((by, gone || before));
+        if gone {
+            self.frame.length = 0.0;
+        }
+    }
+
+    /// Notes what a length that may be lost rests on, where something is placed by it.
+    pub(super) fn place_by_length(&mut self, trace: &mut Trace) {
+        let Some((by, gone)) = self.length_lost.take() else { return };
+        match by {
+            LostBy::Reference => self.rules.length_after_reference.ask(trace),
+            LostBy::MachineMove => self.rules.length_after_machine_move.ask(trace),
+        };
+        if gone {
+            self.length_op = Op::LengthOff;
+            trace.push(Happening::ToolLength { offset: 0, value: 0.0 });
+        }
+    }
+
     /// The length in force, with its sign.
     pub(super) fn length_value(&self) -> f64 {
         let tool = self.tools.get(&self.length_offset).copied().unwrap_or_default();
@@ -188,8 +185,15 @@ impl Machine {
             self.length_op = Op::LengthOff;
             self.frame.length = 0.0;
         }
-        self.spindle = Spindle::Stopped;
-        self.coolant = Op::CoolantOff;
-        trace.push(Happening::End { by });
+        if self.frame.external != [0.0; AXES]
+            && self.rules.local_is_external.peek()
+            && self.rules.end_clears_local.ask(trace)
+        {
+            self.frame.external = [0.0; AXES];
+        }
+        if matches!(by, Op::Return | Op::SubEnd) {
+            return trace.push(Happening::End { by });
+        }
+        self.pause(Pause::End, Happening::End { by }, trace);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::code::{Coded, Form, Word, Words};
 use super::memory::Locals;
+use super::rules::Lists;
 use super::run::Runner;
 use crate::canon::Role;
 use crate::control::outcome::Stop;
@@ -15,29 +16,36 @@ pub struct Arguments {
     pub count: Option<f64>,
 }
 
-/// Goes through I, J and K by place: `K J I` are the third of the first, the second of the
-/// second and the first of the third three.
-#[derive(Default)]
-struct Places {
-    group: usize,
-    last: Option<usize>,
+/// The letters of an argument list whose I, J and K may count by place.
+const SETS: &str = "IJK";
+
+/// One I, J or K of a list: how many stood before it with the same letter, and how many
+/// sets were begun by a letter that does not follow the one before.
+#[derive(Clone, Copy)]
+struct Triple {
+    letter: usize,
+    same_before: usize,
+    sets_before: usize,
 }
 
-impl Places {
-    fn next(&mut self, letter: usize) -> usize {
-        if self.last.is_some_and(|last| letter <= last) {
-            self.group += 1;
-        }
-        self.last = Some(letter);
-        4 + 3 * self.group + letter
-    }
+/// The I, J and K of a list, each with its index among the words.
+fn triples(words: &[(usize, usize)]) -> Vec<(usize, Triple)> {
+    let mut sets_before = 0;
+    let step = |(at, &(index, letter)): (usize, &(usize, usize))| {
+        let earlier = words.get(..at).unwrap_or_default();
+        sets_before += usize::from(earlier.last().is_some_and(|(_, last)| *last >= letter));
+        let same_before = earlier.iter().filter(|(_, other)| *other == letter).count();
+        (index, Triple { letter, same_before, sets_before })
+    };
+    words.iter().enumerate().map(step).collect()
 }
 
 impl<'c> Runner<'c> {
     /// The arguments that stand behind the call's code, or round an alias.
     pub fn arguments(&mut self, words: &Words<'c>, call: Coded<'c>) -> Result<Arguments, Halt> {
         let mut read = Arguments { locals: Locals::default(), program: None, count: None };
-        let (mut places, mut others) = (Places::default(), false);
+        let places = self.places(words, call);
+        let mut others = false;
         for (at, word) in words.words.iter().enumerate() {
             let before = at < call.word && call.alias.is_none();
             if at == call.word || before {
@@ -49,10 +57,10 @@ impl<'c> Runner<'c> {
                 (Some(Role::CallCount), _) | (None, 'L') => read.count = self.eval(&word.value)?,
                 _ => {
                     let value = self.argument(word)?;
-                    let local = match "IJK".find(word.letter) {
-                        Some(letter) if self.rules.order_ijk.peek() => places.next(letter),
-                        _ => {
-                            others |= !"ABCIJK".contains(word.letter);
+                    let local = match places.iter().find(|(index, _)| *index == at) {
+                        Some((_, triple)) => self.local_by_place(*triple),
+                        None => {
+                            others |= !"ABC".contains(word.letter);
                             self.local_of(word)?
                         }
                     };
@@ -62,13 +70,34 @@ impl<'c> Runner<'c> {
                 }
             }
         }
-        if places.group > 0 {
-            self.rules.order_ijk.ask(&mut self.session.trace);
-            if others {
-                self.rules.mixed_later_wins.ask(&mut self.session.trace);
-            }
+        if others && !places.is_empty() && !self.rules.mixed_later_wins.ask(&mut self.session.trace) {
+            // Which of the two kinds such a control takes is not known.
+            self.session.trace.doubt("behaviour:arguments.mixed.later.wins");
         }
         Ok(read)
+    }
+
+    /// The I, J and K of the list, where their places say which locals they set.
+    fn places(&mut self, words: &Words<'c>, call: Coded<'c>) -> Vec<(usize, Triple)> {
+        let letters = words.words.iter().enumerate().filter(|(at, word)| *at != call.word && !word.comma);
+        let letters = letters.filter_map(|(at, word)| Some((at, SETS.find(word.letter)?)));
+        let all = triples(&letters.collect::<Vec<_>>());
+        if !all.iter().any(|(_, triple)| triple.sets_before > 0) {
+            return Vec::new();
+        }
+        let twice = all.iter().any(|(_, triple)| triple.same_before > 0);
+        match self.rules.lists.ask(&mut self.session.trace) {
+            Lists::FallingOrTwice => all,
+            Lists::Twice if twice => all,
+            _ => Vec::new(),
+        }
+    }
+
+    fn local_by_place(&mut self, triple: Triple) -> usize {
+        let same = triple.sets_before == triple.same_before;
+        let by_count = !same && self.rules.set_by_count.ask(&mut self.session.trace);
+        let set = if by_count { triple.same_before } else { triple.sets_before };
+        4 + 3 * set + triple.letter
     }
 
     fn local_of(&self, word: &Word) -> Result<usize, Halt> {

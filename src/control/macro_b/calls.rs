@@ -180,7 +180,7 @@ impl<'c> Runner<'c> {
         if let Some(caller) = self.frames.last_mut() {
             caller.at += 1;
         }
-        self.enter(frame.program.number);
+        self.enter(frame.program.number, frame.level);
         self.frames.push(frame);
         Ok(Next::Block)
     }

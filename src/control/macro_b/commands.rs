@@ -3,7 +3,7 @@
 use super::code::{Coded, Meaning, Words};
 use super::meaning::is_code;
 use super::run::{Next, Runner};
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Group, Op, Pause, Role};
 use crate::control::session::Halt;
 use crate::control::trace::Happening;
 use smallvec::SmallVec;
@@ -76,7 +76,8 @@ impl<'c> Runner<'c> {
         self.command = command;
         done?;
         if let Some(text) = shown {
-            self.session.trace.push(Happening::Message { text: text.clone() });
+            let what = Happening::Message { text: text.clone() };
+            self.session.pause(Pause::Stop, what);
         }
         match call {
             Some(call) => self.call_macro(words, call),
@@ -236,9 +237,9 @@ impl<'c> Runner<'c> {
         if moves || (each && !words.words.is_empty()) { self.trigger_modal() } else { Ok(Next::On) }
     }
 
-    /// Notes that a program was entered.
-    pub fn enter(&mut self, program: u32) {
-        self.session.trace.push(Happening::Enter { program });
+    /// Notes that a program was entered, with locals of its own or its caller's.
+    pub fn enter(&mut self, program: u32, level: bool) {
+        self.session.trace.push(Happening::Enter { program, level });
     }
 }
 

@@ -10,7 +10,7 @@ use crate::control::trace::Place;
 use crate::diag::{Code, Severity};
 use crate::dialect::{Control, Row};
 use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
-use crate::text::Span;
+use crate::text::{Span, decode};
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -131,7 +131,7 @@ impl<'c> Compiler<'c, '_> {
     }
 
     fn text(&self, span: Span) -> String {
-        String::from_utf8_lossy(span.of(self.file.parsed.source)).into_owned()
+        decode(span.of(self.file.parsed.source)).into_owned()
     }
 
     /// Several statements in one block, or a statement and words.

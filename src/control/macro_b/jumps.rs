@@ -45,7 +45,7 @@ impl Runner<'_> {
 
     fn no_sequence(&self, number: f64) -> Halt {
         let text = format!("N{number} is not in the program");
-        Halt::Alarm(Stop::alarm(self.style.alarms.no_sequence, text))
+        Halt::Alarm(Stop::no_label(self.style.alarms.no_sequence, text))
     }
 
     /// Goes on with a block of the running program.

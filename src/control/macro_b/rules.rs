@@ -11,6 +11,14 @@ pub enum Dwell {
     Refused,
 }
 
+/// Which lists of I, J and K are of the second kind, in which places count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lists {
+    FallingOrTwice,
+    Twice,
+    Never,
+}
+
 /// What becomes of a word whose brackets hold one vacant variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VacantBracket {
@@ -37,13 +45,18 @@ pub struct Rules {
     pub dwell_point: Answer<Dwell>,
     pub dwell_expression: Answer<Dwell>,
     pub mixed_later_wins: Answer<bool>,
-    pub order_ijk: Answer<bool>,
+    pub lists: Answer<Lists>,
+    pub set_by_count: Answer<bool>,
     pub repeat_reloads: Answer<bool>,
     pub repeat_zero_none: Answer<bool>,
     pub modal_block_calls: Answer<bool>,
     pub alias_nested: Answer<bool>,
     pub bare_length: BareLength,
     pub bare_feed: BareLength,
+    pub feed_parts: f64,
+    pub feed_unsure: bool,
+    /// The letters that the control gives a point where lengths count units.
+    pub pointed: String,
     pub numbers_unsure: bool,
     pub increment_mm: f64,
     pub increment_inch: f64,
@@ -68,6 +81,12 @@ impl Rules {
             "zero" => Some(VacantBracket::Zero),
             _ => None,
         };
+        let lists = |value: &str| match value {
+            "true" => Some(Lists::FallingOrTwice),
+            "repeated" => Some(Lists::Twice),
+            "false" => Some(Lists::Never),
+            _ => None,
+        };
         let numbers = control.numbers();
         let offset = control.behaviour("alarm.offset").and_then(|row| row.value.parse().ok());
         Self {
@@ -80,7 +99,7 @@ impl Rules {
             round_in_address: control
                 .behaviour("round.in.address")
                 .is_some_and(|row| row.value == "increment"),
-            goto_forward: yes(control, "goto.forward.first", true),
+            goto_forward: yes(control, "goto.forward.first", false),
             return_jumps_here: yes(control, "m99.p.jumps.here", false),
             output_needs_port: yes(control, "output.needs.port", false),
             main_restarts: yes(control, "m99.main.restarts", true),
@@ -89,13 +108,17 @@ impl Rules {
             dwell_point: Answer::new(control, "dwell.point", dwell, Dwell::Seconds),
             dwell_expression: Answer::new(control, "dwell.expression", dwell, Dwell::Milliseconds),
             mixed_later_wins: yes(control, "arguments.mixed.later.wins", true),
-            order_ijk: yes(control, "arguments.order.ijk", true),
+            lists: Answer::new(control, "arguments.order.ijk", lists, Lists::FallingOrTwice),
+            set_by_count: Answer::new(control, "arguments.repeated.order", word("count", "place"), false),
             repeat_reloads: yes(control, "call.repeat.reloads.arguments", false),
             repeat_zero_none: Answer::new(control, "repeat.zero", word("none", "once"), true),
             modal_block_calls: yes(control, "call.modal.block.calls", false),
             alias_nested: yes(control, "call.alias.nested", false),
             bare_length: numbers.bare_length,
             bare_feed: numbers.bare_feed,
+            feed_parts: numbers.feed_parts,
+            feed_unsure: control.profile().decimal_point.is_some() && !numbers.feed_stated,
+            pointed: numbers.calculator_letters.clone(),
             numbers_unsure: !numbers.origin.confirmed,
             increment_mm: numbers.increment_mm,
             increment_inch: numbers.increment_inch,

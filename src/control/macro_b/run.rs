@@ -7,7 +7,7 @@ use super::memory::{Locals, Memory};
 use super::numeric::Numeric;
 use super::rules::Rules;
 use super::{Style, meaning};
-use crate::canon::{Op, Role};
+use crate::canon::{Op, Pause, Role};
 use crate::control::library::{Library, ProgramRef};
 use crate::control::machine::Command;
 use crate::control::outcome::{Run, Stop};
@@ -242,7 +242,7 @@ impl<'c> Runner<'c> {
 
     fn signal(&mut self, alarm: bool, value: f64, text: &str) -> Result<(), Halt> {
         if !alarm {
-            self.session.trace.push(Happening::Message { text: text.into() });
+            self.session.pause(Pause::Message, Happening::Message { text: text.into() });
             self.answer_in(text);
             return Ok(());
         }

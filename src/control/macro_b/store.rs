@@ -4,7 +4,7 @@ use super::code::{System, Var};
 use super::expressions::numbered;
 use super::numeric::Value;
 use super::run::Runner;
-use crate::canon::{Group, Sys};
+use crate::canon::{Group, Pause, Sys};
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
 use crate::control::trace::Happening;
@@ -144,7 +144,7 @@ impl Runner<'_> {
             // Reached by a computed number, so that no text is known.
             let number = format!("{}", self.rules.alarm_offset + value);
             if system.state == Sys::StopMessage {
-                self.session.trace.push(Happening::Message { text: String::new() });
+                self.session.pause(Pause::Message, Happening::Message { text: String::new() });
                 return Ok(());
             }
             return Err(Halt::Alarm(Stop { program_number: Some(value), ..Stop::alarm(&number, "") }));

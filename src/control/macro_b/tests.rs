@@ -1,5 +1,6 @@
 //! What the manuals say, checked by running.
 
+mod arguments;
 mod digits;
 mod flow;
 mod programs;

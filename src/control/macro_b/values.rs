@@ -97,19 +97,33 @@ impl<'c> Runner<'c> {
         }
         let (bare, increment) = match role {
             Role::Feed => (self.rules.bare_feed, Some(self.length_increment())),
-            _ => (self.rules.bare_length, self.increment_of(role)),
+            _ => (self.bare_of(word.letter), self.increment_of(role)),
         };
         if role.is_scale() {
             self.rules.scale_bare.ask(&mut self.session.trace);
         }
         let Some(increment) = increment else { return Ok(value) };
-        if self.rules.numbers_unsure || bare == BareLength::Unknown {
+        if role == Role::Feed && self.rules.feed_unsure {
+            self.session.trace.doubt("numbers:bare_feed");
+        } else if self.rules.numbers_unsure || bare == BareLength::Unknown {
             self.session.trace.doubt("numbers");
         }
         Ok(match bare {
             BareLength::Increments => to_increment(value * increment, increment),
+            BareLength::Units if role == Role::Feed => value / self.rules.feed_parts,
             _ => value,
         })
+    }
+
+    /// What a number without a point counts behind a letter of a length: a calculator's only where it is reached.
+    fn bare_of(&self, letter: char) -> BareLength {
+        let pointed = &self.rules.pointed;
+        let reached = pointed.is_empty() || pointed.chars().any(|one| one == letter);
+        if reached || self.rules.bare_length != BareLength::Units {
+            self.rules.bare_length
+        } else {
+            BareLength::Increments
+        }
     }
 
     fn dwell(&mut self, value: f64, role: Role, answer: Dwell) -> Result<f64, Halt> {

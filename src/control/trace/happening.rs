@@ -263,6 +263,9 @@ pub enum Happening {
         /// The program, in [`crate::control::Run::programs`].
         #[serde(rename = "called")]
         program: u32,
+        /// True where it has locals of its own.
+        #[serde(skip)]
+        level: bool,
     },
     /// A program returned. Not compared.
     Leave,

@@ -102,22 +102,44 @@ impl Emitter<'_> {
     /// A B C set locals 1 to 3, and each I, J or K the next local of its column.
     fn arguments_by_place(&mut self, mut arguments: Vec<&Argument>) {
         arguments.sort_by_key(|argument| argument.local);
-        let mut before = 3;
-        for argument in arguments {
-            let letter = match argument.local {
-                1..=3 => self.control.argument_letter(argument.local),
-                // From one column to the next there are at most three steps.
-                local @ 4..=33 if local - before <= 3 => {
-                    before = local;
-                    BY_PLACE.get((local as usize - 4) % 3).copied()
-                }
-                _ => None,
+        let control = self.control;
+        let letter = |local: u32| match local {
+            1..=3 => control.argument_letter(local),
+            4..=33 => BY_PLACE.get((local as usize - 4) % 3).copied(),
+            _ => None,
+        };
+        let letters: Vec<(char, u32)> =
+            arguments.iter().filter_map(|argument| Some((letter(argument.local)?, argument.local))).collect();
+        if letters.len() < arguments.len() || !self.goes_by_place(&letters) {
+            return match arguments.iter().find(|a| control.argument_letter(a.local).is_none()) {
+                Some(a) => self.unmapped(format_args!("an argument for #{} in this list", a.local)),
+                None => self.unmapped("these arguments in one list"),
             };
-            match letter {
-                Some(letter) => self.argument(letter, &argument.value),
-                None => self.unmapped(format_args!("an argument for local {} here", argument.local)),
-            }
         }
+        for ((letter, _), argument) in letters.iter().zip(arguments) {
+            self.argument(*letter, &argument.value);
+        }
+    }
+
+    /// True where the control reads the I, J and K of this list, sorted by locals, as setting these locals.
+    fn goes_by_place(&self, letters: &[(char, u32)]) -> bool {
+        let answer = |name| self.control.behaviour(name).map_or("", |row| row.value.as_str());
+        let sets: Vec<(char, u32)> = letters.iter().filter(|(_, local)| *local > 3).copied().collect();
+        // From one column to the next there are at most three steps.
+        let steps = std::iter::once(3).chain(sets.iter().map(|(_, local)| *local));
+        let close = steps.zip(&sets).all(|(before, (_, local))| local - before <= 3);
+        let earlier = |at: usize, letter| sets.iter().take(at).filter(|(other, _)| *other == letter).count();
+        let twice = sets.iter().enumerate().any(|(at, (letter, _))| earlier(at, *letter) > 0);
+        let counted =
+            |(at, (letter, local)): (usize, &(char, u32))| earlier(at, *letter) == (*local as usize - 4) / 3;
+        let order = answer("arguments.order.ijk");
+        let by_place = order == "true" || order == "repeated" && twice;
+        let in_sets = match answer("arguments.repeated.order") {
+            "place" => close,
+            "count" => sets.iter().enumerate().all(counted),
+            _ => close && sets.iter().enumerate().all(counted),
+        };
+        by_place && in_sets
     }
 
     fn argument(&mut self, letter: char, value: &Expr) {

@@ -1,4 +1,4 @@
-//! Expressions, with as few brackets as keep their tree.
+//! Expressions, with as few brackets as keep their tree, and as a reader needs.
 
 use super::Emitter;
 use super::spellings::Operator;
@@ -156,8 +156,11 @@ impl Emitter<'_> {
     fn operand(&mut self, value: &Expr, beside: BinOp, spot: Spot) {
         let ambiguous = matches!(value, Expr::Call(function, arguments)
             if arguments.len() == 1 && self.has_slash_form(*function));
+        let mixed = matches!(value, Expr::Binary(inner, _) if !beside.reads_beside(*inner));
         if ambiguous && matches!(beside, BinOp::Mul | BinOp::Div) {
             self.bracketed(value);
+        } else if mixed {
+            self.expression(value, Spot::CLOSED);
         } else {
             self.expression(value, spot);
         }

@@ -63,6 +63,8 @@ pub(super) struct Plan {
 pub(super) struct Abilities<'c> {
     /// The target.
     pub control: &'c Control,
+    /// True where a computed jump is stopped before it looks for an invented number: it takes two lines then.
+    pub guarded: bool,
     /// `IF[..]THEN` before a macro statement.
     pub then: bool,
     /// `IF[..]THEN` before words.
@@ -252,7 +254,10 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                     && ((macro_statement && self.abilities.then)
                         || (words && self.abilities.then_words && one_block(stmt.site.span)))
             }
-            ([], TermKind::Return { .. }) => {
+            ([], TermKind::Return { to }) => {
+                if to.is_some() && self.abilities.guarded {
+                    return false;
+                }
                 no.index() == body + 1 && self.abilities.then_words && one_block(block.term.site.span)
             }
             _ => false,
@@ -273,6 +278,10 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
     fn is_one_line(&self, body: usize, at: usize, join: BlockId) -> bool {
         let Some(block) = self.program.blocks.get(body) else { return false };
         if !self.arrivals.is_only_from(body, at) || !block.labels.is_empty() {
+            return false;
+        }
+        let looks = matches!(block.term.kind, TermKind::Computed { .. } | TermKind::Return { to: Some(_) });
+        if looks && self.abilities.guarded {
             return false;
         }
         let behind = body + 1;

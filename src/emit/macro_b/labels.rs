@@ -2,15 +2,19 @@
 //!
 //! A block that is jumped to keeps the number of the source where it is the only one to
 //! claim it. Others get a number between those of their neighbours, a multiple of ten where one
-//! is free. All other numbers stay where people wrote them, unless they would catch a
-//! jump that is meant for another block.
+//! is free, and no computed jump looks for it ([`super::reach`]). All other numbers stay where people
+//! wrote them, unless they would catch a jump that is meant for another block, or for none.
 
+use super::reach::Reach;
 use crate::ir::{Block, Program, TermKind};
 use crate::syntax::Label;
 use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Tries at one place before another is looked for.
 const TRIES: usize = 1000;
+
+/// Where numbers are taken from that have no room between their neighbours.
+const SPARE: u32 = 9000;
 
 /// What becomes of a sequence number of the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +34,9 @@ pub(super) struct Labels {
     numbers: Vec<Option<u32>>,
     claimed: HashMap<u32, usize>,
     most: u32,
+    reach: Reach,
+    /// True where a number was invented.
+    invents: bool,
 }
 
 impl Labels {
@@ -39,9 +46,11 @@ impl Labels {
         program: &Program,
         labelled: &[bool],
         kept: impl Fn(u32) -> bool,
+        reach: Reach,
         most: u32,
     ) -> (Self, Vec<String>) {
-        let mut labels = Self { numbers: vec![None; labelled.len()], claimed: HashMap::new(), most };
+        let numbers = vec![None; labelled.len()];
+        let mut labels = Self { numbers, claimed: HashMap::new(), most, reach, invents: false };
         let mut faults = Vec::new();
         labels.claim_fixed(program, kept, &mut faults);
         let mut owners = labelled.to_vec();
@@ -59,6 +68,7 @@ impl Labels {
             (0..labelled.len()).filter(|&at| labelled[at] && labels.numbers[at].is_none()).collect();
         if !missing.is_empty() {
             Inventor::new(program, &labels).invent(&mut labels, &missing, &mut faults);
+            labels.invents = true;
         }
         (labels, faults)
     }
@@ -66,6 +76,16 @@ impl Labels {
     /// The number that a block is found by.
     pub fn number(&self, block: usize) -> Option<u32> {
         self.numbers.get(block).copied().flatten()
+    }
+
+    /// The number from which on a computed jump must stop before it looks for its block.
+    pub fn guard(&self) -> Option<u32> {
+        self.reach.floor().filter(|_| self.invents)
+    }
+
+    /// True where blocks have numbers that the source does not give them.
+    pub fn invents(&self) -> bool {
+        self.invents
     }
 
     /// True where something finds a block by this number.
@@ -79,6 +99,8 @@ impl Labels {
             return Standing::Barred;
         }
         match self.claimed.get(&number) {
+            // The source's jump finds nothing there.
+            None if self.reach.bars(number) => Standing::Barred,
             None => Standing::Free,
             Some(owner) if *owner == block => Standing::Label,
             Some(_) => Standing::Barred,
@@ -117,7 +139,10 @@ impl Labels {
             Some(stmt) => stmt.site.sequence,
             None => block.term.site.sequence,
         };
-        let mine = |number: &u32| self.is_valid(*number) && self.claimed.get(number).is_none_or(|&o| o == at);
+        let mine = |number: &u32| {
+            let owner = self.claimed.get(number);
+            self.is_valid(*number) && owner.map_or(!self.reach.bars(*number), |owner| *owner == at)
+        };
         if let Some(number) = head.into_iter().chain(numbers(block)).find(mine) {
             self.claimed.insert(number, at);
             self.numbers[at] = Some(number);
@@ -176,7 +201,7 @@ impl Inventor {
             next[at] = next[at].or(next[at + 1]);
         }
         let wishes = program.blocks.iter().map(lettered).collect();
-        Self { taken, last, next, wishes, spare: 9000 }
+        Self { taken, last, next, wishes, spare: labels.reach.floor().unwrap_or(SPARE) }
     }
 
     fn invent(mut self, labels: &mut Labels, missing: &[usize], faults: &mut Vec<String>) {
@@ -191,8 +216,9 @@ impl Inventor {
                 .get(at)
                 .copied()
                 .flatten()
-                .filter(|number| labels.is_valid(*number) && !self.taken.contains(number));
-            let Some(number) = wish.or_else(|| self.pick(before.unwrap_or(0), next, labels.most)) else {
+                .filter(|number| labels.is_valid(*number) && !self.taken.contains(number))
+                .filter(|number| labels.reach.may_be_invented(*number));
+            let Some(number) = wish.or_else(|| self.pick(before.unwrap_or(0), next, labels)) else {
                 faults.push("every sequence number is used".into());
                 return;
             };
@@ -203,10 +229,11 @@ impl Inventor {
         }
     }
 
-    fn pick(&mut self, before: u32, next: Option<u32>, most: u32) -> Option<u32> {
+    fn pick(&mut self, before: u32, next: Option<u32>, labels: &Labels) -> Option<u32> {
+        let most = labels.most;
         let end = next.unwrap_or(u32::MAX).min(most.saturating_add(1));
         let tens = (before / 10 + 1).saturating_mul(10);
-        let free = |number: &u32| !self.taken.contains(number);
+        let free = |number: &u32| !self.taken.contains(number) && labels.reach.may_be_invented(*number);
         let between = (tens..end).step_by(10).take(TRIES).find(free);
         let between = between.or_else(|| (before.saturating_add(1)..end).take(TRIES).find(free));
         between.or_else(|| {

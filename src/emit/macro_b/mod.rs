@@ -15,10 +15,12 @@ mod line;
 mod loops;
 mod numbers;
 mod program;
+mod reach;
 mod remarks;
 mod spellings;
 mod statements;
 mod system;
+mod taken;
 #[cfg(test)]
 mod tests;
 mod words;

@@ -4,6 +4,7 @@ use super::Emitter;
 use super::flow::{Abilities, Arrivals, Form, Plan};
 use super::labels::{self, Labels, Standing};
 use super::line::Kind;
+use super::reach::Reach;
 use crate::diag::Code;
 use crate::ir::{Block, BlockId, Cond, Site, TermKind};
 use crate::syntax::Label;
@@ -20,10 +21,23 @@ impl<'p> Emitter<'p> {
             return self.unmapped("a jump to a block that does not exist");
         }
         let names = self.names;
-        let arrivals = Arrivals::of_program(program, |number| names.is_returned_to(number));
-        let plan = Plan::new(program, &arrivals, self.abilities(), |block| self.is_joined(block));
+        let kept = |number| names.is_returned_to(number);
+        let arrivals = Arrivals::of_program(program, kept);
         let most = self.control.text().sequence_max;
-        let (labels, faults) = Labels::new(program, &plan.labelled, |n| names.is_returned_to(n), most);
+        let lay_out = |guarded: bool| {
+            let abilities = Abilities { guarded, ..self.abilities() };
+            let plan = Plan::new(program, &arrivals, abilities, |block| self.is_joined(block));
+            let reach = Reach::of(program, names, most);
+            let (labels, faults) = Labels::new(program, &plan.labelled, kept, reach, most);
+            (plan, labels, faults)
+        };
+        let mut made = lay_out(false);
+        // A jump that is stopped before it looks takes two lines, for which there may be other labels.
+        if names.guard().or(made.1.guard()).is_some() {
+            made = lay_out(true);
+        }
+        let (plan, labels, faults) = made;
+        self.emitted.invents = labels.invents();
         self.labels = labels;
         let count = program.blocks.iter().map(|block| block.stmts.len() + 1).sum();
         self.text.reserve(count * USUAL_LINE);
@@ -32,6 +46,7 @@ impl<'p> Emitter<'p> {
             self.refuse(Code::NoSequenceNumber, fault);
         }
         self.header();
+        self.taken_registers();
         for (at, (block, form)) in program.blocks.iter().zip(&plan.forms).enumerate() {
             self.block(at, block, *form);
         }
@@ -54,6 +69,7 @@ impl<'p> Emitter<'p> {
         let depth = ["do.depth", "do.numbers"].into_iter().filter_map(|name| control.limit(name)).min();
         Abilities {
             control,
+            guarded: false,
             then: control.statement("if.then").is_some(),
             then_words: control.statement("if.then.words").is_some() || control.is("then.words"),
             loops: control.statement("while").and(depth).unwrap_or(0),

@@ -1,5 +1,7 @@
 //! Comments and messages: what characters the target can hold.
 
+use crate::text::likeness;
+
 /// Adds `( )` and a comment's text between them.
 ///
 /// A comment ends at its first closing bracket and may hold nothing that ends a block or
@@ -15,7 +17,7 @@ pub(super) fn write_remark(out: &mut Vec<u8>, text: &str) {
             ';' => out.push(b','),
             ' '..='~' => out.push(c as u8),
             c if c.is_control() => out.push(b' '),
-            c => out.extend_from_slice(plain(c).as_bytes()),
+            c => out.extend_from_slice(likeness(c).unwrap_or("?").as_bytes()),
         }
     }
     out.push(b')');
@@ -51,41 +53,6 @@ pub(super) fn wrap(text: &str, most: usize) -> Vec<&str> {
     }
     lines.push(rest);
     lines
-}
-
-fn plain(c: char) -> &'static str {
-    match c {
-        'Ä' | 'Æ' => "AE",
-        'ä' | 'æ' => "ae",
-        'Ö' | 'Œ' => "OE",
-        'ö' | 'œ' => "oe",
-        'Ü' => "UE",
-        'ü' => "ue",
-        'ß' => "ss",
-        'À' | 'Á' | 'Â' | 'Ã' | 'Å' => "A",
-        'à' | 'á' | 'â' | 'ã' | 'å' => "a",
-        'Ç' => "C",
-        'ç' => "c",
-        'È' | 'É' | 'Ê' | 'Ë' => "E",
-        'è' | 'é' | 'ê' | 'ë' => "e",
-        'Ì' | 'Í' | 'Î' | 'Ï' => "I",
-        'ì' | 'í' | 'î' | 'ï' => "i",
-        'Ñ' => "N",
-        'ñ' => "n",
-        'Ò' | 'Ó' | 'Ô' | 'Õ' | 'Ø' => "O",
-        'ò' | 'ó' | 'ô' | 'õ' | 'ø' => "o",
-        'Ù' | 'Ú' | 'Û' => "U",
-        'ù' | 'ú' | 'û' => "u",
-        '°' => " DEG",
-        '±' => "+/-",
-        'µ' | 'μ' => "u",
-        '×' => "x",
-        '–' | '—' => "-",
-        '‘' | '’' => "'",
-        '“' | '”' => "\"",
-        '\u{A0}' => " ",
-        _ => "?",
-    }
 }
 
 #[cfg(test)]

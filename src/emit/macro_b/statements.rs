@@ -2,10 +2,13 @@
 
 use super::Emitter;
 use super::line::Kind;
+use super::reach::is_steady;
 use super::remarks::{is_writable, write_remark};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::Code;
-use crate::ir::{Block, Expr, Nc, NcItem, OutputPart, Place, Site, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{
+    Block, Cond, Expr, Nc, NcItem, OutputPart, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
+};
 use thin_vec::ThinVec;
 
 impl<'p> Emitter<'p> {
@@ -226,6 +229,13 @@ impl<'p> Emitter<'p> {
 
     /// Writes the end of a block that leaves it.
     pub(super) fn leave(&mut self, block: &'p Block, joined: bool) {
+        match &block.term.kind {
+            TermKind::Computed { value, .. } => self.guard(&block.term.site, value, self.labels.guard()),
+            TermKind::Return { to: Some(to) } if to.constant().is_none() => {
+                self.guard(&block.term.site, to, self.names.guard());
+            }
+            _ => {}
+        }
         if !joined {
             self.begin(&block.term.site, Kind::Words, None);
         }
@@ -243,6 +253,25 @@ impl<'p> Emitter<'p> {
             }
             TermKind::Computed { .. } | TermKind::Jump(_) | TermKind::Branch { .. } | TermKind::Stray => {}
         }
+        self.finish();
+    }
+
+    /// Stops before a jump to a number that the source has no block of: `IF [#1 GT 8999] THEN #3000=1 (..)`.
+    fn guard(&mut self, site: &'p Site, value: &Expr, floor: Option<u32>) {
+        let Some(floor) = floor else { return };
+        if !is_steady(value) || !self.has_statement("if.then") {
+            let what =
+                "a computed jump may look for any number, and this program needs one that it must not find";
+            return self.refuse(Code::NoSequenceNumber, what);
+        }
+        self.begin(site, Kind::Macro, None);
+        let last = Expr::Number(f64::from(floor.saturating_sub(1)));
+        let condition = Cond::Compare(Relation::Greater, value.clone(), last);
+        self.word("IF ");
+        self.bracketed_condition(&condition, false);
+        self.push_str(" THEN");
+        self.assign(&Place::System(Sys::Alarm, ThinVec::new()), &Expr::Number(1.0));
+        self.push_str(" (NO SUCH BLOCK)");
         self.finish();
     }
 

@@ -1,5 +1,5 @@
 //! Questions about programs: where control goes, which temporaries are live, what may be vacant, which
-//! constants a variable may hold.
+//! constants a variable may hold, between which bounds.
 //!
 //! Every answer errs to the safe side. Nothing recurses on the size of a program.
 
@@ -9,6 +9,7 @@ mod dominators;
 mod effects;
 mod liveness;
 mod loops;
+mod ranges;
 mod set;
 mod temps;
 mod vacancy;
@@ -20,6 +21,7 @@ pub use dominators::Dominators;
 pub use effects::{Seen, Summaries, Vars};
 pub use liveness::{Liveness, Transfer, Ways, behind, live_before};
 pub use loops::{Loop, Loops};
+pub use ranges::{Numbers, Ranges, Values};
 pub use set::{Row, Universe, VarSet};
 pub use temps::Temps;
 pub use vacancy::Vacancy;

@@ -1,6 +1,7 @@
 //! BIN and BCD, for whole numbers of up to eight digits.
 
 use super::{Emulated, apply, number};
+use crate::assume::Domain;
 use crate::canon::Func;
 use crate::ir::{BinOp, Expr};
 use crate::legalize::Rewriter;
@@ -12,7 +13,7 @@ const DIGITS: i32 = 8;
 /// `sum d*16^i = x + sum over i>0 of FIX[x/10^i] * 6*16^(i-1)`. Exact for whole x from 0 to 99999999.
 pub fn bcd(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let sum = digits(a, rewriter, BinOp::Add, 10.0, |i| 6.0 * 16f64.powi(i - 1));
-    Emulated::Inside(sum, "exact for whole numbers from 0 to 99999999 only".into(), "digits")
+    Emulated::Inside(sum, "exact for whole numbers from 0 to 99999999 only".into(), Domain::Digits(8))
 }
 
 /// Law: the same the other way, `x - sum over i>0 of FIX[x/16^i] * 6*10^(i-1)`. Exact for valid
@@ -20,7 +21,7 @@ pub fn bcd(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 pub fn bin(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let sum = digits(a, rewriter, BinOp::Sub, 16.0, |i| 6.0 * 10f64.powi(i - 1));
     let why = "exact for valid BCD words of up to eight digits; an invalid one is not noticed";
-    Emulated::Inside(sum, why.into(), "word")
+    Emulated::Inside(sum, why.into(), Domain::Bcd(8))
 }
 
 fn digits(a: Expr, rewriter: &mut Rewriter<'_>, op: BinOp, base: f64, weight: impl Fn(i32) -> f64) -> Expr {

@@ -1,6 +1,7 @@
 //! EXP, LN and POW by series that need no loop.
 
 use super::{Emulated, apply, number};
+use crate::assume::Domain;
 use crate::canon::Func;
 use crate::dialect::Control;
 use crate::ir::{BinOp, Expr};
@@ -22,7 +23,7 @@ pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let value =
         (0..HALVINGS).fold(series, |v, _| Expr::Var(rewriter.hold(Expr::binary(BinOp::Mul, v.clone(), v))));
     let why = "by its series, within a 1e-12th part for arguments from -20 to 20";
-    Emulated::Inside(value, why.into(), "-20..20")
+    Emulated::Inside(value, why.into(), Domain::Range(-20.0, 20.0))
 }
 
 /// Law: `LN[a] = 1024*LN[z]` with z the root of a taken ten times, and `LN[z] = 2*(w + w^3/3 + w^5/5 + w^7/7)`
@@ -40,7 +41,7 @@ pub fn ln(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let scale = number(2f64.powi(HALVINGS + 1));
     let value = rewriter.hold(Expr::binary(BinOp::Mul, scale, Expr::binary(BinOp::Mul, w, series)));
     let why = "by its series, within 1e-11 for arguments from 1e-9 to 1e9; zero does not alarm";
-    Emulated::Inside(Expr::Var(value), why.into(), "1e-9..1e9")
+    Emulated::Inside(Expr::Var(value), why.into(), Domain::Range(1e-9, 1e9))
 }
 
 /// Law: a product for a small whole constant power; else `EXP[b*LN[a]]`, for a above zero.
@@ -55,8 +56,11 @@ pub fn pow(a: Expr, power: Expr, rewriter: &mut Rewriter<'_>, target: &Control) 
     let product = Expr::binary(BinOp::Mul, power, log);
     let result = if native { apply(Func::Exp, product) } else { value(exp(product, rewriter)) };
     // What the series hold for: the base, and the power times its logarithm.
-    let arguments = if native { "1e-300..1e300" } else { "1e-9..1e9 -20..20" };
-    Emulated::Inside(result, "as EXP[b*LN[a]], for bases above zero only".into(), arguments)
+    let domain = match native {
+        true => Domain::Range(1e-300, 1e300),
+        false => Domain::Power([1e-9, 1e9], [-20.0, 20.0]),
+    };
+    Emulated::Inside(result, "as EXP[b*LN[a]], for bases above zero only".into(), domain)
 }
 
 fn value(emulated: Emulated) -> Expr {

@@ -11,6 +11,7 @@ mod rounding;
 mod trigonometry;
 
 use super::{Context, Position, Rewriter, rewrite_program};
+use crate::assume::{Domain, Predicate};
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
@@ -23,9 +24,8 @@ enum Emulated {
     Exact(Expr),
     /// The same value within a bound, or inside a domain: the text says which.
     Near(Expr, String),
-    /// As near, for such arguments only: a range, `digits`, a BCD `word`, or ranges of the base and of the power
-    /// times its logarithm.
-    Inside(Expr, String, &'static str),
+    /// As near, for such arguments only.
+    Inside(Expr, String, Domain),
     /// Not to be had: why.
     Missing(String),
 }
@@ -36,17 +36,18 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     let (source, target) = (context.source, context.target);
     let changed = rewrite_program(program, is_function, &mut |e, position, rewriter| {
         let span = rewriter.span;
-        let (name, emulated) = match e {
+        let (name, function, emulated) = match e {
             Expr::Call(function, arguments) => {
-                (function.name(), call(function, arguments, position, rewriter, source, target))
+                let emulated = call(function, arguments, position, rewriter, source, target);
+                (function.name(), Some(function), emulated)
             }
             Expr::Binary(BinOp::Mod, operands) if !modulo::is_native(&operands, target) => {
                 let [a, b] = *operands;
-                ("mod", modulo::by_division(a, b, rewriter, target))
+                ("mod", None, modulo::by_division(a, b, rewriter, target))
             }
             Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
                 let [a, b] = *operands;
-                ("bits", Emulated::Exact(rounding::bits(op, a, b, position, rewriter, target)))
+                ("bits", None, Emulated::Exact(rounding::bits(op, a, b, position, rewriter, target)))
             }
             other => return other,
         };
@@ -56,9 +57,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
                 found.push((Code::NearlyEqual, span, format!("{name}: {why}"), None));
                 value
             }
-            Emulated::Inside(value, why, arguments) => {
-                let fact = format!("arguments:{name}:{arguments}");
-                found.push((Code::NearlyEqual, span, format!("{name}: {why}"), Some(fact)));
+            Emulated::Inside(value, why, domain) => {
+                let inside = function.map(|function| (function, domain));
+                found.push((Code::NearlyEqual, span, format!("{name}: {why}"), inside));
                 value
             }
             Emulated::Missing(why) => {
@@ -67,11 +68,16 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             }
         }
     });
-    for (code, span, message, fact) in found {
-        let once = format!("{}{message}", code.number());
-        let finding = Diagnostic::new(code, span, message);
-        let finding = if let Some(fact) = fact { finding.with_fact(fact) } else { finding };
-        context.add_once(index, &once, finding);
+    for (code, span, message, inside) in &found {
+        let finding = Diagnostic::new(*code, *span, message.clone());
+        let finding = match *inside {
+            Some((function, domain)) => {
+                let alike = found.iter().filter(|(.., other)| other == inside).map(|(_, span, ..)| *span);
+                finding.assuming(Predicate::Arguments { function, places: alike.collect(), domain })
+            }
+            None => finding,
+        };
+        context.add_once(index, &format!("{}{message}", code.number()), finding);
     }
     changed
 }

@@ -32,6 +32,7 @@ pub fn inverse(
         return match (wanted.as_str(), got.as_str()) {
             (w, g) if w == g && w != "unknown" => Emulated::Exact(value),
             ("270..90", "-90..90") => Emulated::Exact(wrapped(value, rewriter)),
+            ("-90..90", "270..90") => Emulated::Exact(unwrapped(value, rewriter)),
             _ => {
                 Emulated::Near(value, format!("the range is {wanted} on the source and {got} on the target"))
             }
@@ -57,10 +58,20 @@ pub fn inverse(
 
 /// An angle of -90 to 90 as one of 270 to 360 and 0 to 90.
 fn wrapped(angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
+    turned_where(Relation::Less, 0.0, 360.0, angle, rewriter)
+}
+
+/// An angle of 270 to 360 and 0 to 90 as one of -90 to 90.
+fn unwrapped(angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
+    turned_where(Relation::Greater, 180.0, -360.0, angle, rewriter)
+}
+
+/// An angle, turned by some degrees where it stands in this relation to a limit.
+fn turned_where(relation: Relation, limit: f64, by: f64, angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
     let angle = rewriter.hold(angle);
-    let below = Cond::Compare(Relation::Less, Expr::Var(angle), number(0.0));
-    let turned = Expr::binary(BinOp::Add, Expr::Var(angle), number(360.0));
-    rewriter.first(Prelude::When(below, angle, turned));
+    let beyond = Cond::Compare(relation, Expr::Var(angle), number(limit));
+    let turned = Expr::binary(BinOp::Add, Expr::Var(angle), number(by));
+    rewriter.first(Prelude::When(beyond, angle, turned));
     Expr::Var(angle)
 }
 

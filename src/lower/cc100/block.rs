@@ -2,10 +2,10 @@
 
 use super::Lowering;
 use super::register::{self, Source};
-use super::words::Planned;
+use super::words::{Change, Planned};
 use crate::canon::Func;
 use crate::diag::Diagnostic;
-use crate::ir::{BinOp, Cond, Expr, Nc, Place, Relation, Site, StmtKind, TermKind, Var};
+use crate::ir::{BinOp, Cond, Expr, Place, Relation, Site, StmtKind, TermKind, Var};
 use crate::syntax::{
     Block, ExprKind, Index, Item, ItemKind, Label, TestSubject, VarRef, Word, for_each_expr,
 };
@@ -64,8 +64,8 @@ impl Lowering<'_> {
     }
 
     fn act(&mut self, planned: Planned, site: &Site) {
-        if let Some((change, number)) = planned.change {
-            self.change_tool(change, number, site);
+        if let Some(change) = planned.change {
+            self.change_tool(change, site);
         }
         if let Some(nc) = planned.block {
             self.push(StmtKind::Nc(nc), site);
@@ -76,14 +76,23 @@ impl Lowering<'_> {
         }
     }
 
-    /// Changes the tool, unless its number turns out to be 0.
-    fn change_tool(&mut self, change: Nc, number: Option<Expr>, site: &Site) {
-        let Some(number) = number else { return self.push(StmtKind::Nc(change), site) };
-        let cond = Cond::Compare(Relation::NotEqual, number, Expr::Number(0.0));
-        let (yes, no) = (self.build.fresh(), self.build.fresh());
-        self.build.end(TermKind::Branch { cond, yes, no }, site.clone());
-        self.build.start(yes);
-        self.push(StmtKind::Nc(change), site);
+    /// Changes the tool, unless its number turns out to be one that changes nothing.
+    fn change_tool(&mut self, change: Change, site: &Site) {
+        let Change { nc, tool, unless } = change;
+        if unless.is_empty() {
+            return self.push(StmtKind::Nc(nc), site);
+        }
+        let no = self.build.fresh();
+        for number in unless {
+            let yes = self.build.fresh();
+            // A reader looks for what may change on the left.
+            let pair =
+                if tool.constant().is_some() { (number, tool.clone()) } else { (tool.clone(), number) };
+            let cond = Cond::Compare(Relation::NotEqual, pair.0, pair.1);
+            self.build.end(TermKind::Branch { cond, yes, no }, site.clone());
+            self.build.start(yes);
+        }
+        self.push(StmtKind::Nc(nc), site);
         self.build.start(no);
     }
 

@@ -1,7 +1,7 @@
 //! Values of words: lengths, radii, tools, and the words that a block leaves out.
 
 use super::Lowering;
-use super::words::Planned;
+use super::words::{Change, Planned};
 use crate::canon::{Op, Role, Sys};
 use crate::dialect::BareLength;
 use crate::ir::{Class, Expr, Nc, NcItem, Var};
@@ -102,7 +102,14 @@ impl Lowering<'_> {
             Some("t") => {
                 let items = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, tool.clone())];
                 let may_be_none = length && self.whole(word).is_none_or(|number| number == 0.0);
-                plan.change = Some((Nc { items }, may_be_none.then(|| tool.clone())));
+                let mut unless = Vec::new();
+                if may_be_none {
+                    unless.push(Expr::Number(0.0));
+                }
+                if self.findings.behaviour("tool.word.again", span) == Some("skipped") {
+                    unless.push(Expr::System(Sys::ActiveTool, ThinVec::new()));
+                }
+                plan.change = Some(Change { nc: Nc { items }, tool: tool.clone(), unless });
             }
             Some(_) => self.add(nc, NcItem::Word(Role::Tool, tool.clone()), span),
             None => self.findings.not_understood(span, "no source says what the tool word does"),

@@ -12,12 +12,22 @@ use crate::text::Span;
 /// What a block's words come to.
 #[derive(Default)]
 pub(super) struct Planned {
-    /// The tool change ahead of the rest, and the number that must not be 0 for it.
-    pub change: Option<(Nc, Option<Expr>)>,
+    /// The tool change ahead of the rest.
+    pub change: Option<Change>,
     /// The operations.
     pub block: Option<Nc>,
     /// Where they send the control.
     pub flow: Option<Flow>,
+}
+
+/// A tool change that hangs on the number of the tool.
+pub(super) struct Change {
+    /// The change itself.
+    pub nc: Nc,
+    /// The number of the tool.
+    pub tool: Expr,
+    /// What the number must not be.
+    pub unless: Vec<Expr>,
 }
 
 /// A word with the row of its code, or its role.

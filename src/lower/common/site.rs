@@ -2,7 +2,7 @@
 
 use crate::ir::{Remark, Site};
 use crate::syntax::{Block, Fence, ItemKind};
-use crate::text::Span;
+use crate::text::{Span, decode};
 
 /// The site of a block: its span, sequence number, comments and the block skip
 /// at its head (level 1 where none is written).
@@ -29,11 +29,7 @@ pub fn site_of(block: &Block, source: &[u8]) -> Site {
     site
 }
 
-/// The text of a comment. Bytes that are not UTF-8 are read as Latin-1, so none is lost.
+/// The text of a comment, in whatever code it was written.
 pub fn remark_text(span: Span, source: &[u8]) -> String {
-    let bytes = span.of(source);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
-    }
+    decode(span.of(source)).into_owned()
 }

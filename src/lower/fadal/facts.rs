@@ -42,6 +42,14 @@ impl<'b> Lowering<'b> {
             .any(|item| matches!(item, NcItem::Word(Role::X | Role::Y | Role::A | Role::B | Role::C, _)));
         let incremental = codes.has(Op::Incremental)
             || (!codes.has(Op::Absolute) && self.state.incremental.list().contains(&true));
+        let begins = codes.motion().is_some_and(|row| row.op.is_cycle());
+        if (begins || codes.motion().is_none() && self.in_cycle())
+            && codes.value('R').is_some()
+            && reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some())
+        {
+            let _ = self.rely("cycle.r.word", span);
+            self.plane_by_word = true;
+        }
         match codes.motion() {
             Some(row) if row.op.is_cycle() => {
                 if plane || codes.has(Op::CycleHere) {
@@ -49,6 +57,10 @@ impl<'b> Lowering<'b> {
                 }
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
                 if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
+                    if self.plane_by_word {
+                        let what = "which retract plane this cycle takes after a word R is not known: write it as R0 with its sign";
+                        self.findings.not_understood(span, what);
+                    }
                     let _ = self.rely("cycle.r0.kept", span);
                     let r0 = Expr::Var(Var { class: Class::Parametric, number: 0 });
                     reading.items.push(NcItem::Word(Role::CycleR, r0));

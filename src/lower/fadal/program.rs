@@ -42,6 +42,8 @@ pub struct Lowering<'b> {
     pub spelled_out: bool,
     /// Where the program reads the motion mode.
     pub reads_motion: Option<Span>,
+    /// True once a word R, and not R0, gave a drilling cycle its retract plane.
+    pub plane_by_word: bool,
 }
 
 /// Lowers a program's text; `others` is what the other programs of its file set.
@@ -70,6 +72,7 @@ pub fn lower(
         temps: 0,
         spelled_out: false,
         reads_motion: None,
+        plane_by_word: false,
     };
     let mut head = Site::default();
     for (at, block) in text.blocks.iter().enumerate() {

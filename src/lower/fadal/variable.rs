@@ -1,7 +1,7 @@
 //! Variables and machine state, as they are written.
 
 use super::program::Lowering;
-use crate::canon::Sys;
+use crate::canon::{Func, Sys};
 use crate::dialect::SystemVariable;
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
 use crate::syntax::{Index, VarRef};
@@ -106,6 +106,9 @@ impl<'b> Lowering<'b> {
             return self.refuse(var.span, message);
         }
         rows.iter().for_each(|row| self.findings.rest_on(*row, var.span));
+        // A fraction is rounded before it is looked up in which piece the number lies.
+        let index =
+            if rows.len() > 1 && !index.is_whole() { Expr::Call(Func::Round, [index].into()) } else { index };
         let shifts = rows.iter().filter_map(|row| {
             let from = row.subscripts.first()?.from;
             Some((f64::from(row.first?), f64::from(from) - f64::from(row.first?)))

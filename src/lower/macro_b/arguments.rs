@@ -1,8 +1,8 @@
 //! Arguments of macro calls: which local each letter sets.
 //!
 //! Specification I gives each letter a local of its own. Specification II has A, B
-//! and C once and then up to ten sets of I, J, K for the locals from 4 on; an I, J or
-//! K that does not come behind its forerunner in the alphabet begins the next set.
+//! and C once and then up to ten sets of I, J, K for the locals from 4 on. Some
+//! controls take it where I, J, K are out of order or repeated, others only where one is repeated.
 
 use super::Lowering;
 use super::block::Words;
@@ -18,23 +18,31 @@ use crate::text::Span;
 const FIRST_OF_SETS: u32 = 4;
 const LAST_LOCAL: u32 = 33;
 
-/// Counts the sets of I, J, K.
+/// Gives I, J and K the locals of the sets.
 #[derive(Default)]
 struct Sets {
     set: u32,
     last: Option<u32>,
+    counts: [u32; 3],
 }
 
 impl Sets {
-    /// The local of the next I, J or K.
-    fn next(&mut self, letter: char) -> u32 {
-        let place = u32::from(letter) - u32::from('I');
-        if self.last.is_some_and(|last| place <= last) {
+    /// The local of the next I, J or K: by its place after the letter before it, and by how often
+    /// the letter stood before.
+    fn next(&mut self, letter: char) -> (u32, u32) {
+        let column = column(letter);
+        if self.last.is_some_and(|last| column <= last) {
             self.set += 1;
         }
-        self.last = Some(place);
-        FIRST_OF_SETS + 3 * self.set + place
+        self.last = Some(column);
+        let count =
+            self.counts.get_mut(column as usize).map_or(0, |count| std::mem::replace(count, *count + 1));
+        (FIRST_OF_SETS + 3 * self.set + column, FIRST_OF_SETS + 3 * count + column)
     }
+}
+
+fn column(letter: char) -> u32 {
+    u32::from(letter) - u32::from('I')
 }
 
 impl<'a> Lowering<'a> {
@@ -42,12 +50,13 @@ impl<'a> Lowering<'a> {
     pub(super) fn arguments(&mut self, words: &Words<'a>) -> Vec<Argument> {
         let mut arguments: Vec<Argument> = Vec::with_capacity(words.len());
         let mut sets = Sets::default();
+        let by_place = self.by_place(words);
         let mut first_kind: Option<Span> = None;
-        for &(word, span) in words {
+        for (at, &(word, span)) in words.iter().enumerate() {
             let letter = word.letter;
             let local = match letter {
                 _ if word.comma => None,
-                'I'..='K' if self.by_place(span) => Some(sets.next(letter)),
+                'I'..='K' if by_place => Some(self.local_of_set(sets.next(letter), span)),
                 _ => self.control.argument_local(letter),
             };
             let Some(local) = local.filter(|local| *local <= LAST_LOCAL) else {
@@ -66,6 +75,11 @@ impl<'a> Lowering<'a> {
                 continue;
             };
             let value = self.argument(letter, value);
+            let set = by_place && matches!(letter, 'I'..='K');
+            if !set && words.iter().take(at).any(|(other, _)| !other.comma && other.letter == letter) {
+                let message = format!("{letter} stands twice in this call; the later one is taken");
+                self.findings.add(Diagnostic::new(Code::WordTwice, span, message));
+            }
             let before = arguments.len();
             arguments.retain(|earlier| earlier.local != local);
             if before != arguments.len() && value.may_be_vacant() {
@@ -74,7 +88,7 @@ impl<'a> Lowering<'a> {
             }
             arguments.push(Argument { local, value });
         }
-        if let Some(span) = first_kind.filter(|_| sets.set > 0) {
+        if let Some(span) = first_kind.filter(|_| by_place) {
             match self.findings.behaviour("arguments.mixed.later.wins", span) {
                 Some("true") => {}
                 Some(_) => {
@@ -87,13 +101,42 @@ impl<'a> Lowering<'a> {
         arguments
     }
 
-    fn by_place(&mut self, span: Span) -> bool {
-        match self.control.behaviour("arguments.order.ijk").map(|row| row.value.as_str()) {
+    /// True where I, J and K of this call are of the second specification: their places, not the
+    /// letters, say which locals they set.
+    fn by_place(&mut self, words: &Words<'a>) -> bool {
+        let sets: Words<'a> = words
+            .iter()
+            .filter(|(word, _)| !word.comma && matches!(word.letter, 'I'..='K'))
+            .copied()
+            .collect();
+        let falls = sets.windows(2).find(|pair| matches!(pair, [(a, _), (b, _)] if b.letter <= a.letter));
+        let Some(&[_, (_, span)]) = falls else { return false };
+        let twice = sets
+            .iter()
+            .enumerate()
+            .any(|(at, (word, _))| sets.iter().take(at).any(|(other, _)| other.letter == word.letter));
+        match self.findings.behaviour("arguments.order.ijk", span) {
             Some("true") => true,
-            Some("false") => false,
-            _ => {
+            Some("repeated") => twice,
+            Some(_) => false,
+            None => {
                 self.unknown_behaviour("arguments.order.ijk", span);
                 true
+            }
+        }
+    }
+
+    /// The local of an I, J or K, given by place and by count.
+    fn local_of_set(&mut self, (place, count): (u32, u32), span: Span) -> u32 {
+        if place == count {
+            return place;
+        }
+        match self.findings.behaviour("arguments.repeated.order", span) {
+            Some("place") => place,
+            Some(_) => count,
+            None => {
+                self.unknown_behaviour("arguments.repeated.order", span);
+                place
             }
         }
     }

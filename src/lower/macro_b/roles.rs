@@ -158,7 +158,8 @@ impl<'a> Lowering<'a> {
                 'S' | 'X' | 'Z' if has(&[Op::ScaleOff]) && codes.len() == 1 => {
                     "a limit or a position beside G50"
                 }
-                'T' if has_offset(word) => "a tool word with an offset in it",
+                // Beside M6 it is the number of a tool.
+                'T' if has_offset(word) && !has(&[Op::ToolChange]) => "a tool word with an offset in it",
                 'F' if per_turn => "a feed beside G98 or G99 without a cycle",
                 _ => continue,
             };

@@ -10,6 +10,9 @@ use crate::ir::{BinOp, Expr};
 use crate::syntax::{self, ExprKind};
 use crate::text::Span;
 
+/// The fact that a feed without a point rests on, where the profile tells how lengths count.
+const BARE_FEED: &str = "numbers:bare_feed";
+
 impl<'a> Lowering<'a> {
     /// The value of a word in its role; the role too, since a dwell's may be in either unit.
     pub(super) fn word_value(
@@ -36,21 +39,39 @@ impl<'a> Lowering<'a> {
         if point || number == 0.0 || !(counted || matches!(role, Role::Feed | Role::Lead)) {
             return Some((role, Expr::Number(number)));
         }
-        let bare = if counted { self.control.bare_length() } else { self.control.bare_feed() };
+        if !counted {
+            return Some((role, self.bare_feed(number, value.span)));
+        }
         self.rest_on_numbers(value.span);
-        Some((
-            role,
-            match bare {
-                BareLength::Increments => Expr::Increments(number),
-                BareLength::Units => Expr::Number(number),
-                BareLength::Unknown => {
-                    let what = if counted { "a length" } else { "a feed" };
-                    let note = format!("what {what} without a decimal point counts; it is taken as written");
-                    self.findings.unconfirmed("numbers".into(), Some(&note), value.span);
-                    Expr::Number(number)
-                }
-            },
-        ))
+        let counts = self.control.bare_length_of(letter);
+        Some((role, self.counted(counts, number, "a length", "numbers", value.span)))
+    }
+
+    /// A feed's number without a point: what is said of lengths may leave it open.
+    fn bare_feed(&mut self, number: f64, span: Span) -> Expr {
+        let counts = self.control.bare_feed();
+        let open = self.control.feed_is_open();
+        if open && counts != BareLength::Unknown {
+            let note = "what is stated of lengths without a decimal point does not reach feeds";
+            self.findings.unconfirmed(BARE_FEED.into(), Some(note), span);
+        } else {
+            self.rest_on_numbers(span);
+        }
+        let number =
+            if counts == BareLength::Units { number / self.control.numbers().feed_parts } else { number };
+        self.counted(counts, number, "a feed", if open { BARE_FEED } else { "numbers" }, span)
+    }
+
+    fn counted(&mut self, counts: BareLength, number: f64, what: &str, fact: &str, span: Span) -> Expr {
+        match counts {
+            BareLength::Increments => Expr::Increments(number),
+            BareLength::Units => Expr::Number(number),
+            BareLength::Unknown => {
+                let note = format!("what {what} without a decimal point counts; it is taken as written");
+                self.findings.unconfirmed(fact.into(), Some(&note), span);
+                Expr::Number(number)
+            }
+        }
     }
 
     /// The construct rests on what a number without a point counts, unless the profile says it.
@@ -154,7 +175,7 @@ impl<'a> Lowering<'a> {
         if letter != 'P' {
             // X2 of a dwell: two thousandths of a second where X counts increments, as far as is known.
             self.unknown_behaviour("dwell.bare", value.span);
-            let ms = self.control.bare_length() == BareLength::Increments;
+            let ms = self.control.bare_length_of(letter) == BareLength::Increments;
             return Some((if ms { Role::DwellMs } else { role }, Expr::Number(number)));
         }
         let question = if point { "dwell.point" } else { "dwell.bare" };

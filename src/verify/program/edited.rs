@@ -11,6 +11,7 @@ use crate::control::{LoadedFile, ProgramRef};
 use crate::syntax::{Expr, ExprKind, Item, ItemKind, parse_file};
 use crate::text::{LineIndex, Span};
 use crate::verify::Job;
+use crate::verify::assumed::moved;
 use crate::verify::certificate::{Edit, Why};
 use crate::verify::inputs::{inputs, name_of};
 use crate::verify::names::Side;
@@ -23,6 +24,9 @@ const CONSTANTS: usize = 16;
 /// Values that each is given, at the most.
 const VALUES: usize = 32;
 
+/// Edits for ways that the target alone has left.
+const FOR_THE_TARGET: usize = 48;
+
 /// The first assignment of a variable, where it is a literal.
 #[derive(Clone, Debug, PartialEq)]
 struct Constant {
@@ -34,21 +38,22 @@ struct Constant {
 impl Verifier<'_, '_> {
     /// Goes ways that constants decide. What other programs call has no head that an operator edits.
     pub(super) fn edited(&mut self, there: ProgramRef) {
-        if self.called || self.witness.is_some() || self.compared == 0 || self.coverage.is_complete() {
+        if self.called || self.witness.is_some() || self.compared == 0 || self.went_every_way() {
             return;
         }
         let Job { source, target, names, .. } = self.job;
         let theirs = constants(target, there, false);
         let numbers = inputs(source, self.program).numbers;
-        let mut steps = self.job.effort.all_steps;
+        let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
         for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
             let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
             let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
             for value in values(constant.value, &numbers) {
-                if self.coverage.is_complete() || steps == 0 {
+                if self.went_every_way() || steps == 0 || for_target == 0 {
                     return;
                 }
+                for_target -= usize::from(self.coverage.is_complete());
                 self.edit(there, (&constant, twin), value, &mut steps);
             }
         }
@@ -62,7 +67,7 @@ impl Verifier<'_, '_> {
         value: f64,
         steps: &mut u64,
     ) {
-        let Job { source, target, names, reported, effort } = *self.job;
+        let Job { source, target, names, assumptions, effort } = *self.job;
         let Some(text) = with(source, self.program, ours, value) else { return };
         let parsed = parse_file(&text, source.control.entry().parse);
         let files = replaced(source, self.program, &parsed);
@@ -80,13 +85,12 @@ impl Verifier<'_, '_> {
         self.given.start(&mut scenario);
         let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
         *steps = steps.saturating_sub(run.steps);
-        let grown = text.len() as i64
-            - source.files.get(self.program.file).map_or(0, |f| f.parsed.source.len()) as i64;
+        let old = source.files.get(self.program.file).map_or(0, |file| file.parsed.source.len());
+        let grown = text.len() as i64 - old as i64;
         let mut coverage = self.coverage.clone();
-        let back = |file: usize, span: Span| {
-            if file == self.program.file { moved_back(span, ours.span.start, grown) } else { span }
-        };
-        if !coverage.add_moved(&run, &back) {
+        let back = moved_back(source, self.program.file, &text, ours);
+        let new = coverage.add_moved(&run, &back);
+        if !new && self.target_coverage.is_complete() {
             return;
         }
         let Some(text) = with(target, there, theirs, value) else { return };
@@ -96,9 +100,15 @@ impl Verifier<'_, '_> {
         if !constants(&new_target, there, false).iter().any(|c| c.name == theirs.name && c.value == value) {
             return;
         }
-        let job = Job { source: &new_source, target: &new_target, names, reported, effort };
+        let assumptions = moved(assumptions, self.program.file, ours.span.start, grown);
+        let job = Job { source: &new_source, target: &new_target, names, assumptions: &assumptions, effort };
         let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
         pair.compare(&scenario, &run, there);
+        let back = moved_back(target, there.file, &text, theirs);
+        let mut target_coverage = self.target_coverage.clone();
+        if !target_coverage.add_gone(&pair.target_coverage, &back) && !new && pair.witness.is_none() {
+            return;
+        }
         let edit = Edit {
             variable: ours.name.clone(),
             line: line(source, self.program, ours.span),
@@ -118,6 +128,7 @@ impl Verifier<'_, '_> {
             return;
         }
         self.coverage = coverage;
+        self.target_coverage = target_coverage;
         self.tried += 1;
         self.compared += pair.compared;
         self.largest = self.largest.max(pair.largest);
@@ -218,10 +229,19 @@ fn replaced<'f>(
         .collect()
 }
 
-/// Where a place behind an edit stood before the text grew by so many bytes.
-fn moved_back(span: Span, edit: u32, grown: i64) -> Span {
-    let back = |at: u32| if at > edit { (i64::from(at) - grown).max(0) as u32 } else { at };
-    Span::new(back(span.start), back(span.end))
+/// Where the places of a file stood before it was edited into another text.
+fn moved_back(
+    side: &Side<'_>,
+    edited: usize,
+    text: &[u8],
+    constant: &Constant,
+) -> impl Fn(usize, Span) -> Span {
+    let old = side.files.get(edited).map_or(0, |file| file.parsed.source.len());
+    let (grown, edit) = (text.len() as i64 - old as i64, constant.span.start);
+    move |file, span| {
+        let back = |at: u32| if at > edit { (i64::from(at) - grown).max(0) as u32 } else { at };
+        if file == edited { Span::new(back(span.start), back(span.end)) } else { span }
+    }
 }
 
 fn line(side: &Side<'_>, program: ProgramRef, span: Span) -> u32 {

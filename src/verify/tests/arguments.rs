@@ -1,6 +1,9 @@
 //! Functions by arithmetic, which gives the same for some arguments only.
 
-use super::{Names, reported};
+use super::assumed::{assumption, place};
+use super::{Names, supposing};
+use crate::assume::{Assumption, Domain, Predicate};
+use crate::canon::Func;
 use crate::verify::{Outcome, Why};
 
 /// The digits of #1 as those of a BCD word, for whole numbers of up to eight; `six` is 6.
@@ -16,13 +19,15 @@ fn by_arithmetic(six: u32) -> String {
 #[test]
 fn an_argument_that_the_conversion_does_not_hold_for_is_a_condition() {
     let source = "O1\nG21G90\nIF[#1LT12]GOTO9\nG0X[BCD[#1]]\nN9M30\n";
-    let outcome = |target: &str, facts: &[&str]| {
+    let outcome = |target: &str, supposed: &[(usize, Assumption)]| {
         let names = Names { scratch: [161].into(), ..Names::default() };
-        let found = reported(("fanuc", source), ("haas", target), names, facts);
+        let found = supposing(("fanuc", source), ("haas", target), names, supposed);
         let broken = found[0].reasons.iter().any(|reason| reason.why == Why::Condition);
         (found[0].outcome, broken)
     };
-    let domain = ["arguments:bcd:digits"];
+    let places = place(source, "G0X[BCD[#1]]");
+    let domain = Domain::Digits(8);
+    let domain = [assumption(Predicate::Arguments { function: Func::Bcd, places, domain })];
     assert_eq!(outcome(&by_arithmetic(6), &domain), (Outcome::Undecided, true));
     // Nobody said so, and inside of it they differ.
     assert_eq!(outcome(&by_arithmetic(6), &[]).0, Outcome::Different);

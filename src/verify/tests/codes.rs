@@ -1,11 +1,15 @@
 //! Codes whose number is computed, where the conversion has made it a condition what they are.
 
-use super::{Names, reported};
+use super::assumed::{assumption, place};
+use super::{Names, supposing};
+use crate::assume::{Assumption, Numbers, Predicate, Subscripts};
 use crate::verify::{Outcome, Why};
 
 /// What becomes of O1, and whether a condition is why.
 fn outcome(source: &str, target: &str) -> (Outcome, bool) {
-    let found = reported(("fanuc", source), ("haas", target), Names::default(), &[]);
+    let places = place(source, "G1G#500X5.F100.");
+    let codes = assumption(Predicate::Codes { letter: 'G', places, same: vec![0.0, 1.0, 17.0, 90.0] });
+    let found = supposing(("fanuc", source), ("haas", target), Names::default(), &[codes]);
     (found[0].outcome, found[0].reasons.iter().any(|reason| reason.why == Why::Condition))
 }
 
@@ -27,11 +31,13 @@ fn wear(base: u32) -> String {
 
 #[test]
 fn a_number_outside_of_those_reported_is_a_condition() {
-    let outcome = |base: u32, facts: &[&str]| {
-        let found = reported(("fanuc", &wear(2000)), ("haas", &wear(base)), Names::default(), facts);
+    let outcome = |base: u32, supposed: &[(usize, Assumption)]| {
+        let found = supposing(("fanuc", &wear(2000)), ("haas", &wear(base)), Names::default(), supposed);
         (found[0].outcome, found[0].reasons.iter().any(|reason| reason.why == Why::Condition))
     };
-    let told = &["numbers:#2001-#2199"];
+    let places = place(&wear(2000), "N5#500=#[2000+#501]");
+    let safe = Numbers::new([(2001, 2199)]);
+    let told = &[assumption(Predicate::Subscripts(Subscripts { places, safe, bases: vec![2000.0] }))];
     assert_eq!(outcome(2200, told), (Outcome::Undecided, true));
     assert_eq!(outcome(2200, &[]).0, Outcome::Different);
     // Another table is another one inside of them.

@@ -1,6 +1,8 @@
 //! Calls that nest deeper than the target takes, where the conversion has made that a condition.
 
-use super::{Names, reported};
+use super::assumed::assumption;
+use super::{Names, supposing};
+use crate::assume::Predicate;
 use crate::verify::{Outcome, ProgramCertificate, Why};
 
 /// The outcome of O1 and why, where the conversion has reported the limit, and where it has not.
@@ -8,8 +10,10 @@ fn outcomes(source: &str, target: &str) -> [(Outcome, bool); 2] {
     let broken = |program: &ProgramCertificate| {
         (program.outcome, program.reasons.iter().any(|reason| reason.why == Why::Condition))
     };
-    [&["limit:call.macro"][..], &[]].map(|facts| {
-        let found = reported(("haas", source), ("fanuc", target), Names::default(), facts);
+    let (limit, counts) = ("call.macro".into(), [false, true]);
+    let nesting = [assumption(Predicate::Nesting { limit, counts, most: 5 })];
+    [&nesting[..], &[]].map(|supposed| {
+        let found = supposing(("haas", source), ("fanuc", target), Names::default(), supposed);
         broken(&found[0])
     })
 }

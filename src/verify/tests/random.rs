@@ -22,7 +22,7 @@ fn what_is_read_back_of_a_word_hangs_on_whether_words_are_rounded() {
 fn what_a_called_program_finds_among_numbered_variables_is_never_vacant() {
     let o2 = "#IF V13>=4 THEN GOTO :L11\n#V3=R8\n#GOTO :L10\n#:L11\n#R9=V3\nG90 G0 Z+R9\n#:L10\nM99\n";
     let source = format!("O1\n#V(2)=R8\nM98 P2\nM2\nO2\n{o2}");
-    let o1 = "#602=#508\nIF[#613EQ#0]THEN#613=0\n";
+    let o1 = "#602=#508\nIF[#613EQ#0]THEN#613=0\nIF[#603EQ#0]THEN#603=0\n";
     let o2 = "IF[#613GE4]GOTO11\n#603=#508\nGOTO10\nN11#509=#603\nG90G0Z#509\nN10M99\n";
     let target = format!("O1\nIF[#508EQ#0]THEN#508=0\n{o1}M98P2\nM2\nO2\n{o2}");
     let names = [("V(..)", 600), ("R8", 508), ("R9", 509)];

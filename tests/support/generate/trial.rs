@@ -110,7 +110,8 @@ fn judgement(
     let refused = made.programs.iter().any(|program| program.outcome == library::Outcome::Refused);
     let certificates = judge(&inputs, &mut made, source, target, EFFORT);
     let mut found = Judgement::Refused;
-    for program in certificates.iter().flatten().flat_map(|certificate| &certificate.programs) {
+    let judged = certificates.written.iter().chain(&certificates.withheld);
+    for program in judged.flatten().flat_map(|certificate| &certificate.programs) {
         // Run by itself, for its caller is refused: what that gives it is not known, and it is refused too.
         if program.outcome == Outcome::Different && refused && program.run_alone {
             continue;

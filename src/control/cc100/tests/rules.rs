@@ -5,6 +5,7 @@ use crate::control::scenario::Tool;
 use crate::control::testing::*;
 use crate::control::trace::Happening;
 use crate::control::{End, Run, Scenario};
+use crate::dialect::Control;
 
 fn lines(text: &str) -> Run {
     run("cc100", &[("t.nc", text.as_bytes())], &given(&[]))
@@ -135,6 +136,25 @@ fn tool_words_bring_their_length() {
     for fact in ["behaviour:tool.change.word", "behaviour:tool.word.selects.length", "machine:tool.zero"] {
         assert!(found.contains(&fact), "{fact}");
     }
+}
+
+/// Tool 1 is in the spindle as the second T01 comes: by what the profile says it is changed twice, or once.
+#[test]
+fn a_tool_word_for_the_tool_in_the_spindle_does_what_the_profile_says() {
+    let changes = |setting: &str| {
+        let text = format!("dialect = \"cc100\"\n[settings]\ntool_again = \"{setting}\"\n");
+        let control = Control::from_profile(&text).unwrap();
+        let run = run_on(&control, &[("t.nc", b"T01\nT01\nT02\nM30\n")], &given(&[]));
+        ended(&run);
+        let change = |what: &Happening| matches!(what, Happening::ToolChange { .. });
+        run.events.iter().filter(|event| change(&event.what)).count()
+    };
+    assert_eq!(changes("changes"), 3);
+    assert_eq!(changes("skipped"), 2);
+    let run = lines("T01\nT02\nM30\n");
+    assert!(!doubts(&run).contains(&"behaviour:tool.word.again"));
+    let run = lines("T01\nT01\nM30\n");
+    assert!(doubts(&run).contains(&"behaviour:tool.word.again"));
 }
 
 /// From (10, 0) to (0, 10) about the zero: minus is the quarter, so plus is taken for the other three.

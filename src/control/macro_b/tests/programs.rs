@@ -69,7 +69,7 @@ fn nested_modal_calls_run_in_the_order_of_the_rule() {
         .events
         .iter()
         .filter_map(|event| match event.what {
-            Happening::Enter { program } => Some(run.programs[program as usize].name.as_str()),
+            Happening::Enter { program, .. } => Some(run.programs[program as usize].name.as_str()),
             _ => None,
         })
         .collect();

@@ -166,7 +166,7 @@ fn a_loop_with_a_second_way_back_or_in_stays_jumps() {
     ]);
     fanuc(&program, &["WHILE [#1 GT 0] DO1", "N50 X1.", "END1", "M30"]);
     let mut kept = names();
-    kept.keep_sequence(50);
+    kept.keep_sequences(&crate::ir::analysis::Numbers::of([(50, 50)]));
     let emitted = emit_with("fanuc", &program, &kept).unwrap();
     assert_eq!(emitted.text, "N10 IF [#1 LE 0] GOTO 60\nN50 X1.\nGOTO 10\nN60 M30\n");
     // A loop that statements stand at the head of, and one that tests at its end.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::ir::analysis::{Numbers, Summaries};
 
 fn fanuc(program: &Program, lines: &[&str]) {
     assert_eq!(text("fanuc", program).lines().collect::<Vec<_>>(), lines);
@@ -86,7 +87,7 @@ fn numbers_that_are_fixed_are_kept_or_refused() {
     let large = program(vec![(123456, BlockId(1))]);
     assert_eq!(refused("fanuc", &large), [Code::NoSequenceNumber]);
     let mut kept = names();
-    kept.keep_sequence(123456);
+    kept.keep_sequences(&Numbers::of([(123456, 123456)]));
     let faults = emit_with("fanuc", &lines(&[Some(123456)], &[]), &kept).unwrap_err();
     assert_eq!(faults[0].code, Code::NoSequenceNumber);
 }
@@ -98,6 +99,51 @@ fn a_label_without_a_line_gets_one() {
         &blocks([(&[30], vec![], jump(1)), (&[40], vec![mv(1.0)], jump(0))]),
         &["N30", "N40 X1.", "GOTO 30"],
     );
+}
+
+#[test]
+fn what_a_computed_jump_may_look_for_is_not_invented() {
+    let jumping = |value: Expr, first: StmtKind| {
+        let targets = vec![(20, BlockId(3))];
+        let mut program = blocks([
+            (&[], vec![], TermKind::Branch { cond: gt(5, 3.0), yes: BlockId(1), no: BlockId(2) }),
+            (&[], vec![mv(1.0), mv(2.0)], jump(2)),
+            (&[], vec![first], TermKind::Computed { value, targets }),
+            (&[20], vec![mv(2.0)], END),
+        ]);
+        program.blocks[3].stmts[0].site.sequence = Some(20);
+        program
+    };
+    let set = |value: f64| StmtKind::Assign { target: Place::Var(local(1)), value: Expr::Number(value) };
+    let module = |program: &Program| Module { programs: vec![program.clone()], ..Module::default() };
+    let written = |program: &Program| {
+        let mut names = names();
+        names.set_summaries(Summaries::of(&module(program)), 20);
+        let text = emit_with("fanuc", program, &names).unwrap().text;
+        text.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    // #1 is 10: N10 would be found.
+    let known = written(&jumping(v(1), set(10.0)));
+    assert_eq!(known, ["IF [#5 LE 3] GOTO 1", "X1.", "X2.", "N1 #1=10", "GOTO #1", "N20 X2.", "M30"]);
+    let elsewhere = written(&jumping(v(1), set(20.0)));
+    assert_eq!(elsewhere[0], "IF [#5 LE 3] GOTO 10");
+    // #7 may be anything: what lies above the program's numbers stops with an alarm, as it does on the source.
+    let open = written(&jumping(v(7), set(10.0)));
+    let guard = "IF [#7 GT 999] THEN #3000=1 (NO SUCH BLOCK)";
+    let before = ["IF [#5 LE 3] GOTO 1000", "X1.", "X2.", "N1000 #1=10"];
+    assert_eq!(open, [&before[..], &[guard, "GOTO #7", "N20 X2.", "M30"]].concat());
+}
+
+#[test]
+fn a_number_that_a_computed_jump_must_not_find_becomes_a_comment() {
+    // On the source 6 is no label.
+    let targets = vec![(20, BlockId(1))];
+    let mut program = blocks([
+        (&[], vec![mv(1.0)], TermKind::Computed { value: v(7), targets }),
+        (&[20], vec![mv(2.0)], END),
+    ]);
+    program.blocks[0].stmts[0].site.sequence = Some(6);
+    fanuc(&program, &["(N6) X1.", "GOTO #7", "N20 X2.", "M30"]);
 }
 
 #[test]

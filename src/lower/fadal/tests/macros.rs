@@ -37,7 +37,7 @@ const STATEMENTS: &[(&str, &str)] = &[
     ("#H33 = H33 - 16.", "sys offset.length[33] = sys offset.length[33] - 16"),
     ("#H99=H(R8)+FZ23", "sys offset.length[99] = sys offset.length[param.8] + sys wcs[117, 3]"),
     ("#FX1 = FX1 - 2.", "sys wcs[1, 1] = sys wcs[1, 1] - 2"),
-    ("#V1=FY(V2)", "global.1 = sys wcs[global.2 + 94 * truth(global.2 ge 7), 2]"),
+    ("#V1=FY(V2)", "global.1 = sys wcs[round(global.2) + 94 * truth(round(global.2) ge 7), 2]"),
     ("#V1=PZ2", "global.1 = sys pos.probe[3, 2]"),
     ("#V1=G(1)", "global.1 = sys modal.motion.plus.one"),
     ("#V1=G(7)", "global.1 = sys modal.cycle.plane"),

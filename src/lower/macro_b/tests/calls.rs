@@ -53,6 +53,12 @@ fn both_kinds_of_arguments() {
         "0: call O1000 level (1: 1, 2: 2, 4: -3, 7: 5) -> b1\n1: stray",
     );
     refuses("haas", "G65 P1000 A1. I-3. I4. D5.", &[Code::ArgumentsMixed]);
+    // On this control they go by place only where one of them stands twice.
+    means("haas", "G65 P1 K1. J2. I3.", "0: call O1 level (6: 1, 5: 2, 4: 3) -> b1\n1: stray");
+    means("haas", "G65 P1 W1. K3. I4.", "0: call O1 level (23: 1, 6: 3, 4: 4) -> b1\n1: stray");
+    means("haas", "G65 P1 I1. J2. I3.", "0: call O1 level (4: 1, 5: 2, 7: 3) -> b1\n1: stray");
+    rests_on("haas", "G65 P1 I1. I2. J3.", "behaviour:arguments.repeated.order");
+    reviews("haas", "G65 P1 D1. D2.", &[Code::WordTwice]);
     // Ten sets end at #33; the eleventh has no locals.
     let sets = "I1.J1.K1.".repeat(11);
     refuses("fanuc", &format!("G65P1{sets}"), &[Code::MacroCallNotAlone; 3]);

@@ -1,0 +1,121 @@
+//! What a conversion supposes of the runs of a program, as values.
+//!
+//! Whoever converts a construct in a way that holds for some runs only makes an [`Assumption`]; the finding that a
+//! person reads is drawn from it, and the verifier tries it on every run of both sides. So a predicate says exactly for
+//! which runs the conversion holds: a run that keeps it and still differs is a fault of the conversion.
+
+mod domain;
+mod numbers;
+
+pub use domain::Domain;
+pub use numbers::{Numbers, Subscripts};
+
+use crate::canon::Func;
+use crate::text::Span;
+use std::sync::Arc;
+
+/// Something that a conversion supposes of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assumption {
+    /// Where, in the file of the source.
+    pub place: Span,
+    /// What a person reads of it.
+    pub text: Arc<str>,
+    /// What must hold.
+    pub predicate: Predicate,
+}
+
+/// What must hold of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Predicate {
+    /// A fact that no source confirms is as the tables have it, named as machine profiles confirm it.
+    Fact(Arc<str>),
+    /// The numbers of variables that are computed stay in those that the conversion holds for.
+    Subscripts(Subscripts),
+    /// So do the arguments of a function.
+    Arguments {
+        /// The function.
+        function: Func,
+        /// The blocks that call it.
+        places: Vec<Span>,
+        /// The arguments that the conversion holds for.
+        domain: Domain,
+    },
+    /// Calls nest no deeper than the target's levels.
+    Nesting {
+        /// The limit, as the tables name it: `call.all`.
+        limit: Arc<str>,
+        /// Whether a call counts that shares its caller's locals, and one that has its own.
+        counts: [bool; 2],
+        /// The levels.
+        most: u32,
+    },
+    /// The computed codes of a letter are among those that mean the same on both controls.
+    Codes {
+        /// The letter.
+        letter: char,
+        /// The blocks that compute one.
+        places: Vec<Span>,
+        /// Those codes.
+        same: Vec<f64>,
+    },
+    /// The numbers that the program gives its alarms are no larger than this.
+    Alarms(f64),
+    /// Both machines are set to one unit when the program starts.
+    Unit,
+    /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
+    Unseen,
+}
+
+impl Predicate {
+    /// The blocks that it is about; none where it is about the whole run.
+    pub fn places_mut(&mut self) -> Option<&mut Vec<Span>> {
+        match self {
+            Self::Subscripts(Subscripts { places, .. })
+            | Self::Arguments { places, .. }
+            | Self::Codes { places, .. } => Some(places),
+            _ => None,
+        }
+    }
+
+    /// The name of its kind, as certificates have it.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Fact(_) => "fact",
+            Self::Subscripts(_) => "subscripts",
+            Self::Arguments { .. } => "arguments",
+            Self::Nesting { .. } => "nesting",
+            Self::Codes { .. } => "codes",
+            Self::Alarms(_) => "alarms",
+            Self::Unit => "unit",
+            Self::Unseen => "unseen",
+        }
+    }
+
+    /// The fact that the tables name, where it is about one.
+    pub fn fact(&self) -> Option<Arc<str>> {
+        match self {
+            Self::Fact(fact) => Some(fact.clone()),
+            Self::Nesting { limit, .. } => Some(format!("limit:{limit}").into()),
+            _ => None,
+        }
+    }
+
+    /// True where runs show whether it holds. Runs take facts and the unit to be as it says.
+    pub fn is_seen(&self) -> bool {
+        !matches!(self, Self::Fact(_) | Self::Unit | Self::Unseen)
+    }
+
+    /// Numbers worth a try: the ends of what is assumed to be safe, its inside, and what lies just outside. Of the
+    /// safe numbers of variables `held` are registers that hold something else.
+    pub fn telling_numbers(&self, held: &[u32]) -> Vec<f64> {
+        match self {
+            Self::Subscripts(subscripts) => subscripts.telling_numbers(held),
+            Self::Arguments { domain, .. } => domain.telling_numbers(),
+            Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
+            Self::Codes { same, .. } => same.clone(),
+            Self::Alarms(most) => vec![*most, most + 1.0],
+            Self::Fact(_) | Self::Unit | Self::Unseen => Vec::new(),
+        }
+    }
+}

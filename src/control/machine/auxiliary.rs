@@ -1,0 +1,178 @@
+//! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or behind it.
+
+use super::{Command, Machine, tooling};
+use crate::canon::{Auxiliary, Op, Role, Running};
+use crate::control::trace::{Event, Happening, Spindle, Told, Trace};
+
+/// What counts of the machine before a block, to see whether the time at which something acts matters.
+pub(super) struct Before {
+    events: usize,
+    turns: (Spindle, f64, bool),
+    coolant: Op,
+}
+
+impl Before {
+    pub(super) fn of(machine: &Machine, trace: &Trace) -> Self {
+        Self { events: trace.events.len(), turns: turns(machine), coolant: machine.coolant }
+    }
+}
+
+/// Does what acts with the start of the block's move.
+pub(super) fn with_start(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    act(machine, command, false, trace);
+}
+
+/// Does what acts when the block's move is done.
+pub(super) fn behind(machine: &mut Machine, command: &Command, before: &Before, trace: &mut Trace) {
+    act(machine, command, true, trace);
+    doubt(machine, command, before, trace);
+    loosen(machine, before, trace);
+}
+
+/// The kinds of what a block does beside moving, in the order in which they act.
+fn kinds<'c>(machine: &Machine, command: &'c Command) -> impl Iterator<Item = Auxiliary> + use<'c> {
+    let by_word = machine.rules.tool_word_changes.peek() && command.word(Role::Tool).is_some();
+    let is = move |kind: &Auxiliary| match kind {
+        // The word has changed it.
+        Auxiliary::Change if by_word => false,
+        Auxiliary::Speed => command.word(Role::Speed).is_some() && !starts(command),
+        // What a builder's code does is told by its letter.
+        Auxiliary::Other => is_builders(command) || of_kind(command, Auxiliary::Other).next().is_some(),
+        kind => of_kind(command, *kind).next().is_some(),
+    };
+    Auxiliary::ALL.into_iter().filter(is)
+}
+
+fn of_kind(command: &Command, kind: Auxiliary) -> impl Iterator<Item = Op> + '_ {
+    command.ops.iter().copied().filter(move |op| op.auxiliary() == Some(kind))
+}
+
+fn is_builders(command: &Command) -> bool {
+    command.own_code.as_ref().is_some_and(|code| code.starts_with('M'))
+}
+
+fn starts(command: &Command) -> bool {
+    command.has(Op::SpindleCw) || command.has(Op::SpindleCcw)
+}
+
+fn acts_late(machine: &Machine, command: &Command, kind: Auxiliary) -> bool {
+    let late = |kind| machine.rules.acts_late(kind).peek();
+    // A tool in the changer does not turn: what starts waits for the change.
+    let waits = command.has(Op::ToolChange) && late(Auxiliary::Change) && !kind.waits();
+    waits || late(kind)
+}
+
+fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) {
+    for kind in kinds(machine, command) {
+        if acts_late(machine, command, kind) != late {
+            continue;
+        }
+        match kind {
+            Auxiliary::Change => tooling::change(machine, trace),
+            Auxiliary::Speed => turn(machine, command, machine.spindle, trace),
+            Auxiliary::Other => others(command, trace),
+            Auxiliary::Forward | Auxiliary::Start | Auxiliary::Stop => {
+                for op in of_kind(command, kind) {
+                    switch(machine, command, op, trace);
+                }
+            }
+        }
+    }
+}
+
+fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
+    let direction = match op {
+        Op::SpindleCw => Spindle::Clockwise,
+        Op::SpindleCcw => Spindle::CounterClockwise,
+        Op::SpindleStop => Spindle::Stopped,
+        Op::SpindleOrient => Spindle::Oriented,
+        coolant => {
+            machine.coolant = coolant;
+            machine.says_running(Running::Coolant);
+            return trace.push(Happening::Coolant { state: coolant });
+        }
+    };
+    machine.says_running(Running::Spindle);
+    turn(machine, command, direction, trace);
+}
+
+fn others(command: &Command, trace: &mut Trace) {
+    for &op in &command.ops {
+        if op.auxiliary() == Some(Auxiliary::Other) || (is_builders(command) && is_own(op)) {
+            trace.push(Happening::Other { operation: op, code: command.own_code.clone() });
+        }
+    }
+}
+
+/// True for the operations that only the code tells apart.
+pub(super) fn is_own(op: Op) -> bool {
+    matches!(op, Op::Builder | Op::MachineSpecific)
+}
+
+/// Turns the spindle, at the speed of the block where it has one.
+fn turn(machine: &mut Machine, command: &Command, direction: Spindle, trace: &mut Trace) {
+    if let Some(speed) = command.word(Role::Speed) {
+        // Surface speed comes in metres or feet a minute.
+        let unit = if machine.inch { 304.8 } else { 1000.0 };
+        machine.speed = if machine.surface_speed { speed * unit } else { speed };
+    }
+    machine.spindle = direction;
+    trace.push(Happening::Spindle { direction, speed: machine.speed, surface: machine.surface_speed });
+}
+
+fn turns(machine: &Machine) -> (Spindle, f64, bool) {
+    (machine.spindle, machine.speed, machine.surface_speed)
+}
+
+/// Notes that the time at which something acted matters: beside a cut everything that changed, beside any move the
+/// tool and what the tables do not know.
+fn doubt(machine: &mut Machine, command: &Command, before: &Before, trace: &mut Trace) {
+    let events = trace.events.get(before.events..).unwrap_or_default();
+    let (moves, cuts) = (events.iter().any(is_move), events.iter().any(is_cut));
+    if !moves {
+        return;
+    }
+    if cuts {
+        machine.running_matters(trace);
+    }
+    for kind in kinds(machine, command) {
+        let matters = match kind {
+            Auxiliary::Change | Auxiliary::Other => true,
+            _ => cuts && (turns(machine) != before.turns || machine.coolant != before.coolant),
+        };
+        if matters {
+            machine.rules.acts_late(kind).ask(trace);
+        }
+    }
+}
+
+/// Marks what nobody could tell the time of: spindle and coolant beside a rapid move or a wait, where no source says it.
+fn loosen(machine: &Machine, before: &Before, trace: &mut Trace) {
+    let events = trace.events.get_mut(before.events..).unwrap_or_default();
+    let idle = |event: &Event| matches!(event.what, Happening::Rapid { .. } | Happening::Dwell { .. });
+    if !events.iter().any(idle) || events.iter().any(is_cut) {
+        return;
+    }
+    for event in events {
+        let kind = match event.what {
+            Happening::Spindle { direction: Spindle::Clockwise, .. } => Auxiliary::Forward,
+            Happening::Spindle { direction: Spindle::CounterClockwise, .. } => Auxiliary::Start,
+            Happening::Spindle { .. } => Auxiliary::Stop,
+            Happening::Coolant { state: Op::CoolantOff | Op::ThroughSpindleOff } => Auxiliary::Stop,
+            Happening::Coolant { .. } => Auxiliary::Start,
+            _ => continue,
+        };
+        if machine.rules.acts_late(kind).is_unsure() && event.told == Told::Plain {
+            event.told = Told::Loose;
+        }
+    }
+}
+
+fn is_move(event: &Event) -> bool {
+    is_cut(event) || matches!(&event.what, Happening::Rapid { from, to } if from != to)
+}
+
+fn is_cut(event: &Event) -> bool {
+    use Happening::{Arc, Feed, Hole, Probe, Thread};
+    matches!(event.what, Feed { .. } | Arc { .. } | Thread { .. } | Probe { .. } | Hole { .. })
+}

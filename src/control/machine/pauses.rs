@@ -1,0 +1,71 @@
+//! Stops, and what of spindle and coolant they end.
+
+use super::Machine;
+use crate::canon::{Op, Pause, Running};
+use crate::control::trace::{Happening, Spindle, Told, Trace};
+
+impl Machine {
+    /// Stops for a person, for a tool, or for good: what the control is known to end is ended, then it stops.
+    pub fn pause(&mut self, pause: Pause, what: Happening, trace: &mut Trace) {
+        let open = self.stop_running(pause, trace);
+        trace.push(what);
+        if open {
+            trace.tell(Told::Open);
+        }
+    }
+
+    /// Ends what a stop ends; true where nobody knows what it does with something that is running.
+    pub fn stop_running(&mut self, pause: Pause, trace: &mut Trace) -> bool {
+        let mut open = false;
+        for running in Running::ALL {
+            if !self.is_running(running) {
+                continue;
+            }
+            let (answer, known) = self.rules.ends(pause, running);
+            open |= answer.is_none();
+            if !known {
+                self.unsure_running[running as usize] = Some(pause);
+            }
+            if answer == Some(true) {
+                self.end_running(running, trace);
+                trace.tell(Told::Implied);
+            }
+        }
+        open
+    }
+
+    fn is_running(&self, running: Running) -> bool {
+        match running {
+            Running::Spindle => self.spindle != Spindle::Stopped,
+            Running::Coolant => !matches!(self.coolant, Op::CoolantOff | Op::ThroughSpindleOff),
+        }
+    }
+
+    fn end_running(&mut self, running: Running, trace: &mut Trace) {
+        match running {
+            Running::Spindle => {
+                self.spindle = Spindle::Stopped;
+                let (speed, surface) = (self.speed, self.surface_speed);
+                trace.push(Happening::Spindle { direction: Spindle::Stopped, speed, surface });
+            }
+            Running::Coolant => {
+                self.coolant = Op::CoolantOff;
+                trace.push(Happening::Coolant { state: Op::CoolantOff });
+            }
+        }
+    }
+
+    /// The program says itself what runs from here on.
+    pub(super) fn says_running(&mut self, running: Running) {
+        self.unsure_running[running as usize] = None;
+    }
+
+    /// It cuts: what runs then matters.
+    pub(super) fn running_matters(&mut self, trace: &mut Trace) {
+        for running in Running::ALL {
+            if let Some(pause) = self.unsure_running[running as usize].take() {
+                trace.doubt(&format!("behaviour:{}", pause.question(running)));
+            }
+        }
+    }
+}

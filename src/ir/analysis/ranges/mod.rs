@@ -1,0 +1,357 @@
+//! Which values variables may have at a place, followed forwards from the entry of a program.
+//!
+//! What is followed are the variables that computed numbers depend on (of variables, blocks, programs), and those that
+//! they are made of or compared with. Everything else may be anything, and so may they where a program is entered:
+//! only what a program itself assigns and compares bounds them. A loop's bound comes from its condition. A literal at a
+//! program's head is an input that an operator edits, so it bounds nothing; but where only what a person would see at
+//! once hangs on it, one that the program goes on counting with is taken for what it is ([`Ranges::of`]). Law: a value
+//! that a run gives to an expression is one of those found for it, whichever literals stand at the head.
+//! Counter-example: a variable that an operator changes by hand while the program stands in a stop.
+
+mod evaluate;
+mod numbers;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+pub use evaluate::evaluate;
+pub use numbers::Numbers;
+pub use values::Values;
+
+use super::Cfg;
+use super::cfg::labelled;
+use super::effects::{Summaries, Vars};
+use crate::ir::{
+    Bank, Block, BlockId, Call, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var,
+};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most variables that are followed.
+const VARS: usize = 64;
+
+/// Most visits to blocks, a variable each; beyond, everything may be anything.
+const STEPS: usize = 400_000;
+
+/// A block whose values change more often than this is in a loop that counts.
+const PATIENCE: u32 = 5;
+
+/// A block whose values change more often than this tells nothing.
+const MOST_CHANGES: u32 = 60;
+
+/// What the followed variables may be, in the order of their places.
+type State = Vec<Values>;
+
+/// The values of a program's variables.
+pub struct Ranges<'p> {
+    program: &'p Program,
+    summaries: &'p Summaries,
+    places: BTreeMap<Var, usize>,
+    /// The statements that assign an input.
+    inputs: BTreeSet<(BlockId, usize)>,
+    /// By block, at its start; none where control does not come.
+    starts: Vec<Option<State>>,
+    /// Where the last question was, and the values there.
+    cursor: RefCell<Option<(BlockId, usize, State)>>,
+}
+
+impl<'p> Ranges<'p> {
+    /// The values in a program of the library that `summaries` are of; a literal at its head is an input unless the
+    /// program assigns its variable elsewhere.
+    pub fn of(program: &'p Program, summaries: &'p Summaries) -> Self {
+        let inputs = head_literals(program).into_iter().filter(|(.., var)| assigned(program, *var) == 1);
+        Self::with(program, summaries, inputs.map(|(id, at, _)| (id, at)).collect())
+    }
+
+    /// As [`Ranges::of`]; every literal at the head is an input.
+    pub fn of_any_inputs(program: &'p Program, summaries: &'p Summaries) -> Self {
+        let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
+        Self::with(program, summaries, inputs.collect())
+    }
+
+    fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
+        let places = followed(program).into_iter().enumerate().map(|(at, var)| (var, at)).collect();
+        let mut all =
+            Self { program, summaries, places, inputs, starts: Vec::new(), cursor: RefCell::new(None) };
+        if !all.places.is_empty() && all.settle().is_none() {
+            all.places.clear();
+            all.starts.clear();
+        }
+        all
+    }
+
+    /// What an expression may be before statement `at` of a block; past the last, before its end.
+    pub fn at(&self, id: BlockId, at: usize, expr: &Expr) -> Values {
+        if self.places.is_empty() {
+            return evaluate(expr, &|_| Values::ANY);
+        }
+        let (Some(Some(start)), Some(block)) = (self.starts.get(id.index()), self.program.block(id)) else {
+            return Values::Few(Vec::new());
+        };
+        let mut cursor = self.cursor.borrow_mut();
+        let (mut from, mut state) = match cursor.take() {
+            Some((block, before, state)) if block == id && before <= at => (before, state),
+            _ => (0, start.clone()),
+        };
+        while from < at {
+            if let Some(stmt) = block.stmts.get(from) {
+                self.step((id, from), stmt, &mut state);
+            }
+            from += 1;
+        }
+        let found = self.evaluate(expr, &state);
+        *cursor = Some((id, at, state));
+        found
+    }
+
+    fn evaluate(&self, expr: &Expr, state: &State) -> Values {
+        evaluate(expr, &|var| self.value(var, state))
+    }
+
+    fn value(&self, var: Var, state: &State) -> Values {
+        self.places.get(&var).and_then(|at| state.get(*at)).cloned().unwrap_or(Values::ANY)
+    }
+
+    /// Follows values until nothing changes; none where that takes too long.
+    fn settle(&mut self) -> Option<()> {
+        let cfg = Cfg::of(self.program);
+        let stops = stops(self.program);
+        self.starts = vec![None; self.program.blocks.len()];
+        let mut changes = vec![0u32; self.program.blocks.len()];
+        let mut steps = STEPS / self.places.len().max(1);
+        let mut work: BTreeSet<(usize, BlockId)> = BTreeSet::new();
+        let any: State = vec![Values::ANY; self.places.len()];
+        let come_back = labelled(self.program).filter(|_| self.summaries.come_back());
+        for id in cfg.roots().iter().copied().chain(come_back) {
+            self.starts[id.index()] = Some(any.clone());
+            work.insert((cfg.place(id).unwrap_or(usize::MAX), id));
+        }
+        while let Some((_, id)) = work.pop_first() {
+            let block = self.program.block(id)?;
+            let mut state = self.starts[id.index()].clone()?;
+            steps = steps.checked_sub(1 + block.stmts.len())?;
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                self.step((id, at), stmt, &mut state);
+            }
+            self.leave(block, &mut state);
+            for to in cfg.succs(id) {
+                let Some(there) = self.edge(block, *to, &state) else { continue };
+                let before = self.starts[to.index()].take();
+                let next = match &before {
+                    None => there,
+                    Some(before) => {
+                        changes[to.index()] += 1;
+                        let joined = before.iter().zip(&there).map(|(a, b)| {
+                            let joined = a.join(b);
+                            match changes[to.index()] {
+                                _ if joined == *a => joined,
+                                0..=PATIENCE => joined,
+                                more if more <= MOST_CHANGES => joined.widened(a, &stops),
+                                _ => Values::ANY,
+                            }
+                        });
+                        joined.collect()
+                    }
+                };
+                if before.as_ref() != Some(&next) {
+                    work.insert((cfg.place(*to).unwrap_or(usize::MAX), *to));
+                }
+                self.starts[to.index()] = Some(next);
+            }
+        }
+        Some(())
+    }
+
+    /// What is known where a block goes on at `to`; none where it never does.
+    fn edge(&self, block: &Block, to: BlockId, state: &State) -> Option<State> {
+        let TermKind::Branch { cond, yes, no } = &block.term.kind else { return Some(state.clone()) };
+        if yes == no {
+            return Some(state.clone());
+        }
+        let negated = (to == *no).then(|| Cond::Not(Box::new(cond.clone())));
+        let mut kept = state.clone();
+        evaluate::narrow(
+            negated.as_ref().unwrap_or(cond),
+            &|var| self.value(var, state),
+            &mut |var, values| {
+                if let Some(at) = self.places.get(&var) {
+                    kept[*at] = kept[*at].meet(&values);
+                }
+            },
+        );
+        kept.iter().zip(state).all(|(kept, before)| before.is_empty() || !kept.is_empty()).then_some(kept)
+    }
+
+    fn step(&self, place: (BlockId, usize), stmt: &Stmt, state: &mut State) {
+        let skipped = stmt.site.skip.is_some();
+        match &stmt.kind {
+            StmtKind::Assign { target: Place::Var(var), value } => {
+                if let Some(at) = self.places.get(var) {
+                    let input = self.inputs.contains(&place);
+                    let value = if input { Values::ANY } else { self.evaluate(value, state) };
+                    state[*at] = if skipped { state[*at].join(&value) } else { value };
+                }
+            }
+            StmtKind::Assign { target: Place::Indirect(bank, index), value } => {
+                let value = self.evaluate(value, state);
+                self.may_write(*bank, index, &value, state);
+            }
+            StmtKind::Input { target: Place::Indirect(bank, index), .. } => {
+                self.may_write(*bank, index, &Values::ANY, state);
+            }
+            StmtKind::Input { target: Place::Var(var), .. } => self.forget(state, |other| other == *var),
+            StmtKind::ClearAll(class) => {
+                for (_, at) in self.places.iter().filter(|(var, _)| var.class == *class) {
+                    state[*at] = state[*at].join(&Values::one(0.0));
+                }
+            }
+            StmtKind::Nc(nc) => {
+                let written = self.summaries.by_nc(nc);
+                self.forget(state, |var| written.contains(var));
+            }
+            _ => {}
+        }
+    }
+
+    /// A variable with a computed number is written: one of those that the number may name.
+    fn may_write(&self, bank: Bank, index: &Expr, value: &Values, state: &mut State) {
+        let numbers = self.evaluate(index, state).numbers();
+        for (var, at) in &self.places {
+            if Vars::bank(bank).contains(&var.class) && numbers.contains(var.number) {
+                state[*at] = state[*at].join(value);
+            }
+        }
+    }
+
+    /// What a call at the end of a block may change.
+    fn leave(&self, block: &Block, state: &mut State) {
+        let TermKind::Call { call, .. } = &block.term.kind else { return };
+        let written = self.summaries.by_call(call);
+        let body = matches!(call.callee, Callee::Block(_));
+        self.forget(state, |var| body || written.contains(var));
+    }
+
+    fn forget(&self, state: &mut State, which: impl Fn(Var) -> bool) {
+        for (_, at) in self.places.iter().filter(|(var, _)| which(**var)) {
+            state[*at] = Values::ANY;
+        }
+    }
+}
+
+/// The literals that are assigned before anything can branch, by block and statement.
+fn head_literals(program: &Program) -> Vec<(BlockId, usize, Var)> {
+    let (mut found, mut seen, mut next) = (Vec::new(), BTreeSet::new(), Some(BlockId(0)));
+    while let Some(id) = next.take().filter(|id| seen.insert(*id)) {
+        let Some(block) = program.block(id) else { break };
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind
+                && value.constant().is_some()
+            {
+                found.push((id, at, *var));
+            }
+        }
+        if let TermKind::Jump(to) = &block.term.kind {
+            next = Some(*to);
+        }
+    }
+    found
+}
+
+/// How many statements assign a variable.
+fn assigned(program: &Program, var: Var) -> usize {
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.filter(|stmt| matches!(stmt.kind.target(), Some(Place::Var(other)) if *other == var)).count()
+}
+
+/// The variables that computed numbers depend on.
+fn followed(program: &Program) -> BTreeSet<Var> {
+    let mut found = BTreeSet::new();
+    let blocks = || program.blocks.iter();
+    for block in blocks() {
+        let mut note = |e: &Expr| {
+            e.walk(&mut |e| {
+                if let Expr::Indirect(_, index) = e {
+                    add(index, &mut found);
+                }
+            });
+        };
+        for stmt in &block.stmts {
+            stmt.kind.exprs(&mut note);
+            stmt.kind.target().iter().for_each(|place| note(&place.read()));
+        }
+        block.term.kind.exprs(&mut note);
+        match &block.term.kind {
+            TermKind::Computed { value, .. } | TermKind::Return { to: Some(value) } => add(value, &mut found),
+            TermKind::Call { call, .. } => numbered(call, &mut found),
+            _ => {}
+        }
+    }
+    // What they are made of, and what they are compared with.
+    loop {
+        let before = found.len();
+        for block in blocks() {
+            for stmt in &block.stmts {
+                if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind
+                    && found.contains(var)
+                {
+                    add(value, &mut found);
+                }
+            }
+            if let TermKind::Branch { cond, .. } = &block.term.kind {
+                compared(cond, &mut |a, b| match (a, b) {
+                    (Expr::Var(var), other) | (other, Expr::Var(var)) if found.contains(var) => {
+                        add(other, &mut found)
+                    }
+                    _ => {}
+                });
+            }
+        }
+        if found.len() == before || found.len() > VARS {
+            break;
+        }
+    }
+    if found.len() > VARS { BTreeSet::new() } else { found }
+}
+
+fn add(e: &Expr, found: &mut BTreeSet<Var>) {
+    e.variables(&mut |var| {
+        found.insert(var);
+    });
+}
+
+fn numbered(call: &Call, found: &mut BTreeSet<Var>) {
+    if let Callee::Computed(number) = &call.callee {
+        add(number, found);
+    }
+}
+
+/// Calls `f` on the operands of each comparison.
+fn compared(cond: &Cond, f: &mut dyn FnMut(&Expr, &Expr)) {
+    let mut work = vec![cond];
+    while let Some(cond) = work.pop() {
+        match cond {
+            Cond::Compare(_, a, b) => f(a, b),
+            Cond::And(parts) | Cond::Or(parts) => work.extend(parts),
+            Cond::Not(inner) => work.push(inner),
+            Cond::Switch(_) => {}
+        }
+    }
+}
+
+/// The constants that conditions compare with, and their neighbours: where loops end.
+fn stops(program: &Program) -> Vec<f64> {
+    let mut all = Vec::new();
+    for block in &program.blocks {
+        if let TermKind::Branch { cond, .. } = &block.term.kind {
+            compared(cond, &mut |a, b| {
+                for number in [a, b].into_iter().filter_map(Expr::constant) {
+                    all.extend([number - 1.0, number, number + 1.0]);
+                }
+            });
+        }
+    }
+    all.sort_unstable_by(f64::total_cmp);
+    all.dedup();
+    all
+}

@@ -1,0 +1,86 @@
+//! Sets of whole numbers: of variables, of blocks, of programs.
+
+use std::fmt;
+
+/// Whole numbers from 0 on, as runs in order that do not touch.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Numbers(Vec<(u32, u32)>);
+
+impl Numbers {
+    /// All of these runs, each from its first to its last.
+    pub fn of(runs: impl IntoIterator<Item = (u32, u32)>) -> Self {
+        let mut all: Vec<(u32, u32)> = runs.into_iter().filter(|(first, last)| first <= last).collect();
+        all.sort_unstable();
+        let mut merged: Vec<(u32, u32)> = Vec::with_capacity(all.len());
+        for (first, last) in all {
+            match merged.last_mut() {
+                Some((_, end)) if first <= end.saturating_add(1) => *end = last.max(*end),
+                _ => merged.push((first, last)),
+            }
+        }
+        Self(merged)
+    }
+
+    /// The runs.
+    pub fn runs(&self) -> &[(u32, u32)] {
+        &self.0
+    }
+
+    /// True where there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The greatest.
+    pub fn last(&self) -> Option<u32> {
+        self.0.last().map(|(_, last)| *last)
+    }
+
+    /// True for a number among them.
+    pub fn contains(&self, number: u32) -> bool {
+        let at = self.0.partition_point(|(_, last)| *last < number);
+        self.0.get(at).is_some_and(|(first, _)| *first <= number)
+    }
+
+    /// True where all of another are among them.
+    pub fn holds(&self, other: &Self) -> bool {
+        other.0.iter().all(|(first, last)| self.0.iter().any(|(from, to)| from <= first && last <= to))
+    }
+
+    /// Adds all of another.
+    pub fn join(&mut self, other: &Self) {
+        if !self.holds(other) {
+            *self = Self::of(self.0.iter().chain(&other.0).copied());
+        }
+    }
+
+    /// Without these.
+    #[must_use]
+    pub fn without(&self, taken: impl IntoIterator<Item = u32>) -> Self {
+        let mut runs = self.0.clone();
+        for number in taken {
+            let Some(at) = runs.iter().position(|(first, last)| (*first..=*last).contains(&number)) else {
+                continue;
+            };
+            let (first, last) = runs[at];
+            let before = (first < number).then(|| (first, number - 1));
+            let behind = (number < last).then(|| (number + 1, last));
+            runs.splice(at..=at, before.into_iter().chain(behind));
+        }
+        Self(runs)
+    }
+}
+
+/// As people write numbers of variables: `#1-#33, #100`.
+impl fmt::Display for Numbers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, (first, last)) in self.0.iter().enumerate() {
+            f.write_str(if at > 0 { ", " } else { "" })?;
+            match first == last {
+                true => write!(f, "#{first}")?,
+                false => write!(f, "#{first}-#{last}")?,
+            }
+        }
+        Ok(())
+    }
+}

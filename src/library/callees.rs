@@ -1,0 +1,172 @@
+//! What becomes of programs whose callees are not written.
+//!
+//! A program that the verifier finds different is withdrawn, and what calls it was verified with a text that is not
+//! written: it is withdrawn too, and so on up. A program that was refused before was never there to be called: its
+//! callers are reviewed, who may supply it, and their certificates say that they were not run with it.
+
+use super::refused_calls::{Link, Linked};
+use super::{Conversion, Outcome};
+use crate::control::ProgramRef;
+use crate::diag::{Code, Diagnostic};
+use crate::text::Span;
+use crate::verify::{self, ProgramCertificate, Reason, Why};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Why a program is withdrawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Withdrawn {
+    /// It differs.
+    Differs,
+    /// It calls this one, which is withdrawn.
+    Calls(usize),
+}
+
+/// The calls of a library, and which of its programs are not written.
+pub struct Callees {
+    /// By index among the reports.
+    pub withdrawn: BTreeMap<usize, Withdrawn>,
+    names: Vec<String>,
+    links: Vec<Link>,
+    reports: BTreeMap<ProgramRef, usize>,
+    refused: BTreeSet<usize>,
+    /// Where each program begins, and what its runs came through.
+    places: BTreeMap<usize, Span>,
+    entered: BTreeMap<usize, BTreeSet<usize>>,
+}
+
+/// The report of each program, where both sides cut its file alike.
+pub fn programs_of(conversion: &Conversion, all: &[ProgramRef]) -> BTreeMap<ProgramRef, usize> {
+    let mut by_file: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (at, program) in conversion.programs.iter().enumerate() {
+        by_file.entry(program.file).or_default().push(at);
+    }
+    let pairs = by_file.into_iter().flat_map(|(file, reports)| {
+        let sections: Vec<ProgramRef> = all.iter().filter(|program| program.file == file).copied().collect();
+        let alike = sections.len() == reports.len();
+        sections.into_iter().zip(reports).filter(move |_| alike)
+    });
+    pairs.collect()
+}
+
+impl Callees {
+    /// The calls of a conversion, of whose programs some were `refused`.
+    pub fn of(
+        conversion: &Conversion,
+        reports: BTreeMap<ProgramRef, usize>,
+        refused: BTreeSet<usize>,
+    ) -> Self {
+        let name =
+            |program: &super::ProgramReport| program.name.clone().unwrap_or_else(|| "a program".into());
+        Self {
+            withdrawn: BTreeMap::new(),
+            names: conversion.programs.iter().map(name).collect(),
+            links: conversion.links.clone(),
+            reports,
+            refused,
+            places: BTreeMap::new(),
+            entered: BTreeMap::new(),
+        }
+    }
+
+    /// Takes note of what was found of a program, which begins at a place.
+    pub fn look(&mut self, at: usize, place: Span, found: &ProgramCertificate) {
+        if found.outcome == verify::Outcome::Different {
+            self.withdrawn.insert(at, Withdrawn::Differs);
+        }
+        self.places.insert(at, place);
+        let entered = found.entered.iter().filter_map(|program| self.reports.get(program).copied());
+        self.entered.insert(at, entered.filter(|other| *other != at).collect());
+    }
+
+    /// Where a program begins.
+    pub fn place(&self, at: usize) -> Span {
+        self.places.get(&at).copied().unwrap_or_default()
+    }
+
+    /// Withdraws what calls a program that is withdrawn, until nothing more does.
+    pub fn withdraw(&mut self) {
+        let mut work: Vec<usize> = self.withdrawn.keys().copied().collect();
+        while let Some(callee) = work.pop() {
+            for (caller, _) in self.callers(callee) {
+                if !self.refused.contains(&caller) && !self.withdrawn.contains_key(&caller) {
+                    self.withdrawn.insert(caller, Withdrawn::Calls(callee));
+                    work.push(caller);
+                }
+            }
+        }
+    }
+
+    /// What calls a program: by its name, or by a computed number in some run.
+    fn callers(&self, callee: usize) -> Vec<(usize, Span)> {
+        let named = self
+            .links
+            .iter()
+            .filter(|link| matches!(link.callee, Linked::Program { at, .. } if at == callee));
+        let mut all: Vec<(usize, Span)> = named.map(|link| (link.caller, link.span)).collect();
+        for link in self.links.iter().filter(|link| link.callee == Linked::Computed) {
+            if self.entered.get(&link.caller).is_some_and(|entered| entered.contains(&callee)) {
+                all.push((link.caller, link.span));
+            }
+        }
+        all
+    }
+
+    /// Why a program's runs do not show what the library does: what it calls is not written.
+    pub fn reasons(&self, at: usize, found: &mut ProgramCertificate) {
+        let mut texts = BTreeSet::new();
+        if let Some(Withdrawn::Calls(callee)) = self.withdrawn.get(&at) {
+            texts.insert(format!(
+                "it calls {}, which is withdrawn, and is not written either",
+                self.names[*callee]
+            ));
+        } else if !self.withdrawn.contains_key(&at) {
+            texts = self.missing(at);
+        }
+        for text in texts {
+            found.reasons.push(Reason { why: Why::Callee, text });
+            found.outcome = found.outcome.max(verify::Outcome::Undecided);
+        }
+    }
+
+    /// What is not written and called from a program, or from what it calls.
+    fn missing(&self, at: usize) -> BTreeSet<String> {
+        let gone = |at: usize| self.refused.contains(&at) || self.withdrawn.contains_key(&at);
+        let mut texts = BTreeSet::new();
+        let (mut seen, mut work) = (BTreeSet::from([at]), vec![at]);
+        while let Some(caller) = work.pop() {
+            for link in self.links.iter().filter(|link| link.caller == caller) {
+                match &link.callee {
+                    Linked::Program { at: callee, name, .. } if gone(*callee) => {
+                        let by = if caller == at { "it".to_owned() } else { self.names[caller].clone() };
+                        texts
+                            .insert(format!("{by} calls {name}, which is refused: it was not run with that"));
+                    }
+                    Linked::Program { at: callee, .. } if seen.insert(*callee) => work.push(*callee),
+                    Linked::Program { .. } => {}
+                    Linked::Computed if !self.refused.is_empty() || !self.withdrawn.is_empty() => {
+                        let text = "which program is called is computed, and some programs of the library are refused";
+                        texts.insert(text.to_owned());
+                    }
+                    Linked::Computed => {}
+                }
+            }
+        }
+        texts
+    }
+
+    /// Says at each call of what is withdrawn why the caller is not written.
+    pub fn tell(&self, conversion: &mut Conversion) {
+        let mut told = BTreeSet::new();
+        for callee in self.withdrawn.keys() {
+            let name = &self.names[*callee];
+            let what = format!("calls {name}, which is withdrawn because its conversion does something else");
+            for (caller, span) in self.callers(*callee) {
+                if self.withdrawn.contains_key(&caller) && told.insert((caller, *callee)) {
+                    let program = &mut conversion.programs[caller];
+                    program.diagnostics.push(Diagnostic::new(Code::CalleeWithdrawn, span, what.clone()));
+                    program.outcome = Outcome::Refused;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! Programs of a lathe among those of a library that is read as a mill's.
+//!
+//! Law: a program is for a lathe where its own text says so more clearly than it speaks for a mill: a letter that only a
+//! lathe has, against Y, a length offset, a change by M6. What calls it, what it calls and what stands in its
+//! file are for the same machine, unless their own text is a mill's; what both kinds of program lead to may be for
+//! either. A program without a word for the machine does the same on both. Programs without any sign follow the rest of the library where no program of it is for a mill.
+//! Where a machine profile says `machine = "mill"`, only what no mill has counts, and only what is linked with it goes with it.
+
+use super::Input;
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Axis, Control, Machine};
+use crate::ir::{Callee, Module, Nc, NcItem, Program, StmtKind};
+use crate::legalize::calls_of;
+use crate::syntax::ProgramName;
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How strong signs are, together, that settle the kind of a program.
+const ENOUGH: u32 = 3;
+
+/// What a program's own text says of its machine.
+#[derive(Clone, Debug, Default)]
+struct Signs {
+    lathe: u32,
+    mill: u32,
+    /// The first sign of a lathe: where it is, and what.
+    first: Option<(Span, String)>,
+}
+
+impl Signs {
+    fn is_lathe(&self) -> bool {
+        self.lathe >= ENOUGH && self.lathe > self.mill
+    }
+
+    fn is_mill(&self) -> bool {
+        self.mill > 0 && self.mill >= self.lathe
+    }
+
+    fn of(program: &Program, found: &[Diagnostic], inputs: &[Input], source: &Control) -> Self {
+        let mut signs = Self::default();
+        let mut seen = BTreeSet::new();
+        for finding in found.iter().filter(|finding| finding.code == Code::LatheProgram) {
+            let text =
+                inputs.get(program.file).and_then(|input| input.bytes.get(finding.span.start as usize));
+            // A letter that is no axis of a mill is one of a machine with another axis too.
+            let weight = if text.is_some_and(|letter| b"UVWuvw".contains(letter)) { 2 } else { ENOUGH };
+            if seen.insert(finding.message.clone()) {
+                signs.lathe += weight;
+                let sign = finding.message.split(": ").next().unwrap_or_default();
+                signs.first.get_or_insert((finding.span, sign.to_owned()));
+            }
+        }
+        let mut words = BTreeSet::new();
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            let lathe = lathe_signs(nc, source).filter(|_| source.profile().machine.is_none());
+            for (weight, what) in lathe {
+                if words.insert(what) {
+                    signs.lathe += weight;
+                    signs.first.get_or_insert((stmt.site.span, what.to_owned()));
+                }
+            }
+            signs.mill += mill_signs(nc).filter(|(_, what)| words.insert(what)).map(|(n, _)| n).sum::<u32>();
+        }
+        signs
+    }
+}
+
+fn has(nc: &Nc, role: Role) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Word(found, _) if *found == role))
+}
+
+/// What in a block is a lathe's, or more often a lathe's than a mill's.
+fn lathe_signs(nc: &Nc, source: &Control) -> impl Iterator<Item = (u32, &'static str)> {
+    let listed = |axis| source.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
+    let (u, w) = (has(nc, Role::U) && !listed(Axis::U), has(nc, Role::W) && !listed(Axis::W));
+    let signs = [
+        (u, 2, "U, the increment of X, is a lathe's"),
+        (w, 2, "W, the increment of Z, is a lathe's"),
+        (
+            nc.has(Op::ReferenceReturn) && (u || w),
+            1,
+            "a return to the reference position by U or W is a lathe's",
+        ),
+        (nc.has(Op::SurfaceSpeed), 2, "constant surface speed is a lathe's"),
+        (
+            nc.has(Op::SetPosition) && has(nc, Role::Feed),
+            ENOUGH,
+            "a feed beside G92, for a thread, is a lathe's",
+        ),
+    ];
+    signs.into_iter().filter(|(there, _, _)| *there).map(|(_, weight, what)| (weight, what))
+}
+
+/// What in a block is a mill's.
+fn mill_signs(nc: &Nc) -> impl Iterator<Item = (u32, &'static str)> {
+    let length = nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
+    let signs = [
+        (has(nc, Role::Y), 5, "Y"),
+        (length, 3, "a tool length offset"),
+        (nc.has(Op::ToolChange), 2, "a tool change by M6"),
+        (has(nc, Role::RadiusOffset), 1, "a cutter radius by D"),
+    ];
+    signs.into_iter().filter(|(there, _, _)| *there).map(|(_, weight, what)| (weight, what))
+}
+
+/// Refuses the programs of a lathe that are read as a mill's, each with one reason that says where the sign was seen.
+pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [Vec<Diagnostic>]) {
+    if source.machine() != Machine::Mill {
+        return;
+    }
+    let told = source.profile().machine.is_some();
+    let programs = module.programs.iter().zip(&*found);
+    let signs: Vec<Signs> =
+        programs.map(|(program, found)| Signs::of(program, found, inputs, source)).collect();
+    if !signs.iter().any(Signs::is_lathe) {
+        return;
+    }
+    let edges = edges(module);
+    let lathe = spread(&signs, &edges, Signs::is_lathe, Signs::is_mill);
+    let mill = spread(&signs, &edges, Signs::is_mill, Signs::is_lathe);
+    let first = signs.iter().position(Signs::is_lathe).unwrap_or(0);
+    for (at, found) in found.iter_mut().enumerate() {
+        let seen = match (lathe[at], mill[at]) {
+            (Some(seen), None) => seen,
+            (None, None) if !told && mill.iter().all(Option::is_none) && !signs[at].is_mill() => first,
+            _ => continue,
+        };
+        if !names_machine(&module.programs[at]) || found.iter().any(|d| d.code == Code::LatheProgram) {
+            continue;
+        }
+        let Some((span, sign)) = &signs[seen].first else { continue };
+        let own = seen == at;
+        let what = if own {
+            format!("the program looks like a lathe program: {sign}")
+        } else {
+            let place = place(inputs, module.programs[seen].file, *span);
+            format!("the program goes with those of a lathe: in {place}, {sign}")
+        };
+        let span = if own { *span } else { module.programs[at].site.span };
+        let help = "name a machine profile with machine = \"lathe\"; if it is a mill's after all, one with machine = \"mill\"";
+        found.push(Diagnostic::new(Code::LatheProgram, span, what).with_help(help));
+    }
+}
+
+/// True where a program has words of NC code, which mean other things on another kind of machine.
+fn names_machine(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if !nc.items.is_empty()))
+}
+
+/// File and line of a place.
+fn place(inputs: &[Input], file: usize, span: Span) -> String {
+    let Some(input) = inputs.get(file) else { return "another file".into() };
+    let before = input.bytes.get(..span.start as usize).unwrap_or_default();
+    let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+    format!("line {line} of {}", input.name)
+}
+
+/// The neighbours of each program: those of its file, those it calls and those that call it.
+fn edges(module: &Module) -> Vec<BTreeSet<usize>> {
+    let mut edges = vec![BTreeSet::new(); module.programs.len()];
+    let mut join = |a: usize, b: usize| {
+        edges[a].insert(b);
+        edges[b].insert(a);
+    };
+    let mut names: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
+    for (at, program) in module.programs.iter().enumerate() {
+        if at > 0 && module.programs[at - 1].file == program.file {
+            join(at - 1, at);
+        }
+        program.name.iter().for_each(|name| names.entry(name).or_default().push(at));
+    }
+    for (at, program) in module.programs.iter().enumerate() {
+        for call in program.blocks.iter().flat_map(calls_of) {
+            // Of two programs of one name either may be meant.
+            if let Callee::Program(name) = &call.callee
+                && let Some([callee]) = names.get(name).map(Vec::as_slice)
+            {
+                join(at, *callee);
+            }
+        }
+    }
+    edges
+}
+
+/// For each program the nearest of one kind that it is linked with, by ways that lead through none of the other kind.
+fn spread(
+    signs: &[Signs],
+    edges: &[BTreeSet<usize>],
+    kind: impl Fn(&Signs) -> bool,
+    other: impl Fn(&Signs) -> bool,
+) -> Vec<Option<usize>> {
+    let mut reached: Vec<Option<usize>> = vec![None; signs.len()];
+    let mut work: Vec<usize> = (0..signs.len()).filter(|at| kind(&signs[*at])).collect();
+    work.iter().for_each(|at| reached[*at] = Some(*at));
+    let mut next = 0;
+    while let Some(&at) = work.get(next) {
+        next += 1;
+        for &neighbour in &edges[at] {
+            if reached[neighbour].is_none() && !other(&signs[neighbour]) {
+                reached[neighbour] = reached[at];
+                work.push(neighbour);
+            }
+        }
+    }
+    reached
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::{Lock, Options, Outcome, convert};
+
+    /// Which programs are refused as a lathe's, in order of the files.
+    fn lathes(profile: &str, files: &[&str]) -> Vec<bool> {
+        let inputs = files.iter().enumerate().map(|(at, text)| {
+            let name = format!("f{at}.nc");
+            Input { path: (&name).into(), name, bytes: text.as_bytes().to_vec() }
+        });
+        let source = Control::from_profile(profile).unwrap();
+        let name = if source.name() == "haas" { "fanuc" } else { "haas" };
+        let target = Control::plain(name).unwrap();
+        let lock = Lock::new(source.name(), target.name());
+        let made = convert(&inputs.collect::<Vec<_>>(), &source, &target, lock, Options::default());
+        let refused = made.programs.iter().map(|program| {
+            let told = program.diagnostics.iter().filter(|d| d.code == Code::LatheProgram).count();
+            assert!(told == 0 || program.outcome == Outcome::Refused);
+            told > 0
+        });
+        refused.collect()
+    }
+
+    const FANUC: &str = "dialect = \"fanuc\"";
+    const HAAS: &str = "dialect = \"haas\"";
+    /// A turned part: the form is that of seed 001.
+    const TURNS: &str = "O1\nT0101\nG96 S200 M3\nG0 X50. Z2.\nM98 P2\nM30\n";
+    const MILLS: &str = "O11\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z5.\nM98 P2\nM30\n";
+    const PLAIN: &str = "O2\nG1 X40. F100.\nM99\n";
+
+    #[test]
+    fn what_a_lathe_program_calls_is_a_lathes_too() {
+        assert_eq!(lathes(FANUC, &[TURNS, PLAIN]), [true, true]);
+        assert_eq!(lathes(HAAS, &[TURNS, PLAIN]), [true, true]);
+        // A macro that only computes is for any machine.
+        assert_eq!(lathes(FANUC, &[TURNS, "O2\n#500=#500+1\nM99\n"]), [true, false]);
+        let other = "O3\nG1 X40. F100.\nM30\n";
+        // Without any sign it follows the folder, unless that has mill programs too.
+        assert_eq!(lathes(FANUC, &[TURNS, other]), [true, true]);
+        assert_eq!(lathes(FANUC, &[TURNS, other, &MILLS.replace("M98 P2\n", "")]), [true, false, false]);
+        assert_eq!(lathes(FANUC, &[&format!("{TURNS}{other}"), MILLS]), [true, true, false]);
+    }
+
+    #[test]
+    fn what_both_kinds_call_may_be_for_either() {
+        assert_eq!(lathes(FANUC, &[TURNS, MILLS, PLAIN]), [true, false, false]);
+    }
+
+    #[test]
+    fn signs_that_a_mills_table_reads_as_its_own() {
+        assert_eq!(lathes(HAAS, &["O1\nG28 U0 W0\nG0 X50. Z2.\nM30\n"]), [true]);
+        assert_eq!(lathes(HAAS, &["O1\nG0 X50. Z2.\nG1 W-5. F.2\nG1 U1.\nM30\n"]), [true]);
+        assert_eq!(lathes(FANUC, &["O1\nG0 X50. Z2.\nG92 X48. Z-20. F1.5\nM30\n"]), [true]);
+    }
+
+    #[test]
+    fn a_mill_is_none_by_a_weak_sign() {
+        for mill in [
+            "O1\nG0 X5. Y5.\nG1 U5. F100.\nW2.\nM30\n",
+            "O1\nT0101 M6\nG43 H1 Z5.\nG76 X5. Y5. Z-5. R2. Q.1 F100.\nM30\n",
+            "O1\nG96 S200\nG1 X5. F100.\nM30\n",
+            "O1\nG1 W5. F100.\nM30\n",
+            "O1\nG92 X0. Y0. Z0.\nG70 I5. J10. L4\nM30\n",
+        ] {
+            assert_eq!(lathes(HAAS, &[mill, "O5\nG1 X5. F100.\nM30\n"]), [false, false], "{mill}");
+        }
+        let profile = "dialect = \"haas\"\nmachine = \"mill\"";
+        assert_eq!(lathes(profile, &["O1\nG28 U0 W0\nM30\n"]), [false]);
+        // A profile that says so does not make a mill's of T0101, nor of what it is called by.
+        assert_eq!(lathes(profile, &[TURNS, PLAIN, "O5\nG1 X5. F100.\nM30\n"]), [true, true, false]);
+        // A mill with a W axis, told by its profile.
+        let axes = "dialect = \"fanuc\"\naxes = [\"X\", \"Y\", \"Z\", \"W\"]";
+        assert_eq!(lathes(axes, &["O1\nG28 W0\nG1 W-5. F100.\nM30\n"]), [false]);
+    }
+}

@@ -1,0 +1,110 @@
+//! The search for scenarios: in which both sides go every way that they can.
+
+use super::Verifier;
+use crate::control::{ProgramRef, Run, Scenario};
+use crate::verify::assumed::telling_numbers;
+use crate::verify::certificate::Why;
+use crate::verify::compare::is_cut;
+use crate::verify::inputs::{calls, inputs_of_both};
+use crate::verify::scenarios::{Proposals, unit};
+use crate::verify::{Effort, Job};
+
+/// How much longer the first run may be where it comes to no end.
+const LONGER: u64 = 10;
+
+/// Scenarios that are compared even where nothing is left to be reached.
+const FEWEST: usize = 16;
+
+/// How often a run may execute each block of a long program, on the average.
+const EACH_BLOCK: u64 = 4;
+
+/// Runs that come to no end before a program is given up.
+const ENDLESS: usize = 4;
+
+/// Runs of both sides for ways that the target alone has left, after the source has gone all of its own.
+const FOR_THE_TARGET: usize = 48;
+
+impl Verifier<'_, '_> {
+    /// Tries the source in scenario after scenario, and compares in those that reach anything new. While the target has
+    /// ways left, each is run on both sides.
+    pub(super) fn search(&mut self, there: ProgramRef) {
+        let Job { source, target, names, effort, .. } = *self.job;
+        let mut found = inputs_of_both((source, self.program), (target, there), names, self.called);
+        found.try_also(&telling_numbers(self.job.assumptions, self.program, names));
+        let blocks = source.blocks(self.program).len() as u64;
+        let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
+        let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
+        let (mut endless, mut for_target) = (0, 0);
+        while let Some(mut scenario) = proposals.next() {
+            scenario.inch = unit(source, target).or(found.inch);
+            self.given.start(&mut scenario);
+            self.theirs = proposals.theirs().clone();
+            let run = self.run_longer(&mut scenario);
+            self.tried += 1;
+            self.steps += run.steps;
+            let new = self.coverage.add(&run);
+            if is_cut(&run) && !new {
+                endless += 1;
+            }
+            let telling = proposals.are_telling();
+            let spare = self.compared < FEWEST && self.tried.is_multiple_of(2);
+            let wanted = !self.target_coverage.is_complete() && for_target < FOR_THE_TARGET;
+            if new || telling || spare || wanted {
+                for_target += usize::from(!new && !telling && !spare);
+                self.compare(&scenario, &run, there);
+            }
+            let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
+            let done = self.coverage.is_complete() && gone && !telling && self.compared >= FEWEST;
+            if self.witness.is_some()
+                || done
+                || endless >= ENDLESS
+                || self.compared >= effort.scenarios
+                || self.steps >= effort.all_steps
+            {
+                break;
+            }
+        }
+        self.theirs.clear();
+        if self.compared == 0 {
+            for text in std::mem::take(&mut self.endless) {
+                self.because(Why::Endless, &text);
+            }
+            self.because(Why::NothingCompared, "no scenario could be run on both sides");
+        }
+    }
+
+    /// True where neither side has ways left.
+    pub(super) fn went_every_way(&self) -> bool {
+        self.coverage.is_complete() && self.target_coverage.is_complete()
+    }
+
+    /// A run of the source; a long way to its end is tried once.
+    fn run_longer(&self, scenario: &mut Scenario) -> Run {
+        let run = self.run_source(scenario);
+        if !is_cut(&run) || self.tried > 0 {
+            return run;
+        }
+        scenario.steps = scenario.steps.saturating_mul(LONGER);
+        self.run_source(scenario)
+    }
+}
+
+/// The programs of the target that a program of the source became: its own, and those that this calls and that no
+/// program of the source became.
+pub(super) fn of_target(job: &Job<'_>, program: ProgramRef) -> Vec<ProgramRef> {
+    let Job { source, target, names, .. } = *job;
+    let became = |program: ProgramRef| names.program(source, program, target);
+    let others = || target.became.get_or_init(|| source.programs().into_iter().filter_map(became).collect());
+    let mut all: Vec<ProgramRef> = became(program).into_iter().collect();
+    let mut at = 0;
+    while let Some(&one) = all.get(at) {
+        for block in target.text(one) {
+            let new: Vec<ProgramRef> = calls(target, &block.items)
+                .filter(|called| !all.contains(called) && !others().contains(called))
+                .collect();
+            all.extend(new);
+        }
+        at += 1;
+    }
+    all
+}

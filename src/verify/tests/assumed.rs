@@ -1,0 +1,210 @@
+//! What a conversion supposes, tried on the runs of both sides: what it excuses, and what not.
+
+use super::{Names, supposing};
+use crate::assume::{Assumption, Domain, Numbers, Predicate, Subscripts};
+use crate::canon::Func;
+use crate::text::Span;
+use crate::verify::{Outcome, ProgramCertificate, Why};
+
+/// An assumption about the first program of a file.
+pub fn assumption(predicate: Predicate) -> (usize, Assumption) {
+    (0, Assumption { place: Span::default(), text: "so it is".into(), predicate })
+}
+
+/// Where a block stands that stands once.
+pub fn place(source: &str, block: &str) -> Vec<Span> {
+    assert_eq!(source.matches(block).count(), 1, "{block} in {source}");
+    let at = source.find(block).unwrap();
+    vec![Span::new(at as u32, (at + block.len()) as u32)]
+}
+
+/// That the numbers which a block computes are these.
+fn numbers(source: &str, block: &str, safe: &[(u32, u32)]) -> (usize, Assumption) {
+    let (places, safe) = (place(source, block), Numbers::new(safe.iter().copied()));
+    assumption(Predicate::Subscripts(Subscripts { places, safe, bases: vec![0.0] }))
+}
+
+/// What becomes of the programs of a file.
+fn all(
+    source: &str,
+    target: &str,
+    names: &[(&str, u32)],
+    supposed: &[(usize, Assumption)],
+) -> Vec<ProgramCertificate> {
+    let variables = names.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
+    supposing(("fanuc", source), ("haas", target), Names { variables, ..Names::default() }, supposed)
+}
+
+fn one(source: &str, target: &str, supposed: &[(usize, Assumption)]) -> ProgramCertificate {
+    all(source, target, &[], supposed).remove(0)
+}
+
+fn has(found: &ProgramCertificate, why: Why) -> bool {
+    found.reasons.iter().any(|reason| reason.why == why)
+}
+
+/// A variable by its number, and a move by it.
+const INDEXED: &str = "O1\nG21G90\nG0X5.\n#1=#[#500]\nG0Y[FIX[#1]]\nM30\n";
+
+#[test]
+fn an_assumption_that_holds_is_counted_and_is_no_reason() {
+    let found = one(INDEXED, INDEXED, &[numbers(INDEXED, "#1=#[#500]", &[(1, 33), (100, 199), (500, 999)])]);
+    let [assumed] = &found.assumptions[..] else { panic!("{found:#?}") };
+    assert_eq!((assumed.kind, &*assumed.text, assumed.line), ("subscripts", "so it is", 1));
+    assert!(assumed.kept.unwrap() > 0, "{assumed:?}");
+    assert!(!has(&found, Why::NoRunKept));
+}
+
+#[test]
+fn what_no_run_keeps_is_undecided() {
+    // No run computes one of these numbers.
+    let source = INDEXED.replace("#[#500]", "#[500]");
+    let source = source.replace("#1=#[500]", "#2=500\n#1=#[#2]");
+    let found = one(&source, &source, &[numbers(&source, "#1=#[#2]", &[(900, 901)])]);
+    assert_eq!(found.assumptions[0].kept, Some(0));
+    assert!(found.assumptions[0].broken.unwrap() > 0);
+    assert!(has(&found, Why::NoRunKept) && found.outcome == Outcome::Undecided, "{:?}", found.reasons);
+    // A place that no run comes to.
+    let source = "O1\nG21G90\nG0X5.\nM30\n#1=#[#500]\nM30\n";
+    let found = one(source, source, &[numbers(source, "#1=#[#500]", &[(500, 501)])]);
+    assert_eq!((found.assumptions[0].kept, found.assumptions[0].broken), (Some(0), Some(0)));
+    assert!(has(&found, Why::NoRunKept), "{:?}", found.reasons);
+}
+
+#[test]
+fn what_is_not_seen_in_runs_is_listed_and_decides_nothing() {
+    let source = "O1\nG21G90\nG0X5.\nM30\n";
+    let found = one(source, source, &[assumption(Predicate::Unseen)]);
+    assert_eq!((found.assumptions[0].kind, found.assumptions[0].kept), ("unseen", None));
+    assert!(!has(&found, Why::NoRunKept));
+    // Nor does it excuse anything.
+    let found = one(source, &source.replace("X5.", "X6."), &[assumption(Predicate::Unseen)]);
+    assert_eq!(found.outcome, Outcome::Different);
+}
+
+#[test]
+fn a_break_excuses_what_comes_after_it_and_nothing_before() {
+    // Every run breaks it: the register is none of these.
+    let source = "O1\nG21G90\nG0X5.\n#1=7\n#2=#[#1+493]\nG0X8.\nM30\n";
+    let supposed = [numbers(source, "#2=#[#1+493]", &[(100, 199)])];
+    let found = |from: &str, to: &str| one(source, &source.replace(from, to), &supposed);
+    let behind = found("X8.", "X9.");
+    assert_eq!(behind.outcome, Outcome::Undecided);
+    assert!(has(&behind, Why::Condition) && behind.scenarios_compared == 0, "{behind:#?}");
+    assert!(has(&behind, Why::NothingCompared));
+    assert_eq!(found("X5.", "X6.").outcome, Outcome::Different, "before: {:#?}", found("X5.", "X6."));
+    assert_eq!(found("G0X5.", "G0X6.\nG0X5.").outcome, Outcome::Different, "before the break");
+    assert_eq!(found("#1=7", "#1=7\nG0X6.").outcome, Outcome::Different, "before the target comes to it");
+    assert_eq!(found("G0X8.", "G0X6.\nG0X8.").outcome, Outcome::Undecided);
+}
+
+#[test]
+fn only_what_the_source_breaks_excuses() {
+    // The target alone computes another register, and moves by it.
+    let source = "O1\nG21G90\n#510=3\n#511=4\n#1=510\nG0X[#[#1]]\nM30\n";
+    let target = source.replace("#1=510", "#1=511");
+    let supposed = [numbers(source, "G0X[#[#1]]", &[(510, 510)])];
+    let found = one(source, source, &supposed);
+    assert_ne!(found.outcome, Outcome::Different, "{:?}", found.witness);
+    assert_eq!(one(source, &target, &supposed).outcome, Outcome::Different);
+    // A code of which only the target says another.
+    let source = "O1\nG21G90\n#1=1\nG#1X5.F100.\nM30\n";
+    let places = place(source, "G#1X5.F100.");
+    let codes = [assumption(Predicate::Codes { letter: 'G', places, same: vec![1.0] })];
+    let found = one(source, &source.replace("#1=1", "#1=0"), &codes);
+    assert_eq!((found.outcome, found.assumptions[0].broken), (Outcome::Different, Some(1)));
+}
+
+#[test]
+fn a_break_in_a_callee_counts_for_the_callers_run() {
+    let source = "O1\nG21G90\n#500=150\nG65P2\nG0X5.\nM30\nO2\n#501=#[#500+0]\nM99\n";
+    let target = source.replace("X5.", "X6.");
+    let (_, subscripts) = numbers(source, "#501=#[#500+0]", &[(510, 599)]);
+    let found = all(source, &target, &[], &[(1, subscripts.clone())]);
+    assert!(has(&found[0], Why::Condition), "{:?}", found[0]);
+    assert!(found[0].assumptions.is_empty() && found[1].assumptions.len() == 1, "each lists its own");
+    // The same of a program that did not run says nothing.
+    let source = source.replace("G65P2", "");
+    let (_, elsewhere) = numbers(&source, "#501=#[#500+0]", &[(510, 599)]);
+    let found = all(&source, &source.replace("X5.", "X6."), &[], &[(1, elsewhere)]);
+    assert_eq!(found[0].outcome, Outcome::Different);
+}
+
+#[test]
+fn an_assumption_is_about_its_program_and_its_block() {
+    // Another block computes a register outside, and nothing is said of it.
+    let source = "O1\nG21G90\n#1=510\n#2=#[#1]\n#3=150\n#4=#[#3+0]\nG0X5.\nM30\n";
+    let target = source.replace("X5.", "X6.");
+    let supposed = [numbers(source, "#2=#[#1]", &[(510, 510)])];
+    assert_eq!(one(source, &target, &supposed).outcome, Outcome::Different);
+    let supposed = [numbers(source, "#4=#[#3+0]", &[(510, 510)])];
+    assert!(has(&one(source, &target, &supposed), Why::Condition));
+    // The same text in another program of the file.
+    let source = "O1\nG21G90\n#3=150\n#4=#[#3+0]\nG0X5.\nM30\nO2\n#4=#[#3+1]\nM30\n";
+    let (_, other) = numbers(source, "#4=#[#3+1]", &[(510, 510)]);
+    let found = all(source, &source.replace("X5.", "X6."), &[], &[(1, other)]);
+    assert_eq!(found[0].outcome, Outcome::Different);
+}
+
+/// `#700`, which the target keeps in `#100`, and any variable whose number is computed.
+const WIDE: &str = "O1\nG21G90\n#700=2\n#[FIX[#500]]=3\nG0X#700\nM30\n";
+
+#[test]
+fn an_assumption_that_is_too_wide_is_a_difference() {
+    let target = WIDE.replace("#700", "#100");
+    let found = |names: &[(&str, u32)], safe: &[(u32, u32)]| {
+        all(WIDE, &target, names, &[numbers(WIDE, "#[FIX[#500]]=3", safe)]).remove(0)
+    };
+    let wide = found(&[("#700", 100)], &[(100, 199)]);
+    assert_eq!(wide.outcome, Outcome::Different, "{wide:#?}");
+    // Without that register it is right.
+    let right = found(&[("#700", 100)], &[(101, 199)]);
+    assert_ne!(right.outcome, Outcome::Different, "{:#?}", right.witness);
+    assert!(right.assumptions[0].kept.unwrap() > 0);
+    // By a part that is added.
+    let source = WIDE.replace("FIX[#500]", "FIX[#500]+90");
+    let (places, safe) = (place(&source, "#[FIX[#500]+90]=3"), Numbers::new([(91, 199)]));
+    let subscripts = Predicate::Subscripts(Subscripts { places, safe, bases: vec![90.0] });
+    let found = all(&source, &source.replace("#700", "#100"), &[("#700", 100)], &[assumption(subscripts)]);
+    assert_eq!(found[0].outcome, Outcome::Different);
+}
+
+#[test]
+fn a_domain_that_is_too_wide_is_a_difference() {
+    // The emulation of BCD is right for two digits alone.
+    let source = "O1\nG21G90\n#2=FIX[ABS[#500]]\nG0X[BCD[#2]]\nM30\n";
+    let target = source.replace("BCD[#2]", "#2+FIX[#2/10]*6");
+    let found = |digits: u32| {
+        let (places, domain) = (place(source, "G0X[BCD[#2]]"), Domain::Digits(digits));
+        one(source, &target, &[assumption(Predicate::Arguments { function: Func::Bcd, places, domain })])
+    };
+    assert_eq!(found(3).outcome, Outcome::Different);
+    assert_ne!(found(2).outcome, Outcome::Different, "{:#?}", found(2).witness);
+}
+
+#[test]
+fn the_alarm_that_a_program_raises_is_an_assumption() {
+    let source = "O1\nG21G90\nIF[#500LE0]GOTO9\n#3000=FIX[#500]\nN9M30\n";
+    let found = one(source, source, &[assumption(Predicate::Alarms(1.0))]);
+    assert!(found.assumptions[0].broken.unwrap() > 0 && found.assumptions[0].kept.unwrap() > 0, "{found:#?}");
+}
+
+#[test]
+fn levels_of_the_other_kind_do_not_count() {
+    let source = "O1\nG21G90\n#500=0\nM98P2\nM30\nO2\n#500=#500+1\nIF[#500GT3]GOTO9\nM98P2\nN9M99\n";
+    let nesting = |counts: [bool; 2], most: u32| {
+        let limit = "call.macro".into();
+        let found = one(source, source, &[assumption(Predicate::Nesting { limit, counts, most })]);
+        found.assumptions[0].broken.unwrap() > 0
+    };
+    assert_eq!([nesting([true, false], 3), nesting([true, false], 4)], [true, false]);
+    assert!(!nesting([false, true], 1) && nesting([true, true], 1));
+}
+
+#[test]
+fn a_moved_text_moves_the_places_of_its_assumptions() {
+    let source = "O1\n#500=1 (EDIT)\nG21G90\nIF[#500EQ555]GOTO5\nG0X1.\nN5#2=#[#500+0]\nG0X5.\nM30\n";
+    let supposed = [numbers(source, "N5#2=#[#500+0]", &[(1, 33), (555, 555)])];
+    let found = one(source, source, &supposed);
+    assert!(found.assumptions[0].broken == Some(0) && found.outcome == Outcome::Same, "{found:#?}");
+}
