@@ -30,6 +30,10 @@ pub struct Event {
     /// What else is known of it.
     #[serde(skip)]
     pub told: Told,
+    /// For spindle and coolant, as [`crate::canon::Running`] counts them: true if nobody knows whether it runs from
+    /// here on.
+    #[serde(skip)]
+    pub open: [bool; 2],
 }
 
 /// What is known of an event besides what happened.
@@ -42,8 +46,6 @@ pub enum Told {
     Loose,
     /// A change of spindle or coolant that no code of the program says: what stops the program does it.
     Implied,
-    /// A stop of which nobody knows what it does with spindle or coolant, while they run.
-    Open,
 }
 
 /// A place of a library: a program and bytes of its file.
@@ -103,6 +105,8 @@ pub struct Trace {
     pub at: Place,
     /// How far positions may be off by rounding, from now on.
     pub rounded: f64,
+    /// For spindle and coolant: true if nobody knows whether a stop has ended it, and no code has said since what runs.
+    pub open: [bool; 2],
     limit: usize,
     full: bool,
     doubted: HashSet<(String, Place)>,
@@ -123,6 +127,7 @@ impl Trace {
             events: Vec::new(),
             at: Place::default(),
             rounded: 0.0,
+            open: [false; 2],
             limit,
             full: false,
             doubted: HashSet::new(),
@@ -136,7 +141,7 @@ impl Trace {
     /// Records an event of the present block.
     pub fn push(&mut self, what: Happening) {
         if self.events.len() < self.limit {
-            self.events.push(Event { at: self.at, what, rounded: self.rounded, told: Told::Plain });
+            self.events.push(self.event(what));
         } else {
             self.full = true;
         }
@@ -225,11 +230,10 @@ impl Trace {
     /// Records an alarm.
     pub fn alarm(&mut self, stop: &Stop) {
         // The alarm is the one event that a full trace still takes.
-        self.events.push(Event {
-            at: self.at,
-            what: Happening::Alarm(stop.clone()),
-            rounded: self.rounded,
-            told: Told::Plain,
-        });
+        self.events.push(self.event(Happening::Alarm(stop.clone())));
+    }
+
+    fn event(&self, what: Happening) -> Event {
+        Event { at: self.at, what, rounded: self.rounded, told: Told::Plain, open: self.open }
     }
 }

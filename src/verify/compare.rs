@@ -7,7 +7,7 @@ use super::loose::moves_over;
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::pauses::{Runs, may_do_so};
+use super::pauses::{Runs, may_do_so, may_turn};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
 };
@@ -246,11 +246,8 @@ impl<'r> Pairs<'_, 'r> {
     fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, allowed: f64) -> Option<String> {
         let stands = stands_for(self.target, &source.what, &target.what);
         let (a, b) = (&source.what, &target.what);
-        if (self.runs[0].is_open() || self.runs[1].is_open())
-            && self.runs[0].goes_on(a)
-            && self.runs[1].goes_on(b)
-            && Runs::only_turns(a, b)
-        {
+        let on = self.runs[0].goes_on(a) && self.runs[1].goes_on(b);
+        if on && may_turn(source, target) {
             let text = "no source says whether the spindle still turns after a tool change or a stop";
             self.found.substituted.insert(text.to_owned());
             return None;

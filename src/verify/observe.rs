@@ -3,7 +3,7 @@
 use super::compare::is_cut;
 use super::names::Side as Library;
 use super::paths::apart;
-use crate::canon::{Group, Op, Sys};
+use crate::canon::{Group, Op, Running, Sys};
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Side, Spindle, Told};
 use std::borrow::Cow;
@@ -47,6 +47,26 @@ pub(super) fn setting(what: &Happening) -> Option<Setting> {
     })
 }
 
+/// What runs or not by a setting.
+fn running(setting: Setting) -> Option<Running> {
+    match setting {
+        Setting::Spindle => Some(Running::Spindle),
+        Setting::Coolant => Some(Running::Coolant),
+        _ => None,
+    }
+}
+
+/// What an event starts or ends, if it is one of those.
+pub(super) fn runs(what: &Happening) -> Option<Running> {
+    running(setting(what)?)
+}
+
+/// True for what stops the program, for a while or for good.
+pub(super) fn is_pause(what: &Happening) -> bool {
+    use Happening::{Asked, End, Message, OptionalStop, Stop, ToolChange};
+    matches!(what, Asked { .. } | End { .. } | Message { .. } | OptionalStop | Stop | ToolChange { .. })
+}
+
 /// The settings that a machine has before a program says anything.
 fn initial() -> Vec<Happening> {
     vec![
@@ -67,7 +87,8 @@ const NOWHERE: f64 = 1e-9;
 /// Which work offset is selected shows in the machine coordinates of the moves, every offset having
 /// values of its own; so the selection itself counts only where a program returns, for its caller.
 pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
-    let mut seen = Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new() };
+    let mut seen =
+        Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new(), open: [false; 2] };
     seen.held = initial().into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
     for (at, event) in run.events.iter().enumerate().filter(|(_, event)| is_observable(&event.what)) {
         if let Some(kind) = setting(&event.what) {
@@ -98,6 +119,9 @@ struct Observer<'o, 'r> {
     out: Vec<Act<'r>>,
     waiting: Vec<(Setting, &'r Event)>,
     held: Vec<(Setting, Happening)>,
+    /// For each of [`Running`], true if nobody knows whether it runs: what the program says of it next is told, even
+    /// if it is what ran before.
+    open: [bool; 2],
 }
 
 impl<'r> Observer<'_, 'r> {
@@ -111,8 +135,13 @@ impl<'r> Observer<'_, 'r> {
         let now: Vec<(Setting, &'r Event)> = now;
         for (kind, event) in now {
             let old = self.held.iter_mut().find(|(other, _)| *other == kind);
-            if old.as_ref().is_some_and(|(_, what)| *what == event.what) {
+            let is_news = running(kind)
+                .is_some_and(|running| self.open[running as usize] && !event.open[running as usize]);
+            if !is_news && old.as_ref().is_some_and(|(_, what)| *what == event.what) {
                 continue;
+            }
+            if let Some(running) = running(kind) {
+                self.open[running as usize] = event.open[running as usize];
             }
             match old {
                 Some((_, what)) => *what = event.what.clone(),
@@ -141,9 +170,8 @@ impl<'r> Observer<'_, 'r> {
             what => (Cow::Borrowed(what), None),
         };
         self.out.push(Act { event, what, told: event.told, room });
-        if event.told == Told::Open {
-            // What runs behind it is not known, so whatever the program says next is told.
-            self.held.retain(|(kind, _)| !matches!(kind, Setting::Spindle | Setting::Coolant));
+        if is_pause(&event.what) {
+            self.open = event.open;
         }
     }
 }

@@ -3,8 +3,8 @@
 //! Where the source's control is the one, the target's may do as it does; where the target's is, the conversion has to see
 //! to it, but for an optional stop and a tool change, of which it says so.
 
-use super::observe::Act;
-use crate::canon::Op;
+use super::observe::{Act, is_pause, runs};
+use crate::canon::{Op, Running};
 use crate::control::trace::{Happening, Spindle, Told};
 
 /// What runs on one side.
@@ -12,15 +12,15 @@ use crate::control::trace::{Happening, Spindle, Told};
 pub struct Runs {
     spindle: Happening,
     coolant: Happening,
-    /// True once it passed a stop of which nobody knows what it ends.
-    open: bool,
+    /// For each of [`Running`], true if nobody knows whether it runs.
+    open: [bool; 2],
 }
 
 impl Runs {
     /// What runs before a program says anything.
     pub fn new() -> Self {
         let spindle = Happening::Spindle { direction: Spindle::Stopped, speed: 0.0, surface: false };
-        Self { spindle, coolant: Happening::Coolant { state: Op::CoolantOff }, open: false }
+        Self { spindle, coolant: Happening::Coolant { state: Op::CoolantOff }, open: [false; 2] }
     }
 
     /// Takes an act.
@@ -30,12 +30,12 @@ impl Runs {
             what @ Happening::Coolant { .. } => self.coolant = what.clone(),
             _ => {}
         }
-        self.open |= act.told == Told::Open;
-    }
-
-    /// True once it passed a stop of which nobody knows what it ends.
-    pub fn is_open(&self) -> bool {
-        self.open
+        // Another act of the block may stand before what the block says of it.
+        match runs(&act.what) {
+            Some(running) => self.open[running as usize] = act.event.open[running as usize],
+            None if is_pause(&act.what) => self.open = act.event.open,
+            None => {}
+        }
     }
 
     /// True for a new speed of a spindle that goes on as it was.
@@ -47,18 +47,6 @@ impl Runs {
         turns(what).is_some() && turns(what) == turns(&self.spindle)
     }
 
-    /// True where two spindles part in nothing but whether they turn.
-    pub fn only_turns(a: &Happening, b: &Happening) -> bool {
-        use Happening::Spindle;
-        match (a, b) {
-            (
-                Spindle { direction, speed, surface },
-                Spindle { direction: other, speed: there, surface: surface_there },
-            ) => direction != other && speed == there && surface == surface_there,
-            _ => false,
-        }
-    }
-
     /// The coolant.
     pub fn coolant(&self) -> Op {
         match self.coolant {
@@ -67,25 +55,40 @@ impl Runs {
         }
     }
 
-    /// True where a change says what runs on the other side already, and may have run here.
+    /// True if a change says what is known to run on the other side already, and may have run here.
     pub fn is_told(&self, other: &Self, act: &Act<'_>) -> bool {
-        self.open && (*act.what == other.spindle || *act.what == other.coolant)
+        let (running, there) = match runs(&act.what) {
+            Some(Running::Spindle) => (Running::Spindle, &other.spindle),
+            Some(Running::Coolant) => (Running::Coolant, &other.coolant),
+            None => return false,
+        };
+        *act.what == *there && self.open[running as usize] && !other.open[running as usize]
     }
 }
 
-/// True where a stop changes something that the next stop of the other side may change too, as nobody knows; `target`
-/// for an act of the target.
+/// True for the same new speed on both sides, if nobody knows whether one of the spindles turns, and the other stands
+/// or is known to turn.
+pub fn may_turn(source: &Act<'_>, target: &Act<'_>) -> bool {
+    use Happening::Spindle;
+    let (
+        Spindle { direction, speed, surface },
+        Spindle { direction: other, speed: there, surface: surface_there },
+    ) = (&*source.what, &*target.what)
+    else {
+        return false;
+    };
+    let open = [source, target].map(|act| act.event.open[Running::Spindle as usize]);
+    let apart = direction != other || open[0] != open[1];
+    open.contains(&true) && apart && speed == there && surface == surface_there
+}
+
+/// True if a stop changes something that the next stop of the other side may change too, as nobody knows; `target` for
+/// an act of the target.
 pub fn may_do_so(act: &Act<'_>, others: &[Act<'_>], target: bool) -> bool {
-    let stops = |act: &&Act<'_>| {
-        use Happening::{Asked, End, Message, OptionalStop, Stop, ToolChange};
-        matches!(
-            *act.what,
-            Asked { .. } | End { .. } | Message { .. } | OptionalStop | Stop | ToolChange { .. }
-        )
-    };
-    let next = others.iter().find(stops).filter(|next| next.told == Told::Open);
-    let excused = |next: &Act<'_>| {
-        target || matches!(*next.what, Happening::OptionalStop | Happening::ToolChange { .. })
-    };
-    act.told == Told::Implied && next.is_some_and(excused)
+    let Some(running) = runs(&act.what).filter(|_| act.told == Told::Implied) else { return false };
+    let next = others.iter().find(|other| is_pause(&other.what));
+    next.is_some_and(|next| {
+        let excused = target || matches!(*next.what, Happening::OptionalStop | Happening::ToolChange { .. });
+        excused && next.event.open[running as usize]
+    })
 }

@@ -88,11 +88,11 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
         Op::SpindleOrient => Spindle::Oriented,
         coolant => {
             machine.coolant = coolant;
-            machine.says_running(Running::Coolant);
+            machine.says_running(Running::Coolant, trace);
             return trace.push(Happening::Coolant { state: coolant });
         }
     };
-    machine.says_running(Running::Spindle);
+    machine.says_running(Running::Spindle, trace);
     turn(machine, command, direction, trace);
 }
 

@@ -7,31 +7,30 @@ use crate::control::trace::{Happening, Spindle, Told, Trace};
 impl Machine {
     /// Stops for a person, for a tool, or for good: what the control is known to end is ended, then it stops.
     pub fn pause(&mut self, pause: Pause, what: Happening, trace: &mut Trace) {
-        let open = self.stop_running(pause, trace);
+        self.stop_running(pause, trace);
         trace.push(what);
-        if open {
-            trace.tell(Told::Open);
-        }
     }
 
-    /// Ends what a stop ends; true where nobody knows what it does with something that is running.
-    pub fn stop_running(&mut self, pause: Pause, trace: &mut Trace) -> bool {
-        let mut open = false;
+    /// Ends what a stop ends, and notes if nobody knows what it does with something that is running.
+    fn stop_running(&mut self, pause: Pause, trace: &mut Trace) {
         for running in Running::ALL {
             if !self.is_running(running) {
                 continue;
             }
             let (answer, known) = self.rules.ends(pause, running);
-            open |= answer.is_none();
             if !known {
                 self.unsure_running[running as usize] = Some(pause);
             }
-            if answer == Some(true) {
-                self.end_running(running, trace);
-                trace.tell(Told::Implied);
+            match answer {
+                Some(true) => {
+                    trace.open[running as usize] = false;
+                    self.end_running(running, trace);
+                    trace.tell(Told::Implied);
+                }
+                Some(false) => {}
+                None => trace.open[running as usize] = true,
             }
         }
-        open
     }
 
     fn is_running(&self, running: Running) -> bool {
@@ -56,7 +55,8 @@ impl Machine {
     }
 
     /// The program says itself what runs from here on.
-    pub(super) fn says_running(&mut self, running: Running) {
+    pub(super) fn says_running(&mut self, running: Running, trace: &mut Trace) {
+        trace.open[running as usize] = false;
         self.unsure_running[running as usize] = None;
     }
 
