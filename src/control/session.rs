@@ -215,6 +215,13 @@ impl<'r, 'f> Session<'r, 'f> {
         }
     }
 
+    /// The halt of a jump to a label or number that no block has, on a control of which no source says that it is an
+    /// alarm.
+    pub fn no_label(&mut self, text: &str) -> Halt {
+        self.rest_on("goto.missing.alarms");
+        Halt::Alarm(Stop::no_label("", text))
+    }
+
     /// Notes that a variable which outlives the program was written, where the scenario asks for it.
     pub fn wrote(&mut self, name: impl FnOnce() -> String, value: Option<f64>) {
         if self.scenario.variable_events {

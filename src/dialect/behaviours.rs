@@ -50,6 +50,7 @@ questions! {
     "bracket.copies.vacancy" YES, "#2=[#1] copies vacancy as #2=#1 does";
     "goto.forward.first" YES, "a jump looks forward first, then from the head of the program";
     "goto.computed" YES, "a jump may go to a computed number";
+    "goto.missing.alarms" YES, "a jump to a label or number that no block has stops the program with an alarm";
     "goto.first.label" YES, "of labels that stand twice a jump always finds the first one";
     "sequence.anywhere" YES, "N may stand anywhere in its block";
     "sub.ends.at.next" YES, "a subroutine at the head of a program ends where the next one begins";

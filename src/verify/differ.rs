@@ -107,7 +107,8 @@ pub fn differ(
     }
 }
 
-/// An alarm of the program's own must be one on the target too, of the same number and text.
+/// An alarm of the program's own must be one on the target too, of the same number and text. Of a jump to a number that
+/// no block has the target may say itself what the source's control says: both stop there.
 fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'static str> {
     match (source.program_number, target.program_number) {
         (None, None) => None,
@@ -117,6 +118,7 @@ fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'
         (Some(_), Some(_)) => {
             (!say_the_same(&source.text, &target.text, room)).then_some("the alarm's text is another")
         }
+        (None, Some(_)) if source.no_label => None,
         _ => Some("one alarm is the program's own, the other the control's"),
     }
 }

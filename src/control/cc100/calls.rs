@@ -41,7 +41,7 @@ impl Interpreter<'_, '_> {
         }
         let found = self.labels.get(&section).and_then(|labels| labels.get(&label)).copied();
         let Some((index, again)) = found else {
-            return Err(Halt::Error(format!("label ${label} is not there")));
+            return Err(self.session.no_label(&format!("label ${label} is not there")));
         };
         if again {
             self.session.rest_on("goto.first.label");

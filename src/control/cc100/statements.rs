@@ -3,7 +3,7 @@
 use super::Interpreter;
 use crate::canon::{Op, Role, Sys};
 use crate::control::outcome::Stop;
-use crate::control::session::{Flow, Halt};
+use crate::control::session::Flow;
 use crate::syntax::{Cell, Expr, ExprKind, ItemKind, Label, Row, Table, Target, TestSubject, VarRef};
 
 impl Interpreter<'_, '_> {
@@ -160,7 +160,9 @@ impl Interpreter<'_, '_> {
     fn branch(&mut self, target: &Target) -> Flow<()> {
         match target {
             Target::Label(Label::Number(number)) | Target::Sequence(number) => self.jump(*number),
-            Target::Label(Label::Name(name)) => Err(Halt::Error(format!("there is no label {name}"))),
+            Target::Label(Label::Name(name)) => {
+                Err(self.session.no_label(&format!("there is no label {name}")))
+            }
             Target::Computed(expr) => {
                 let number = self.operand(expr)?;
                 if number.fract() != 0.0 {

@@ -58,7 +58,7 @@ impl Interpreter<'_, '_> {
         match target {
             Target::Label(label) => {
                 let at = self.outline().label(label);
-                self.at.index = at.ok_or_else(|| Halt::Error("the label is not there".into()))?;
+                self.at.index = at.ok_or_else(|| self.session.no_label("the label is not there"))?;
             }
             Target::Sequence(number) => self.jump(*number)?,
             Target::Computed(expr) => {
@@ -74,7 +74,7 @@ impl Interpreter<'_, '_> {
     /// Jumps to a sequence number of the running program.
     pub(super) fn jump(&mut self, number: u32) -> Flow<()> {
         let Some((at, again)) = self.outline().sequence(number) else {
-            return Err(Halt::Error(format!("N{number} is not there")));
+            return Err(self.session.no_label(&format!("N{number} is not there")));
         };
         if again {
             self.session.rest_on("goto.forward.first");
