@@ -40,8 +40,11 @@ pub struct Block<'c> {
 
 /// What a block does, one after the other.
 pub enum Step<'c> {
-    /// The block is skipped from here on where this switch is on.
-    Skip(u8),
+    /// If this switch is on, the block ends here, with the words before the sign; else they act with those behind it.
+    Skip {
+        level: u8,
+        before: Vec<Step<'c>>,
+    },
     Assign {
         target: Var,
         value: Ex,

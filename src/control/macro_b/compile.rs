@@ -168,18 +168,32 @@ impl<'c> Compiler<'c, '_> {
     }
 
     fn items(&mut self, items: &[Item], text: &str, gather: &mut Gather<'c>) {
-        for item in items {
+        for (at, item) in items.iter().enumerate() {
+            if let ItemKind::Skip(level) = item.kind {
+                let before = self.before(items.get(..at).unwrap_or_default(), gather);
+                gather.steps.push(Step::Skip { level: level.unwrap_or(1), before });
+            }
             self.item(item, text, gather);
         }
+    }
+
+    /// The words gathered so far, by themselves: the last of these items.
+    fn before(&mut self, items: &[Item], gather: &mut Gather<'c>) -> Vec<Step<'c>> {
+        let words = items.iter().filter(|item| matches!(item.kind, ItemKind::Word(_)));
+        let others = words.clone().count().saturating_sub(gather.words.len());
+        let shown = gather.shown.clone();
+        let mut alone = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new(), shown };
+        for item in words.skip(others) {
+            self.item(item, "", &mut alone);
+        }
+        self.flush(&mut alone);
+        gather.facts.append(&mut alone.facts);
+        alone.steps
     }
 
     fn item(&mut self, item: &Item, text: &str, gather: &mut Gather<'c>) {
         let control = self.control;
         match &item.kind {
-            ItemKind::Skip(level) => {
-                self.flush(gather);
-                gather.steps.push(Step::Skip(level.unwrap_or(1)));
-            }
             ItemKind::Word(word) => {
                 let Some(value) = &word.value else {
                     gather.steps.push(Step::Unreadable("a word without a value".into()));
@@ -246,7 +260,8 @@ impl<'c> Compiler<'c, '_> {
                 let parts = parts.collect();
                 gather.steps.push(Step::Output { binary: *binary, parts });
             }
-            ItemKind::Tape
+            ItemKind::Skip(_)
+            | ItemKind::Tape
             | ItemKind::EndOfBlock
             | ItemKind::Program(_)
             | ItemKind::Sequence { .. }

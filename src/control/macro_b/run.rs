@@ -208,9 +208,9 @@ impl<'c> Runner<'c> {
                     let value = self.eval(value)?.unwrap_or(0.0);
                     self.signal(*alarm, value, text)?;
                 }
-                Step::Skip(level) => {
+                Step::Skip { level, before } => {
                     if self.session.skips(Some(*level)) {
-                        return Ok(Next::On);
+                        return self.steps_of(before, at);
                     }
                 }
                 Step::Names { first, names } => {

@@ -79,8 +79,15 @@ fn a_program_that_is_called_shares_all_variables() {
 
 #[test]
 fn what_is_not_there_is_an_error_at_its_block() {
-    for text in ["M98 P77\n", "#GOTO :NO\n", "#GOTO N7\n", "L101\n", "#START 7\n", "G10 L13 P1\n"] {
+    for text in ["M98 P77\n", "L101\n", "#START 7\n", "G10 L13 P1\n"] {
         assert!(matches!(lines(text).end, End::Error { .. }), "{text}");
+    }
+    // No source says that it is an alarm: the run says what it rests on.
+    for text in ["#GOTO :NO\n", "#GOTO N7\n"] {
+        let run = lines(text);
+        assert!(matches!(&run.end, End::Alarm { stop, .. } if stop.no_label), "{text}");
+        let unsure = |what: &Happening| matches!(what, Happening::Unsure { fact } if fact.ends_with("goto.missing.alarms"));
+        assert!(run.events.iter().any(|event| unsure(&event.what)), "{text}");
     }
     assert!(matches!(lines("#V101=1\n").end, End::Alarm { .. } | End::Error { .. }));
     assert!(matches!(lines("#V1=1/0\n").end, End::Alarm { .. }));

@@ -77,6 +77,27 @@ fn a_skipped_block_is_passed_over_where_its_switch_is_on() {
 }
 
 #[test]
+fn words_before_and_after_a_block_skip_are_one_block() {
+    let control = Control::plain("fanuc").expect("the table loads");
+    let with = |block_skip| {
+        let run = run_on(
+            &control,
+            &["O1\nG90\nG0 X1. / Y2.\nM30\n"],
+            &Scenario { block_skip, ..Scenario::default() },
+        );
+        let ends = run.events.iter().filter_map(|event| match &event.what {
+            Happening::Rapid { to, .. } => Some((to.0[0], to.0[1])),
+            _ => None,
+        });
+        ends.collect::<Vec<_>>()
+    };
+    assert_eq!(with(0).len(), 1);
+    let (off, on) = (with(0)[0], with(1 << 1));
+    assert_eq!((on.len(), on[0].0), (1, off.0));
+    assert!((off.1 - on[0].1).abs() > 1.0);
+}
+
+#[test]
 fn alarms_and_messages_show_their_text() {
     let run = fanuc("O1\n#3006=1(CHECK PART)\n#3000=101 (TOO SMALL)\n#101=1\n");
     assert_eq!(value(&run, "#101"), None);
