@@ -95,10 +95,14 @@ fn traces() -> Vec<(PathBuf, String)> {
             let library = [LoadedFile { name: &inputs[0].name, parsed: &parsed }];
             let scenario = Scenario { steps: 500, variable_events: true, ..Scenario::default() };
             let run = execute(&Library::new(&library), ProgramRef::FIRST, &control, &scenario);
-            assert!(!trace_text(&run, &inputs).is_empty());
+            let mut text = Vec::new();
+            trace_text(&run, &inputs, &mut text).unwrap();
+            assert!(!text.is_empty());
             let plot = backplot(&run.events, &inputs[0].name);
             assert!(plot.starts_with("<svg") && !plot.contains("NaN"), "{}", path.display());
-            out.push((path, trace_json(&run, &inputs)));
+            let mut lines = Vec::new();
+            trace_json(&run, &inputs, &mut lines).unwrap();
+            out.push((path, String::from_utf8(lines).unwrap()));
         }
     }
     out

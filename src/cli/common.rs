@@ -1,27 +1,10 @@
 //! What subcommands share: choosing controls, printing, complaining.
 
 use super::UNUSABLE;
+use super::streams::{complain, tell};
 use crate::dialect::{Control, Profile, registry};
 use crate::library::{Detected, Input, InputError, Project, detect, gather, looks_like};
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-
-/// Prints data. A reader that has gone away (`| head`) is not a fault.
-pub fn print(text: &str) {
-    print_by(|out| out.write_all(text.as_bytes()));
-}
-
-/// Prints what `write` writes, piece by piece; else as [`print`].
-pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) {
-    let mut out = io::BufWriter::with_capacity(64 * 1024, io::stdout().lock());
-    let _ = write(&mut out).and_then(|()| out.flush());
-}
-
-/// Says what is wrong with the usage or the input, and yields the exit code for it.
-pub fn complain(message: impl std::fmt::Display) -> u8 {
-    eprintln!("macroglot: {message}");
-    UNUSABLE
-}
 
 /// Reads the programs under the paths; faults are said, and any of them is fatal.
 pub fn read(paths: &[PathBuf]) -> Result<Vec<Input>, u8> {
@@ -136,7 +119,7 @@ pub fn doubt(name: &str, inputs: &[Input]) -> Option<String> {
         )
     });
     if let Some(told) = &told {
-        eprintln!("macroglot: {told}");
+        tell(&format!("macroglot: {told}\n"));
     }
     told
 }
@@ -167,7 +150,7 @@ pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
 /// Runs something long, with a spinner where standard error is a terminal.
 pub fn with_progress<T>(files: usize, work: impl FnOnce() -> T) -> T {
     use std::io::IsTerminal;
-    if !io::stderr().is_terminal() {
+    if !std::io::stderr().is_terminal() {
         return work();
     }
     let bar = indicatif::ProgressBar::new_spinner();

@@ -1,6 +1,6 @@
 //! `macroglot completions SHELL`.
 
-use super::{Cli, WELL, common};
+use super::{Cli, WELL, streams};
 use clap::CommandFactory;
 
 #[derive(Debug, clap::Args)]
@@ -12,6 +12,5 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> u8 {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Cli::command(), "macroglot", &mut script);
-    common::print(&String::from_utf8_lossy(&script));
-    WELL
+    streams::print(&String::from_utf8_lossy(&script)).err().unwrap_or(WELL)
 }

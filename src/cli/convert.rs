@@ -1,8 +1,8 @@
 //! `macroglot convert PATH...`.
 
 use super::jobs::{Job, Wish, jobs};
-use super::{FOUND, WELL, common, outcome};
-use crate::library::{Certificates, Conversion, Options, convert, judge, write_all};
+use super::{FOUND, WELL, common, outcome, streams};
+use crate::library::{Certificates, Conversion, Options, convert, judge};
 use crate::opt::Level;
 use crate::report::{self, Part};
 use crate::verify::Effort;
@@ -34,6 +34,12 @@ pub struct Arguments {
     /// Do not verify
     #[arg(long, overrides_with = "verify")]
     no_verify: bool,
+    /// Remove the conversions of earlier runs whose sources are gone
+    #[arg(long)]
+    prune: bool,
+    /// Replace read-only files too
+    #[arg(long)]
+    force: bool,
     /// How much to optimize: 0 nothing, 1 what conversion itself introduced, 2 more
     #[arg(short = 'O', value_name = "LEVEL", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=2))]
     optimize: u8,
@@ -62,14 +68,14 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn work(arguments: &Arguments) -> Result<u8, u8> {
-    let jobs = jobs(&Wish {
+    let (jobs, read) = jobs(&Wish {
         paths: &arguments.paths,
         from: arguments.from.as_deref(),
         to: arguments.to.as_deref(),
         machines: &arguments.machine,
         out: arguments.out.as_deref(),
     })?;
-    outcome::check_reports(&arguments.report, &jobs)?;
+    outcome::check_reports(&arguments.report, &jobs, &read)?;
     let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
     let options = Options { level, draft: arguments.draft };
     let files = jobs.iter().map(|job| job.inputs.len()).sum();
@@ -79,31 +85,39 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         rayon::scope(|_| jobs.iter().map(made).collect())
     });
     let certificates = common::with_progress(files, || verified(arguments, &jobs, &mut conversions));
+    let (mut changes, mut folders) = (Vec::new(), Vec::new());
+    for (at, (job, conversion)) in jobs.iter().zip(&conversions).enumerate() {
+        let wanted = |out| outcome::wanted(job, out, conversion, certificates.get(at));
+        let wanted = job.out.as_ref().map(wanted).unwrap_or_default();
+        let (changed, told) = outcome::changed(job, wanted, conversion, arguments.prune)?;
+        changes.push(changed);
+        folders.push(told);
+    }
     let targets: Vec<_> = jobs.iter().zip(&conversions).map(|(job, c)| outcome::targets(job, c)).collect();
     let parts: Vec<Part<'_>> = jobs
         .iter()
         .zip(&conversions)
-        .zip(&targets)
-        .map(|((job, conversion), targets)| Part {
+        .zip(targets.iter().zip(&folders))
+        .map(|((job, conversion), (targets, folder))| Part {
             from: job.source.name(),
             to: job.target.name(),
             inputs: &job.inputs,
             conversion,
             targets,
             notes: &job.notes,
+            folder,
         })
         .collect();
-    let mut outputs = outcome::outputs(&jobs, &parts, &arguments.report);
-    outputs.extend(outcome::certificates(&jobs, &certificates));
-    write_all(&outputs).map_err(common::complain)?;
+    let reports = outcome::reports(&arguments.report, &parts);
+    outcome::publish_all(&jobs, changes, reports, arguments.force)?;
     match arguments.format {
-        Format::Json => common::print_by(|out| report::write_json(&parts, out)),
-        Format::Sarif => common::print(&report::sarif(&parts)),
+        Format::Json => streams::print_by(|out| report::write_json(&parts, out))?,
+        Format::Sarif => streams::print(&report::sarif(&parts))?,
         Format::Text => {
             if !arguments.quiet {
                 parts.iter().for_each(outcome::draw);
             }
-            outcome::summarize(&jobs, &parts);
+            outcome::summarize(&jobs, &parts)?;
         }
     }
     let refused = report::Totals::of(&parts).refused > 0;

@@ -1,6 +1,6 @@
 //! `macroglot dialects [D]`.
 
-use super::{WELL, common};
+use super::{WELL, common, streams};
 use crate::dialect::{matrix, page};
 use std::path::PathBuf;
 
@@ -14,12 +14,10 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> u8 {
-    match &arguments.dialect {
-        None => common::print(&matrix()),
-        Some(name) => match common::control(name, arguments.machine.as_deref()) {
-            Ok(control) => common::print(&page(&control)),
-            Err(code) => return code,
-        },
-    }
-    WELL
+    let printed = match &arguments.dialect {
+        None => streams::print(&matrix()),
+        Some(name) => common::control(name, arguments.machine.as_deref())
+            .and_then(|control| streams::print(&page(&control))),
+    };
+    printed.err().unwrap_or(WELL)
 }

@@ -1,6 +1,6 @@
 //! `macroglot explain CODE`.
 
-use super::{WELL, common};
+use super::{WELL, streams};
 use crate::diag::{ALL, Code};
 
 #[derive(Debug, clap::Args)]
@@ -13,14 +13,10 @@ pub fn run(arguments: &Arguments) -> u8 {
     match arguments.code.as_deref().map(|code| (code, Code::find(code))) {
         None => {
             let lines = ALL.iter().map(|code| format!("{}  {}\n", code.number(), code.title()));
-            common::print(&lines.collect::<String>());
-            WELL
+            streams::print(&lines.collect::<String>()).err().unwrap_or(WELL)
         }
-        Some((_, Some(code))) => {
-            common::print(&crate::report::explain(code));
-            WELL
-        }
-        Some((wanted, None)) => common::complain(format!(
+        Some((_, Some(code))) => streams::print(&crate::report::explain(code)).err().unwrap_or(WELL),
+        Some((wanted, None)) => streams::complain(format!(
             "no diagnostic has the code '{wanted}'; 'macroglot explain' lists them all"
         )),
     }

@@ -1,6 +1,6 @@
 //! `macroglot ir FILE`.
 
-use super::{FOUND, WELL, common};
+use super::{FOUND, WELL, common, streams};
 use crate::diag::Severity;
 use crate::ir::Module;
 use crate::report::Sheet;
@@ -38,11 +38,11 @@ fn print(arguments: &Arguments) -> Result<u8, u8> {
         for (program, diagnostics) in lowered.programs {
             for diagnostic in &diagnostics {
                 refused |= diagnostic.severity() == Severity::Error;
-                eprint!("{}", sheet.draw(diagnostic));
+                streams::tell(&sheet.draw(diagnostic));
             }
             module.programs.push(program);
         }
-        common::print(&module.to_string());
+        streams::print(&module.to_string())?;
     }
     Ok(if refused { FOUND } else { WELL })
 }

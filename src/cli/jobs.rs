@@ -1,9 +1,12 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
-use super::common::{complain, control, controls, dialect_of, doubt, names, own_profile, read};
+use super::common::{control, controls, dialect_of, doubt, names, own_profile, read};
+use super::streams::{complain, tell};
 use crate::dialect::Control;
-use crate::library::{Files, Input, Lock, Project, plan};
-use std::collections::BTreeSet;
+use crate::library::{
+    Files, Held, Input, Lock, Manifest, Project, Recovered, certificate_of, plan, slashed, withheld_of,
+};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// One library to convert, and where to.
@@ -14,14 +17,33 @@ pub struct Job {
     pub source: Control,
     /// The control they go to.
     pub target: Control,
-    /// Where the conversion of each program file goes; none for standard output.
-    pub places: Option<Vec<PathBuf>>,
+    /// Where the conversions go; none for standard output.
+    pub out: Option<Out>,
     /// The choices of earlier runs.
     pub lock: Lock,
-    /// Where the choices are kept.
-    pub lock_path: Option<PathBuf>,
     /// What was said of the programs as a whole.
     pub notes: Vec<String>,
+}
+
+/// The folder that a library's conversions go to. No other run writes there before this one has ended.
+pub struct Out {
+    /// The folder.
+    pub held: Held,
+    /// Where the conversion of each program file goes, from the folder, with `/` between parts.
+    pub names: Vec<String>,
+    /// True if the choices of this run are kept for the next one.
+    pub keeps_lock: bool,
+    /// What earlier runs wrote there.
+    pub manifest: Manifest,
+}
+
+impl Out {
+    /// Every place that a run may write to there.
+    pub fn places(&self) -> impl Iterator<Item = PathBuf> + '_ {
+        let own = [Lock::NAME, Manifest::NAME].map(str::to_owned).into_iter();
+        let all = self.names.iter().flat_map(|name| [name.clone(), certificate_of(name), withheld_of(name)]);
+        own.chain(all).map(|name| self.held.folder().join(name))
+    }
 }
 
 /// What arguments say of the jobs.
@@ -38,24 +60,23 @@ pub struct Wish<'a> {
     pub out: Option<&'a Path>,
 }
 
-/// The jobs, planned: every place is known, and no two files go to one.
-pub fn jobs(wish: &Wish<'_>) -> Result<Vec<Job>, u8> {
-    let jobs = if wish.paths.is_empty() { of_project(wish)? } else { vec![of_paths(wish)?] };
-    let inputs = Files::of(jobs.iter().flat_map(|job| &job.inputs).map(|input| input.path.as_path()));
-    let mut taken = BTreeSet::new();
-    for place in jobs.iter().flat_map(|job| job.places.iter().flatten().chain(&job.lock_path)) {
-        if !taken.insert(place) {
-            let what = "several libraries would be written there; nothing was written";
-            return Err(complain(format!("{}: {what}", place.display())));
-        }
-        if inputs.holds(place) {
+/// The jobs, planned: every place is known, and no two files go to one. With them come all files that the command
+/// reads: none of them is ever written to.
+pub fn jobs(wish: &Wish<'_>) -> Result<(Vec<Job>, Files), u8> {
+    let mut read: Vec<PathBuf> = wish.machines.to_vec();
+    let jobs =
+        if wish.paths.is_empty() { of_project(wish, &mut read)? } else { vec![of_paths(wish, &mut read)?] };
+    let programs = jobs.iter().flat_map(|job| &job.inputs).map(|input| input.path.as_path());
+    let files = Files::of(read.iter().map(PathBuf::as_path).chain(programs));
+    for place in jobs.iter().filter_map(|job| job.out.as_ref()).flat_map(Out::places) {
+        if files.holds(&place) {
             return Err(complain(format!("{} is an input and would be overwritten", place.display())));
         }
     }
-    Ok(jobs)
+    Ok((jobs, files))
 }
 
-fn of_paths(wish: &Wish<'_>) -> Result<Job, u8> {
+fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let inputs = read(wish.paths)?;
     let from = dialect_of(wish.from, &inputs)?;
     let Some(to) = wish.to else {
@@ -63,11 +84,26 @@ fn of_paths(wish: &Wish<'_>) -> Result<Job, u8> {
     };
     let own = own_profile(wish.from, &inputs)?;
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
-    planned(inputs, source, target, wish.out)
+    read_too.extend(own);
+    planned(
+        inputs,
+        source,
+        target,
+        wish.out.map(|folder| hold(folder).map(|held| (folder, held))).transpose()?,
+    )
+}
+
+/// A library of the project file, and one of the machines that it goes to.
+struct Way<'p> {
+    path: PathBuf,
+    source: Control,
+    target: Control,
+    folder: PathBuf,
+    name: &'p str,
 }
 
 /// One job for each library and target of the project file.
-fn of_project(wish: &Wish<'_>) -> Result<Vec<Job>, u8> {
+fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, u8> {
     let Some(project) = Project::find(Path::new(".")).map_err(complain)? else {
         let what = "name the files or folders to convert (there is no macroglot.toml here or above)";
         return Err(complain(what));
@@ -77,6 +113,9 @@ fn of_project(wish: &Wish<'_>) -> Result<Vec<Job>, u8> {
             "the machines of a project are those of its macroglot.toml: leave --machine out",
         ));
     }
+    read_too.push(project.root.join(Project::NAME));
+    let profiles = project.machines.values().filter_map(|machine| machine.profile.as_ref());
+    read_too.extend(profiles.map(|profile| project.root.join(profile)));
     let control_of = |name: &str| {
         let machine = &project.machines[name];
         control(&machine.dialect, machine.profile.as_ref().map(|p| project.root.join(p)).as_deref())
@@ -84,39 +123,100 @@ fn of_project(wish: &Wish<'_>) -> Result<Vec<Job>, u8> {
     // With --out, the folders of the project file count from there.
     let root = wish.out.unwrap_or(&project.root);
     let wanted = |name: Option<&str>, control: &Control| name.is_none_or(|name| name == control.name());
-    let mut jobs = Vec::new();
-    for library in project.libraries.values() {
+    let mut ways = Vec::new();
+    for (name, library) in &project.libraries {
         for (machine, folder) in &library.targets {
             let (source, target) = (control_of(&library.machine)?, control_of(machine)?);
             if wanted(wish.from, &source) && wanted(wish.to, &target) {
-                let inputs = read(&[short(&project.root.join(&library.path))])?;
-                jobs.push(planned(inputs, source, target, Some(&short(&root.join(folder))))?);
+                let (path, folder) = (short(&project.root.join(&library.path)), short(&root.join(folder)));
+                ways.push(Way { path, source, target, folder, name });
             }
         }
     }
-    if jobs.is_empty() {
+    if ways.is_empty() {
         return Err(complain("macroglot.toml names no library with a target that fits"));
     }
-    Ok(jobs)
+    let mut held = hold_all(&ways)?;
+    let planned = ways.into_iter().map(|way| {
+        let out = held.remove(&way.folder).map(|held| (way.folder.as_path(), held));
+        planned(read(&[way.path])?, way.source, way.target, out)
+    });
+    planned.collect()
 }
 
-fn planned(inputs: Vec<Input>, source: Control, target: Control, out: Option<&Path>) -> Result<Job, u8> {
-    let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-    let places = match out {
-        Some(folder) => Some(plan(folder, &names, &inputs).map_err(complain)?),
+/// Takes the folders of all ways, in one order for every run: two runs that wait for each other would wait for ever.
+fn hold_all(ways: &[Way<'_>]) -> Result<BTreeMap<PathBuf, Held>, u8> {
+    let mut seen: BTreeMap<PathBuf, &Way<'_>> = BTreeMap::new();
+    for way in ways {
+        if let Some(other) = seen.insert(real(&way.folder), way) {
+            let (folder, name) = (way.folder.display(), way.name);
+            let what =
+                format!("{folder}: libraries '{}' and '{name}' would both be written there", other.name);
+            return Err(complain(format!("{what}; nothing was written. Give each a folder of its own")));
+        }
+    }
+    seen.into_values().map(|way| Ok((way.folder.clone(), hold(&way.folder)?))).collect()
+}
+
+/// Where a folder really is, whether it is there already or not.
+fn real(folder: &Path) -> PathBuf {
+    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    let there = folder.ancestors().find_map(|above| Some((above, std::fs::canonicalize(above).ok()?)));
+    match there {
+        Some((above, real)) => real.join(folder.strip_prefix(above).unwrap_or(&folder)),
+        None => folder,
+    }
+}
+
+/// Takes an output folder for this run.
+fn hold(folder: &Path) -> Result<Held, u8> {
+    let wait =
+        || tell(&format!("macroglot: another run writes to {}; waiting for its end\n", folder.display()));
+    let (held, recovered) = Held::take(folder, wait).map_err(complain)?;
+    let what = match recovered {
+        Recovered::Nothing => return Ok(held),
+        Recovered::Finished => {
+            "an earlier run was interrupted while it wrote; what it had ready is in its place now"
+        }
+        Recovered::TakenBack => {
+            "an earlier run was interrupted before it wrote anything; its leavings are gone now"
+        }
+    };
+    tell(&format!("macroglot: {}: {what}\n", folder.display()));
+    Ok(held)
+}
+
+fn planned(
+    inputs: Vec<Input>,
+    source: Control,
+    target: Control,
+    out: Option<(&Path, Held)>,
+) -> Result<Job, u8> {
+    let fresh = Lock::new(source.name(), target.name());
+    let (out, lock) = match out {
+        Some((folder, held)) => {
+            let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+            let places = plan(folder, &names, &inputs).map_err(complain)?;
+            let manifest = Manifest::load(folder).map_err(complain)?;
+            // From a machine to itself nothing is chosen.
+            let keeps_lock = !source.is_same_machine(&target);
+            let lock = match keeps_lock {
+                true => {
+                    Lock::load(&folder.join(Lock::NAME), source.name(), target.name()).map_err(complain)?
+                }
+                false => fresh,
+            };
+            let names =
+                places.iter().map(|place| slashed(place.strip_prefix(folder).unwrap_or(place))).collect();
+            (Some(Out { held, names, keeps_lock, manifest }), lock)
+        }
         None if inputs.len() > 1 => {
             return Err(complain("several programs need a folder to go to: give --out DIR"));
         }
-        None => None,
-    };
-    // From a machine to itself nothing is chosen.
-    let lock_path = out.map(|folder| folder.join(Lock::NAME)).filter(|_| !source.is_same_machine(&target));
-    let lock = match &lock_path {
-        Some(path) => Lock::load(path, source.name(), target.name()).map_err(complain)?,
-        None => Lock::new(source.name(), target.name()),
+        None => (None, fresh),
     };
     let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, source, target, places, lock, lock_path, notes })
+    Ok(Job { inputs, source, target, out, lock, notes })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

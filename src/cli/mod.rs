@@ -14,6 +14,7 @@ mod jobs;
 mod outcome;
 mod parse;
 mod run;
+mod streams;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -54,9 +55,17 @@ pub(crate) const FOUND: u8 = 1;
 /// Wrong usage or unreadable input.
 pub(crate) const UNUSABLE: u8 = 2;
 
+/// Ended by the keyboard, as shells count it.
+const INTERRUPTED: i32 = 130;
+
 /// Runs the command line.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
+    // Where no handler can be had, the next run removes what this one leaves.
+    let _ = ctrlc::set_handler(|| {
+        let _made = crate::library::abandon();
+        std::process::exit(INTERRUPTED);
+    });
     let code = match cli.command {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Parse(arguments) => parse::run(&arguments),

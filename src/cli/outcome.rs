@@ -1,8 +1,11 @@
 //! What is told of conversions, and where: reports, drawings, standard output.
 
-use super::common::{complain, print};
-use super::jobs::Job;
-use crate::library::{Certificates, Conversion, Output, certificate_of, same_file, withheld_of};
+use super::jobs::{Job, Out};
+use super::streams::{complain, is_closed, print, tell};
+use crate::library::{
+    Certificates, Change, Conversion, Files, Held, Kind, Lock, Outcome, ProgramReport, Told, Wanted,
+    certificate_of, changes, publish, same_file, withheld_of, write_file,
+};
 use crate::report::{self, Part, Sheet};
 use crate::verify::Certificate;
 use std::path::{Path, PathBuf};
@@ -22,17 +25,17 @@ fn renderer(path: &Path) -> Option<Renderer> {
     })
 }
 
-/// Says what is wrong with the places of reports, before anything is done.
-pub fn check_reports(reports: &[PathBuf], jobs: &[Job]) -> Result<(), u8> {
+/// Says what is wrong with the places of reports, before anything is done. `read` are the files that the command reads.
+pub fn check_reports(reports: &[PathBuf], jobs: &[Job], read: &Files) -> Result<(), u8> {
+    let places: Vec<PathBuf> = jobs.iter().filter_map(|job| job.out.as_ref()).flat_map(Out::places).collect();
     for (at, path) in reports.iter().enumerate() {
         let wrong = if renderer(path).is_none() {
             "the ending says the format of a report: .json .sarif .md .html .txt"
-        } else if jobs.iter().flat_map(|job| &job.inputs).any(|input| same_file(&input.path, path)) {
+        } else if read.holds(path) {
             "is an input and would be overwritten"
-        } else if jobs.iter().flat_map(|job| job.places.iter().flatten()).any(|place| same_file(place, path))
-        {
-            "is where a program goes"
-        } else if reports[..at].contains(path) {
+        } else if places.iter().any(|place| same_place(place, path)) {
+            "is where a program goes, or what is kept of it"
+        } else if reports[..at].iter().any(|other| same_place(other, path)) {
             "is named twice"
         } else {
             continue;
@@ -42,51 +45,108 @@ pub fn check_reports(reports: &[PathBuf], jobs: &[Job]) -> Result<(), u8> {
     Ok(())
 }
 
-/// Everything that conversions write: programs, locks, reports.
-pub fn outputs<'p>(jobs: &'p [Job], parts: &[Part<'p>], reports: &[PathBuf]) -> Vec<Output<'p>> {
-    let mut outputs = Vec::new();
-    for (job, part) in jobs.iter().zip(parts) {
-        let Some(places) = &job.places else { continue };
-        for ((text, place), input) in part.conversion.texts.iter().zip(places).zip(&job.inputs) {
-            let bytes = match text {
-                _ if job.source.is_same_machine(&job.target) => input.bytes.as_slice(),
-                Some(text) => text.as_bytes(),
-                None => continue,
-            };
-            outputs.push(Output { path: place.clone(), bytes: bytes.into() });
-        }
-        if let Some(path) = &job.lock_path {
-            outputs
-                .push(Output { path: path.clone(), bytes: part.conversion.lock.print().into_bytes().into() });
-        }
-    }
-    for path in reports {
-        if let Some(render) = renderer(path) {
-            outputs.push(Output { path: path.clone(), bytes: render(parts).into_bytes().into() });
-        }
-    }
-    outputs
+/// True if both paths name one place, whether a file stands there or not.
+fn same_place(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| {
+        std::fs::canonicalize(path.parent().filter(|p| *p != Path::new("")).unwrap_or(Path::new("."))).ok()
+    };
+    same_file(a, b) || (a.file_name() == b.file_name() && folder(a).is_some() && folder(a) == folder(b))
 }
 
-/// The certificates: of what is written beside it, of what is not under a name of their own.
-pub fn certificates(jobs: &[Job], judged: &[Certificates]) -> Vec<Output<'static>> {
-    let output = |path: PathBuf, certificate: &Option<Certificate>| {
-        Some(Output { path, bytes: certificate.as_ref()?.print().into_bytes().into() })
-    };
-    let mut outputs = Vec::new();
-    for (job, judged) in jobs.iter().zip(judged) {
-        let places = || job.places.iter().flatten();
-        outputs.extend(places().zip(&judged.written).filter_map(|(p, c)| output(certificate_of(p), c)));
-        outputs.extend(places().zip(&judged.withheld).filter_map(|(p, c)| output(withheld_of(p), c)));
+/// What a conversion puts into its folder: programs, drafts and certificates.
+pub fn wanted<'p>(
+    job: &'p Job,
+    out: &'p Out,
+    conversion: &'p Conversion,
+    judged: Option<&Certificates>,
+) -> Vec<Wanted<'p>> {
+    let mut wanted = Vec::new();
+    for (at, name) in out.names.iter().enumerate() {
+        let bytes = match conversion.texts.get(at).and_then(Option::as_ref) {
+            _ if job.source.is_same_machine(&job.target) => Some(job.inputs[at].bytes.as_slice()),
+            text => text.map(String::as_bytes),
+        };
+        if let Some(bytes) = bytes {
+            let refused = |program: &ProgramReport| program.file == at && program.outcome == Outcome::Refused;
+            // Of a refused program nothing is written but its draft.
+            let is_draft =
+                conversion.programs.iter().any(|program| refused(program) && !program.map.is_empty());
+            let kind = if is_draft { Kind::Draft } else { Kind::Program };
+            wanted.push(Wanted { name: name.clone(), kind, source: name, bytes: bytes.into() });
+        }
+        let mut certificate = |all: Option<&Vec<Option<Certificate>>>, name: String, kind| {
+            if let Some(certificate) = all.and_then(|all| all.get(at)).and_then(Option::as_ref) {
+                let bytes = certificate.print().into_bytes().into();
+                wanted.push(Wanted { name, kind, source: &out.names[at], bytes });
+            }
+        };
+        certificate(judged.map(|judged| &judged.written), certificate_of(name), Kind::Certificate);
+        certificate(judged.map(|judged| &judged.withheld), withheld_of(name), Kind::Withheld);
     }
-    outputs
+    wanted
+}
+
+/// What is new in an output folder, and what is told of it.
+pub fn changed<'p>(
+    job: &'p Job,
+    wanted: Vec<Wanted<'p>>,
+    conversion: &Conversion,
+    prune: bool,
+) -> Result<(Vec<Change<'p>>, Told), u8> {
+    let Some(out) = &job.out else { return Ok(Default::default()) };
+    let sources =
+        out.names.iter().map(String::as_str).zip(job.inputs.iter().map(|input| input.path.as_path()));
+    let found = changes(out.held.folder(), &out.manifest, wanted, &sources.collect(), prune);
+    let (mut changes, told) = found.map_err(complain)?;
+    let mut lock = conversion.lock.clone();
+    lock.files.retain(|file| !told.pruned.contains(file));
+    let lock = lock.print().into_bytes();
+    let path = out.held.folder().join(Lock::NAME);
+    if out.keeps_lock && std::fs::read(path).ok().is_none_or(|now| now != lock) {
+        changes.insert(0, Change { place: Lock::NAME.into(), bytes: Some(lock.into()), aside: None });
+    }
+    Ok((changes, told))
+}
+
+/// The reports, in the places where the user wants them.
+pub fn reports(reports: &[PathBuf], parts: &[Part<'_>]) -> Vec<Change<'static>> {
+    let reports = reports.iter().filter_map(|path| {
+        let bytes = renderer(path)?(parts).into_bytes();
+        let place = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        Some(Change { place, bytes: Some(bytes.into()), aside: None })
+    });
+    reports.collect()
+}
+
+/// Puts everything in its place, folder by folder; the reports with the last of them.
+pub fn publish_all(
+    jobs: &[Job],
+    changes: Vec<Vec<Change<'_>>>,
+    reports: Vec<Change<'static>>,
+    force: bool,
+) -> Result<(), u8> {
+    let mut sets: Vec<(&Held, Vec<Change<'_>>)> = jobs
+        .iter()
+        .zip(changes)
+        .filter_map(|(job, changes)| Some((&job.out.as_ref()?.held, changes)))
+        .collect();
+    match sets.last_mut() {
+        Some((_, changes)) => changes.extend(reports),
+        None => {
+            for report in &reports {
+                let bytes = report.bytes.as_deref().unwrap_or_default();
+                write_file(&report.place, bytes, force).map_err(complain)?;
+            }
+        }
+    }
+    sets.iter().try_for_each(|(held, changes)| publish(held, changes, force)).map_err(complain)
 }
 
 /// Where the conversion of each file of a job is written, if it is.
 pub fn targets(job: &Job, conversion: &Conversion) -> Vec<Option<PathBuf>> {
-    let Some(places) = &job.places else { return vec![None; conversion.texts.len()] };
-    let written = conversion.texts.iter().zip(places);
-    written.map(|(text, place)| text.as_ref().map(|_| place.clone())).collect()
+    let Some(out) = &job.out else { return vec![None; conversion.texts.len()] };
+    let written = conversion.texts.iter().zip(&out.names);
+    written.map(|(text, name)| text.as_ref().map(|_| out.held.folder().join(name))).collect()
 }
 
 /// Draws every finding at its source, on standard error.
@@ -99,21 +159,30 @@ pub fn draw(part: &Part<'_>) {
                 sheet = Some((program.file, Sheet::new(&input.path.display().to_string(), &input.bytes)));
             }
             if let Some((_, sheet)) = &sheet {
-                eprint!("{}", sheet.draw(diagnostic));
+                tell(&sheet.draw(diagnostic));
             }
         }
     }
 }
 
 /// Prints the summary; where there is no output folder, standard output has the program instead.
-pub fn summarize(jobs: &[Job], parts: &[Part<'_>]) {
+///
+/// # Errors
+/// The exit code where it cannot be written.
+pub fn summarize(jobs: &[Job], parts: &[Part<'_>]) -> Result<(), u8> {
     let summary = report::summary(parts);
     match (jobs, parts) {
-        ([Job { places: None, .. }], [part]) => {
+        ([Job { out: None, .. }], [part]) => {
             if let Some(Some(text)) = part.conversion.texts.first() {
-                print(text);
+                if is_closed() {
+                    return Err(complain(
+                        "standard output is closed: the program was not written. Say where it goes with --out DIR",
+                    ));
+                }
+                print(text)?;
             }
-            eprint!("{summary}");
+            tell(&summary);
+            Ok(())
         }
         _ => print(&summary),
     }

@@ -1,6 +1,6 @@
 //! `macroglot parse PATH...`.
 
-use super::{FOUND, WELL, common};
+use super::{FOUND, WELL, common, streams};
 use crate::dialect::registry;
 use crate::library::{Input, InputError, Source, sources};
 use crate::report::Sheet;
@@ -55,7 +55,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let heads: Vec<Input> = heads.iter_mut().filter_map(|source| source.head().ok()).collect();
     let name = common::dialect_of(arguments.dialect.as_deref(), &heads)?;
     let Some(parse) = registry::find(&name).map(|entry| entry.parse) else {
-        return Err(common::complain(format!(
+        return Err(streams::complain(format!(
             "no dialect is named '{name}': use one of {}",
             common::names()
         )));
@@ -81,8 +81,8 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     common::fit(read, &errors)?;
     counts.seconds = start.elapsed().as_secs_f64();
     match arguments.format {
-        Format::Json => common::print(&(serde_json::to_string(&counts).unwrap_or_default() + "\n")),
-        Format::Text => common::print(&format!(
+        Format::Json => streams::print(&(serde_json::to_string(&counts).unwrap_or_default() + "\n"))?,
+        Format::Text => streams::print(&format!(
             "{} files, {} bytes, {} blocks: {} unparsed, {} with faults; {} of {} files lossless; {:.3} s\n",
             counts.files,
             counts.bytes,
@@ -92,7 +92,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             counts.lossless,
             counts.files,
             counts.seconds
-        )),
+        ))?,
     }
     Ok(if counts.unparsed == 0 && counts.lossless == counts.files { WELL } else { FOUND })
 }
@@ -108,6 +108,6 @@ fn totals(source: Source, parse: Parser, draw: bool) -> Result<(usize, ParseTota
     let input = source.read()?;
     let faults = parse_faults(&input.bytes, parse, |_, _| false);
     let sheet = Sheet::new(&input.path.display().to_string(), &input.bytes);
-    faults.iter().for_each(|fault| eprint!("{}", sheet.draw(&fault.clone().into())));
+    faults.iter().for_each(|fault| streams::tell(&sheet.draw(&fault.clone().into())));
     Ok((input.bytes.len(), parse_totals(&input.bytes, parse)))
 }

@@ -1,12 +1,13 @@
 //! `macroglot run FILE`.
 
-use super::common::{complain, control, dialect_of, own_profile, print, read};
+use super::common::{control, dialect_of, own_profile, read};
+use super::streams::{complain, print_by, tell};
 use super::{FOUND, WELL};
 use crate::control::trace::Place;
 use crate::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::library::{Input, Output, write_all};
+use crate::library::{Files, Input, write_file};
 use crate::report::{Sheet, backplot, trace_json, trace_text};
 use crate::syntax::{ParsedFile, parse_file};
 use std::path::PathBuf;
@@ -39,6 +40,9 @@ pub struct Arguments {
     /// Draw the tool's path
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
+    /// Replace a read-only drawing too
+    #[arg(long)]
+    force: bool,
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -66,27 +70,29 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         let main = inputs.first().map(|input| input.path.clone());
         inputs.extend(others.into_iter().filter(|input| Some(&input.path) != main.as_ref()));
     }
+    let also = [&arguments.machine, &arguments.scenario, &own].into_iter().flatten();
+    let read = Files::of(inputs.iter().map(|input| &input.path).chain(also).map(PathBuf::as_path));
+    if let Some(path) = arguments.plot.as_ref().filter(|path| read.holds(path)) {
+        return Err(complain(format!("{} is an input and would be overwritten", path.display())));
+    }
     let scenario = scenario(arguments, &control)?;
     let run = execute(&inputs, &control, &scenario)?;
-    print(&match arguments.trace {
-        Format::Text => trace_text(&run, &inputs),
-        Format::Json => trace_json(&run, &inputs),
-    });
+    print_by(|out| match arguments.trace {
+        Format::Text => trace_text(&run, &inputs, out),
+        Format::Json => trace_json(&run, &inputs, out),
+    })?;
     if let Some(path) = &arguments.plot {
-        if inputs.iter().any(|input| input.path == *path) {
-            return Err(complain(format!("{} is an input and would be overwritten", path.display())));
-        }
         let title = inputs.first().map_or_else(String::new, |input| input.name.clone());
         let bytes = backplot(&run.events, &title).into_bytes();
-        write_all(&[Output { path: path.clone(), bytes: bytes.into() }]).map_err(complain)?;
+        write_file(path, &bytes, arguments.force).map_err(complain)?;
     }
     let Some((at, finding)) = finding(&run) else { return Ok(WELL) };
     let file = run.programs.get(at.program as usize).map_or(0, |program| program.file);
     match inputs.get(file) {
         Some(input) => {
-            eprint!("{}", Sheet::new(&input.path.display().to_string(), &input.bytes).draw(&finding));
+            tell(&Sheet::new(&input.path.display().to_string(), &input.bytes).draw(&finding));
         }
-        None => eprintln!("{}", finding.message),
+        None => tell(&format!("{}\n", finding.message)),
     }
     Ok(FOUND)
 }

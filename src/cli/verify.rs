@@ -1,11 +1,13 @@
 //! `macroglot verify SOURCE TARGET`.
 
-use super::common::{complain, controls, dialect_of, own_profile, print, read};
+use super::common::{controls, dialect_of, own_profile, read};
+use super::streams::{complain, print, tell};
 use super::{FOUND, WELL};
 use crate::control::LoadedFile;
 use crate::dialect::Control;
-use crate::library::{Input, Lock, Output, write_all};
+use crate::library::{Files, Input, Lock, Manifest, is_pending, write_file};
 use crate::syntax::{ParsedFile, parse_file};
+use crate::text::shown;
 use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, verify};
 use std::path::{Path, PathBuf};
 
@@ -27,6 +29,9 @@ pub struct Arguments {
     /// Write the certificate to a file too
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+    /// Replace a read-only certificate too
+    #[arg(long)]
+    force: bool,
 }
 
 pub fn run(arguments: &Arguments) -> u8 {
@@ -38,6 +43,13 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn work(arguments: &Arguments) -> Result<u8, u8> {
     let ours = read(std::slice::from_ref(&arguments.source))?;
     let theirs = read(std::slice::from_ref(&arguments.target))?;
+    let own_files = [beside(&arguments.target, Lock::NAME), beside(&arguments.target, Manifest::NAME)];
+    let programs = ours.iter().chain(&theirs).map(|input| &input.path);
+    let read_files = programs.chain(&arguments.machine).chain(&own_files).map(PathBuf::as_path);
+    if let Some(path) = arguments.certificate.as_ref().filter(|path| Files::of(read_files).holds(path)) {
+        return Err(complain(format!("{} is an input and would be overwritten", path.display())));
+    }
+    tell_changed(&arguments.target, &theirs)?;
     let from = dialect_of(arguments.from.as_deref(), &ours)?;
     let to = dialect_of(arguments.to.as_deref(), &theirs)?;
     let own = own_profile(arguments.from.as_deref(), &ours)?;
@@ -46,13 +58,34 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let certificate = certify((&ours, &source), (&theirs, &target), &names)?;
     let text = certificate.print();
     if let Some(path) = &arguments.certificate {
-        if ours.iter().chain(&theirs).any(|input| input.path == *path) {
-            return Err(complain(format!("{} is an input and would be overwritten", path.display())));
-        }
-        write_all(&[Output { path: path.clone(), bytes: text.as_bytes().into() }]).map_err(complain)?;
+        write_file(path, text.as_bytes(), arguments.force).map_err(complain)?;
     }
-    print(&text);
+    print(&text)?;
     Ok(if certificate.outcome == Outcome::Same { WELL } else { FOUND })
+}
+
+/// A file of the folder that the target is, or lies in.
+fn beside(target: &Path, name: &str) -> PathBuf {
+    folder_of(target).join(name)
+}
+
+fn folder_of(target: &Path) -> &Path {
+    if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) }
+}
+
+/// Says which files were changed since macroglot wrote them: the certificates beside them are of another text.
+fn tell_changed(target: &Path, theirs: &[Input]) -> Result<(), u8> {
+    let folder = folder_of(target);
+    if is_pending(folder) {
+        let what = "a run that wrote here was interrupted: convert again, which begins with mending that";
+        return Err(complain(format!("{}: {what}", folder.display())));
+    }
+    let manifest = Manifest::load(folder).map_err(complain)?;
+    for name in manifest.changed(theirs.iter().map(|input| (input.name.as_str(), input.bytes.as_slice()))) {
+        let what = "was changed since macroglot wrote it; its certificate is of the text before";
+        tell(&format!("macroglot: {}: {what}\n", shown(name)));
+    }
+    Ok(())
 }
 
 /// What the lock beside the target says.
@@ -60,8 +93,7 @@ fn names(target: &Path, from: &Control, to: &Control) -> Result<Names, u8> {
     if from.is_same_machine(to) {
         return Ok(Names::default());
     }
-    let folder = if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) };
-    let lock = Lock::load(&folder.join(Lock::NAME), from.name(), to.name()).map_err(complain)?;
+    let lock = Lock::load(&beside(target, Lock::NAME), from.name(), to.name()).map_err(complain)?;
     Ok(Names {
         variables: lock.variables,
         scratch: lock.scratch.into_iter().collect(),

@@ -97,24 +97,43 @@ fn add(sources: &mut BTreeMap<String, Source>, source: Source, errors: &mut Vec<
     }
 }
 
-/// True where both paths lead to one file.
+/// True if both paths lead to one file.
 pub fn same_file(a: &Path, b: &Path) -> bool {
-    a == b || fs::canonicalize(a).ok().zip(fs::canonicalize(b).ok()).is_some_and(|(a, b)| a == b)
+    a == b || identity(a).is_some_and(|file| identity(b) == Some(file))
 }
 
-/// Files by where they really are.
+/// Files by what they are, whatever their paths say: links of both kinds lead to the same file.
 #[derive(Debug, Default)]
-pub struct Files(BTreeSet<PathBuf>);
+pub struct Files(BTreeSet<Identity>);
+
+/// What tells a file from every other: its device and number there.
+#[cfg(unix)]
+type Identity = (u64, u64);
+
+/// What tells a file from every other: where it really is.
+#[cfg(not(unix))]
+type Identity = PathBuf;
+
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata(path).ok().map(|facts| (facts.dev(), facts.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<Identity> {
+    fs::canonicalize(path).ok()
+}
 
 impl Files {
     /// The files of these paths.
     pub fn of<'p>(paths: impl Iterator<Item = &'p Path>) -> Self {
-        Self(paths.flat_map(|path| [Some(path.to_owned()), fs::canonicalize(path).ok()]).flatten().collect())
+        Self(paths.filter_map(identity).collect())
     }
 
-    /// True where the path leads to one of them.
+    /// True if the path leads to one of them.
     pub fn holds(&self, path: &Path) -> bool {
-        self.0.contains(path) || fs::canonicalize(path).is_ok_and(|path| self.0.contains(&path))
+        identity(path).is_some_and(|file| self.0.contains(&file))
     }
 }
 
@@ -158,7 +177,8 @@ fn is_program(path: &Path, endings: &[String]) -> bool {
     }
 }
 
-fn slashed(path: &Path) -> String {
+/// A path with `/` between its parts, wherever it is written down.
+pub fn slashed(path: &Path) -> String {
     let parts = path.components().filter_map(|part| match part {
         Component::Normal(part) => Some(part.to_string_lossy().into_owned()),
         _ => None,

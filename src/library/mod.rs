@@ -16,6 +16,7 @@ mod outputs;
 mod parts;
 mod pieces;
 mod project;
+mod publish;
 mod refused_calls;
 mod segments;
 mod verified;
@@ -23,8 +24,12 @@ mod withdrawn;
 
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
 pub use detect::{Detected, detect, looks_like};
-pub use inputs::{Files, Input, InputError, Source, gather, same_file, sources};
+pub use inputs::{Files, Input, InputError, Source, gather, same_file, slashed, sources};
 pub use lock::{Lock, LockError};
-pub use outputs::{Output, OutputError, certificate_of, plan, withheld_of, write_all};
+pub use outputs::{certificate_of, plan, withheld_of};
 pub use project::{Library, Machine, Project, ProjectError};
+pub use publish::{
+    Change, Held, Kind, Manifest, ManifestError, OutputError, Recovered, Told, Wanted, abandon, changes,
+    is_pending, publish, write_file,
+};
 pub use verified::{Certificates, judge};

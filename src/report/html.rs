@@ -78,7 +78,7 @@ fn item(out: &mut String, finding: &Diagnostic, place: Place<'_>) {
 }
 
 /// Text as HTML shows it, in elements and in quoted attributes.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for sign in text.chars() {
         match sign {

@@ -1,11 +1,12 @@
 //! A conversion as JSON. Its keys are a contract: `programs` with `source`, `target`, `program`,
-//! `outcome`, `diagnostics`; `totals`; and `notes`, where there is something to be said of the programs as a whole.
+//! `outcome`, `diagnostics`; `totals`; and `notes` and `folders`, if there is something to be said of the programs as a
+//! whole, or of files of earlier runs.
 //!
 //! It is written piece by piece: a library of many findings makes more of it than of itself.
 
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
-use crate::library::{Input, Outcome, ProgramReport};
+use crate::library::{Input, Outcome, ProgramReport, Told};
 use crate::text::LineIndex;
 use crate::verify;
 use serde::{Serialize, Serializer};
@@ -18,6 +19,8 @@ struct Report<'a> {
     totals: Totals,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    folders: Vec<&'a Told>,
 }
 
 #[derive(Serialize)]
@@ -61,7 +64,8 @@ pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     // Of a known type: what it is given are mostly single marks.
     let mut out = io::BufWriter::with_capacity(64 * 1024, out);
     let notes = parts.iter().flat_map(|part| part.notes).map(String::as_str).collect();
-    let report = Report { programs: parts, totals: Totals::of(parts), notes };
+    let folders = parts.iter().map(|part| part.folder).filter(|told| !told.is_empty()).collect();
+    let report = Report { programs: parts, totals: Totals::of(parts), notes, folders };
     serde_json::to_writer_pretty(&mut out, &report)?;
     out.write_all(b"\n")?;
     out.flush()

@@ -1,7 +1,7 @@
 //! What every renderer renders: libraries, and what became of them.
 
 use crate::diag::Diagnostic;
-use crate::library::{Conversion, Input};
+use crate::library::{Conversion, Input, Told};
 use crate::text::LineIndex;
 use std::path::PathBuf;
 
@@ -20,6 +20,8 @@ pub struct Part<'a> {
     pub targets: &'a [Option<PathBuf>],
     /// What is to be said of the programs as a whole.
     pub notes: &'a [String],
+    /// What a person is told of the output folder.
+    pub folder: &'a Told,
 }
 
 /// A place in a file, as people and their editors count: from 1.

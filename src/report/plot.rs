@@ -2,6 +2,7 @@
 
 mod view;
 
+use super::html::escaped;
 use crate::control::trace::{Event, Happening};
 use std::fmt::Write;
 use view::{Bounds, View};
@@ -52,7 +53,7 @@ pub fn backplot(events: &[Event], title: &str) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"12\">"
     );
     let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>");
-    let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", escape(title));
+    let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", escaped(title));
     let flat = path.flat();
     // Thirty degrees to either side, Z up.
     let isometric: fn(Point) -> (f64, f64) = |[x, y, z]| {
@@ -175,10 +176,6 @@ fn legend(height: f64, out: &mut String) {
             x + 10.0
         );
     }
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 impl Path {

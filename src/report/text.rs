@@ -2,7 +2,8 @@
 
 use super::{Part, Totals};
 use crate::diag::{Code, Diagnostic, Severity};
-use crate::library::Outcome;
+use crate::library::{Outcome, Told};
+use crate::text::{shown, shown_lines};
 use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents};
 use miette::{Report, SourceCode, SourceSpan, SpanContents};
 use std::collections::BTreeSet;
@@ -69,7 +70,7 @@ impl Sheet {
         let text: String = bytes.iter().enumerate().map(draw).collect();
         let starts =
             [0].into_iter().chain(memchr::memchr_iter(b'\n', text.as_bytes()).map(|at| at + 1)).collect();
-        Self { source: Arc::new(Lines { name: name.into(), text, starts }), handler: handler() }
+        Self { source: Arc::new(Lines { name: shown(name).into(), text, starts }), handler: handler() }
     }
 
     /// A diagnostic, drawn.
@@ -87,9 +88,9 @@ impl Sheet {
         let mut drawn = MietteDiagnostic::new(diagnostic.code.title())
             .with_code(diagnostic.code.number())
             .with_severity(severity)
-            .with_label(LabeledSpan::new(Some(diagnostic.message.to_string()), start, end - start));
+            .with_label(LabeledSpan::new(Some(shown(&diagnostic.message).into()), start, end - start));
         if let Some(help) = &diagnostic.help {
-            drawn = drawn.with_help(help.to_string());
+            drawn = drawn.with_help(shown_lines(help));
         }
         let report = Report::new(drawn).with_source_code(Arc::clone(&self.source));
         let mut out = String::new();
@@ -126,6 +127,7 @@ pub fn summary(parts: &[Part<'_>]) -> String {
             let _ = writeln!(out, "{} to {}:", part.from, part.to);
         }
         list(&mut out, part);
+        folder(&mut out, part.folder);
     }
     let _ = writeln!(out, "{}", Totals::of(parts));
     out
@@ -141,8 +143,8 @@ fn list(out: &mut String, part: &Part<'_>) {
         };
         let codes: BTreeSet<&str> = program.diagnostics.iter().map(|d| d.code.number()).collect();
         let codes = codes.into_iter().collect::<Vec<_>>().join(" ");
-        let name = program.name.as_deref().unwrap_or("-");
-        let file = &part.inputs[program.file].name;
+        let name = shown(program.name.as_deref().unwrap_or("-"));
+        let file = shown(&part.inputs[program.file].name);
         let _ = writeln!(out, "{}", format!("{outcome:<9}  {file:<width$}  {name:<6} {codes}").trim_end());
     }
     let taken = &part.conversion.taken;
@@ -152,6 +154,30 @@ fn list(out: &mut String, part: &Part<'_>) {
             false => "; if the machine uses any of them, name it in 'reserved' of its profile",
         };
         let _ = writeln!(out, "registers taken: {taken}{ask}");
+    }
+}
+
+/// What became of files of earlier runs.
+fn folder(out: &mut String, told: &Told) {
+    for name in &told.removed {
+        let _ = writeln!(
+            out,
+            "removed    {}: an earlier run converted it, and it has no conversion now",
+            shown(name)
+        );
+    }
+    for (name, kept) in &told.kept {
+        let _ = writeln!(out, "kept       {} as {}: it was changed by hand", shown(name), shown(kept));
+    }
+    for name in &told.gone {
+        let _ = writeln!(
+            out,
+            "no source  {}: what it was converted from is gone; --prune removes it",
+            shown(name)
+        );
+    }
+    for name in &told.pruned {
+        let _ = writeln!(out, "removed    {}: what it was converted from is gone", shown(name));
     }
 }
 

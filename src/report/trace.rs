@@ -3,9 +3,10 @@
 use crate::control::Run;
 use crate::control::trace::{AXIS_NAMES, Event, Happening, Place, Position};
 use crate::library::Input;
-use crate::text::LineIndex;
+use crate::text::{LineIndex, shown};
 use serde::Serialize;
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::{self, Write};
 
 /// Finds lines of places.
 struct Lines<'a> {
@@ -52,40 +53,42 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// One event a line, then a line with the result.
-pub fn trace_json(run: &Run, inputs: &[Input]) -> String {
+/// Writes one event a line, then a line with the result.
+///
+/// # Errors
+/// Those of `out`.
+pub fn trace_json(run: &Run, inputs: &[Input], mut out: impl Write) -> io::Result<()> {
     let lines = Lines::new(run, inputs);
-    let mut out = String::new();
     for Event { at, what, .. } in &run.events {
         let (program, file, line, column) = lines.place(*at);
         let block = [at.span.start, at.span.end];
         let line = Line { what, program, file, line, column, block };
-        out.push_str(&serde_json::to_string(&line).unwrap_or_default());
-        out.push('\n');
+        serde_json::to_writer(&mut out, &line)?;
+        writeln!(out)?;
     }
     let result = Result { event: "result", end: &run.end, steps: run.steps, variables: &run.variables };
-    out.push_str(&serde_json::to_string(&result).unwrap_or_default());
-    out.push('\n');
-    out
+    serde_json::to_writer(&mut out, &result)?;
+    writeln!(out)
 }
 
-/// The trace as a table, the final variables behind it.
-pub fn trace_text(run: &Run, inputs: &[Input]) -> String {
+/// Writes the trace as a table, and the final variables after it.
+///
+/// # Errors
+/// Those of `out`.
+pub fn trace_text(run: &Run, inputs: &[Input], mut out: impl Write) -> io::Result<()> {
     let lines = Lines::new(run, inputs);
-    let mut out = String::new();
     for Event { at, what, .. } in &run.events {
         let (program, _, line, _) = lines.place(*at);
-        let place = format!("{program}:{line}");
-        let _ = writeln!(out, "{place:>12}  {}", describe(what, run).trim_end());
+        let place = format!("{}:{line}", shown(program));
+        writeln!(out, "{place:>12}  {}", shown(describe(what, run).trim_end()))?;
     }
     if !run.variables.is_empty() {
-        out.push('\n');
+        writeln!(out)?;
     }
     for (name, value) in &run.variables {
-        let _ = writeln!(out, "{name:>12} = {value}");
+        writeln!(out, "{name:>12} = {value}")?;
     }
-    let _ = writeln!(out, "\n{} blocks", run.steps);
-    out
+    writeln!(out, "\n{} blocks", run.steps)
 }
 
 /// Axes that changed, or all three where none did.

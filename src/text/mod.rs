@@ -7,8 +7,10 @@
 
 mod letters;
 mod lines;
+mod shown;
 mod span;
 
 pub use letters::{decode, likeness};
 pub use lines::{Line, Lines, MAX_FILE};
+pub use shown::{shown, shown_lines};
 pub use span::{LineIndex, Span};

@@ -35,6 +35,7 @@ fn a_folder_is_converted_without_what_is_no_program() {
             "out/a.nc",
             "out/a.nc.certificate.json",
             "out/macroglot.lock",
+            "out/macroglot.manifest",
             "out/sub/b.txt",
             "out/sub/b.txt.certificate.json"
         ]

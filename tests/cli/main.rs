@@ -8,6 +8,7 @@ mod outputs;
 mod profiles;
 mod project;
 mod reports;
+mod stale;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

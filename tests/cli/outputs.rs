@@ -17,7 +17,7 @@ fn a_clean_program_is_0_and_a_refused_one_is_1() {
     let written: Vec<&str> = names(&all).into_iter().filter(|name| name.starts_with("both/")).collect();
     assert_eq!(
         written,
-        ["both/a.nc", "both/a.nc.certificate.json", "both/macroglot.lock"],
+        ["both/a.nc", "both/a.nc.certificate.json", "both/macroglot.lock", "both/macroglot.manifest"],
         "a refused program is not written"
     );
     let run = shop.run(&format!("convert in/b.nc {TO}"));

@@ -22,7 +22,14 @@ fn a_project_is_converted_without_arguments() {
     let files = shop.files();
     assert_eq!(
         names(&files),
-        ["macroglot.toml", "out/a.nc", "out/a.nc.certificate.json", "out/macroglot.lock", "programs/a.nc"]
+        [
+            "macroglot.toml",
+            "out/a.nc",
+            "out/a.nc.certificate.json",
+            "out/macroglot.lock",
+            "out/macroglot.manifest",
+            "programs/a.nc"
+        ]
     );
     // Again, elsewhere.
     assert_eq!(shop.run("convert --out copy --from fanuc --to haas").code, 0);

@@ -1,0 +1,169 @@
+//! What a run replaces in a folder, what it takes away, and what it leaves.
+//!
+//! What stands in an output folder is run on a machine. So a program that is refused now goes, though it was converted before;
+//! a certificate goes with the text that it is about; and what a person changed is kept under another name, never lost.
+
+use super::manifest::{Entry, Kind, Manifest, seen_from};
+use super::{Change, OutputError};
+use crate::library::outputs::SIDECARS;
+use crate::verify::sha256;
+use serde::Serialize;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A file that a run wants in a folder.
+#[derive(Clone, Debug)]
+pub struct Wanted<'b> {
+    /// Its name in the folder, with `/` between parts.
+    pub name: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Its source's name among the inputs.
+    pub source: &'b str,
+    /// What is to stand there.
+    pub bytes: Cow<'b, [u8]>,
+}
+
+/// What a person is told of a folder.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Told {
+    /// Conversions of earlier runs that were taken away, as their programs have none now.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub removed: Vec<String>,
+    /// Files that a person changed, and the names under which they are kept.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub kept: BTreeMap<String, String>,
+    /// Conversions whose sources are gone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gone: Vec<String>,
+    /// Such conversions that were removed, as was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pruned: Vec<String>,
+}
+
+impl Told {
+    /// True if there is nothing to tell.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// The changes that bring a folder to what a run wants of it, the manifest first.
+///
+/// `sources` are the run's files: their names among the inputs, and where they stand. `prune` removes the conversions
+/// whose sources are gone.
+///
+/// # Errors
+/// Files in the folder that cannot be read.
+pub fn changes<'b>(
+    folder: &Path,
+    manifest: &Manifest,
+    wanted: Vec<Wanted<'b>>,
+    sources: &BTreeMap<&str, &Path>,
+    prune: bool,
+) -> Result<(Vec<Change<'b>>, Told), OutputError> {
+    let mut plan = Plan { folder, manifest, changes: Vec::new(), told: Told::default() };
+    let mut next = manifest.clone();
+    let names: BTreeSet<String> = wanted.iter().map(|wanted| wanted.name.clone()).collect();
+    let here: Vec<&str> = sources.keys().copied().collect();
+    for gone in manifest.gone(folder, &here) {
+        if prune {
+            plan.take_away(&gone)?;
+            for ending in SIDECARS {
+                plan.take_away(&format!("{gone}{ending}"))?;
+            }
+            plan.told.pruned.push(gone);
+        } else {
+            plan.told.gone.push(gone);
+        }
+    }
+    for source in sources.keys().filter(|source| !names.contains(**source)) {
+        // A file of that name that macroglot did not write is none of its business.
+        if manifest.files.contains_key(*source) && plan.take_away(source)? {
+            plan.told.removed.push((*source).to_owned());
+        }
+    }
+    for source in sources.keys() {
+        for beside in SIDECARS.iter().map(|ending| format!("{source}{ending}")) {
+            if !names.contains(&beside) {
+                plan.take_away(&beside)?;
+            }
+        }
+    }
+    next.files.retain(|name, entry| {
+        let is_ours = entry.source.as_deref().is_some_and(|source| sources.contains_key(source));
+        let is_taken = plan.changes.iter().any(|change| change.place == Path::new(name));
+        !is_ours && !is_taken && folder.join(name).exists()
+    });
+    for wanted in wanted {
+        let at = sources.get(wanted.source).and_then(|source| seen_from(folder, source));
+        let entry = Entry {
+            kind: wanted.kind,
+            source: Some(wanted.source.to_owned()),
+            at,
+            sha256: sha256(&wanted.bytes),
+        };
+        next.files.insert(wanted.name.clone(), entry);
+        plan.put(wanted)?;
+    }
+    let text = next.print();
+    if plan.read(Manifest::NAME)?.is_none_or(|now| now != text.as_bytes()) {
+        let place = PathBuf::from(Manifest::NAME);
+        plan.changes.insert(0, Change { place, bytes: Some(text.into_bytes().into()), aside: None });
+    }
+    Ok((plan.changes, plan.told))
+}
+
+struct Plan<'p, 'b> {
+    folder: &'p Path,
+    manifest: &'p Manifest,
+    changes: Vec<Change<'b>>,
+    told: Told,
+}
+
+impl<'b> Plan<'_, 'b> {
+    /// Removes what stands there; true if anything does.
+    fn take_away(&mut self, name: &str) -> Result<bool, OutputError> {
+        let Some(now) = self.read(name)? else { return Ok(false) };
+        let aside = self.aside(name, &now);
+        self.changes.push(Change { place: name.into(), bytes: None, aside });
+        Ok(true)
+    }
+
+    /// Puts a file there, unless the same stands there already.
+    fn put(&mut self, wanted: Wanted<'b>) -> Result<(), OutputError> {
+        let now = self.read(&wanted.name)?;
+        if now.as_deref() == Some(&*wanted.bytes) {
+            return Ok(());
+        }
+        let aside = now.and_then(|now| self.aside(&wanted.name, &now));
+        self.changes.push(Change { place: wanted.name.into(), bytes: Some(wanted.bytes), aside });
+        Ok(())
+    }
+
+    fn read(&self, name: &str) -> Result<Option<Vec<u8>>, OutputError> {
+        let path = self.folder.join(name);
+        match fs::read(&path) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound) => Ok(None),
+            Err(error) => Err(OutputError::Unwritable(path, error)),
+        }
+    }
+
+    /// Where a program is kept that stands there otherwise than macroglot wrote it.
+    fn aside(&mut self, name: &str, now: &[u8]) -> Option<PathBuf> {
+        let entry = self.manifest.files.get(name)?;
+        if !matches!(entry.kind, Kind::Program | Kind::Draft) || entry.sha256 == sha256(now) {
+            return None;
+        }
+        let names =
+            (1_u32..).map(|n| if n == 1 { format!("{name}.kept") } else { format!("{name}.kept-{n}") });
+        let free = |kept: &String| fs::symlink_metadata(self.folder.join(kept)).is_err();
+        let kept = names.take(1000).find(free)?;
+        self.told.kept.insert(name.to_owned(), kept.clone());
+        Some(kept.into())
+    }
+}

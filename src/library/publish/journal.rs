@@ -1,0 +1,246 @@
+//! How a set of files becomes visible: all of it, or nothing.
+//!
+//! Everything is written to a folder of its own first, `.macroglot` in the output folder, with a second name for each file that
+//! is to be replaced or removed. Then it is put on the disk, and a journal beside it gets its name: from there on the set
+//! counts as published. What is left is renaming, and each step of it may be done twice. A run that is ended before the
+//! journal has its name has changed nothing; one that is ended after it is finished by the next. A step that fails turns
+//! the journal round: what was done is undone, and that too may be done twice.
+
+use super::{Change, OutputError, disk};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What an output folder holds of a run that is under way.
+const FOLDER: &str = ".macroglot";
+/// The steps of a set that stands ready.
+const JOURNAL: &str = "journal";
+/// The steps of a set that is being undone.
+const BACK: &str = "back";
+/// The steps of a set that is in its place.
+const DONE: &str = "done";
+/// Files that were written elsewhere: reports have their place where the user wants them.
+const OUTSIDE: &str = "outside";
+
+#[derive(Serialize, Deserialize)]
+struct Journal {
+    steps: Vec<Step>,
+}
+
+/// One step. Paths count from the output folder.
+#[derive(Serialize, Deserialize)]
+struct Step {
+    /// Where something changes.
+    place: PathBuf,
+    /// The new file, which goes there; none for one that is removed.
+    new: Option<PathBuf>,
+    /// A second name of the file that was there.
+    old: Option<PathBuf>,
+    /// Where that file goes for good.
+    aside: Option<PathBuf>,
+}
+
+/// True if a run into this folder did not come to its end.
+pub fn is_pending(folder: &Path) -> bool {
+    folder.join(FOLDER).exists()
+}
+
+/// Publishes a set.
+pub fn publish(folder: &Path, changes: &[Change<'_>]) -> Result<(), OutputError> {
+    let work = folder.join(FOLDER);
+    let journal = match stage(folder, &work, changes) {
+        Ok(journal) => journal,
+        Err(error) => {
+            let _ = take_back(folder);
+            return Err(error);
+        }
+    };
+    let commit = work.join(JOURNAL);
+    let fault = |error| OutputError::Unwritable(folder.to_owned(), error);
+    if let Err(error) = name_journal(&work, &journal, &commit) {
+        let _ = take_back(folder);
+        return Err(fault(error));
+    }
+    if let Err((place, error)) = apply(folder, &journal) {
+        let undone = disk::rename(&commit, &work.join(BACK)).and_then(|()| undo(folder, &journal));
+        return Err(match undone {
+            Ok(()) => OutputError::Unwritable(place, error),
+            Err(again) => OutputError::HalfWay(folder.to_owned(), error, again),
+        });
+    }
+    finish(folder, &journal).map_err(fault)
+}
+
+/// Brings a folder to the end of the last run into it, or to its beginning.
+pub fn recover(folder: &Path) -> io::Result<super::Recovered> {
+    let work = folder.join(FOLDER);
+    if !work.exists() {
+        return Ok(super::Recovered::Nothing);
+    }
+    let read = |name: &str| match fs::read(work.join(name)) {
+        Ok(bytes) => serde_json::from_slice::<Journal>(&bytes).map(Some).map_err(io::Error::other),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    };
+    if let Some(journal) = read(BACK)? {
+        undo(folder, &journal)?;
+        return Ok(super::Recovered::TakenBack);
+    }
+    if let Some(journal) = read(JOURNAL)? {
+        apply(folder, &journal).map_err(|(_, error)| error)?;
+        finish(folder, &journal)?;
+        return Ok(super::Recovered::Finished);
+    }
+    let is_done = work.join(DONE).exists();
+    take_back(folder)?;
+    Ok(if is_done { super::Recovered::Finished } else { super::Recovered::TakenBack })
+}
+
+/// Writes everything aside.
+fn stage(folder: &Path, work: &Path, changes: &[Change<'_>]) -> Result<Journal, OutputError> {
+    let fault = |place: &Path, error| OutputError::Unwritable(place.to_owned(), error);
+    disk::make_folder(work).map_err(|error| fault(folder, error))?;
+    let outside = outside(folder, changes);
+    if !outside.is_empty() {
+        let names = serde_json::to_vec(&outside).map_err(|error| fault(folder, error.into()))?;
+        let list = disk::create(&work.join(OUTSIDE), &names).and_then(|file| file.sync_all());
+        list.map_err(|error| fault(folder, error))?;
+    }
+    let (mut steps, mut files) = (Vec::with_capacity(changes.len()), Vec::new());
+    for (at, change) in changes.iter().enumerate() {
+        let place = folder.join(&change.place);
+        let fault = |error| fault(&place, error);
+        let new = match &change.bytes {
+            None => None,
+            Some(bytes) => {
+                let new = staged(folder, &place, at);
+                if let Some(above) = place.parent().filter(|_| !new.starts_with(folder)) {
+                    disk::make_folder(above).map_err(fault)?;
+                }
+                disk::create(&new, bytes).map_err(fault)?;
+                files.push((new.clone(), place.clone()));
+                Some(new)
+            }
+        };
+        let mut old = None;
+        if fs::symlink_metadata(&place).is_ok() {
+            let beside = work.join(format!("old-{at}"));
+            disk::keep(&place, &beside).map_err(fault)?;
+            old = Some(beside);
+        }
+        let named = |path: PathBuf| path.strip_prefix(folder).map(Path::to_owned).unwrap_or(path);
+        let step = Step {
+            place: change.place.clone(),
+            new: new.map(named),
+            old: old.map(named),
+            aside: change.aside.clone(),
+        };
+        steps.push(step);
+    }
+    super::sync::sync(&files)?;
+    Ok(Journal { steps })
+}
+
+/// Where a new file is written first: in the output folder, or beside a place that lies elsewhere.
+fn staged(folder: &Path, place: &Path, at: usize) -> PathBuf {
+    match place.starts_with(folder) {
+        true => folder.join(FOLDER).join(format!("new-{at}")),
+        false => place.with_file_name(format!(".macroglot-{}-{at}", std::process::id())),
+    }
+}
+
+fn outside(folder: &Path, changes: &[Change<'_>]) -> Vec<PathBuf> {
+    let places = changes.iter().enumerate().filter(|(_, change)| change.bytes.is_some());
+    let staged = places.map(|(at, change)| staged(folder, &folder.join(&change.place), at));
+    staged.filter(|path| !path.starts_with(folder)).collect()
+}
+
+/// Gives the journal its name: the moment at which the set is published.
+fn name_journal(work: &Path, journal: &Journal, commit: &Path) -> io::Result<()> {
+    let ready = work.join("ready");
+    disk::create(&ready, &serde_json::to_vec(journal)?)?.sync_all()?;
+    disk::rename(&ready, commit)?;
+    disk::sync_names(work)
+}
+
+/// Does every step that is not done.
+fn apply(folder: &Path, journal: &Journal) -> Result<(), (PathBuf, io::Error)> {
+    for step in &journal.steps {
+        let place = folder.join(&step.place);
+        step_forward(folder, step, &place).map_err(|error| (place, error))?;
+    }
+    Ok(())
+}
+
+fn step_forward(folder: &Path, step: &Step, place: &Path) -> io::Result<()> {
+    if let (Some(aside), Some(old)) = (&step.aside, &step.old) {
+        let (aside, old) = (folder.join(aside), folder.join(old));
+        if !aside.exists() {
+            disk::keep(&old, &aside)?;
+        }
+    }
+    match &step.new {
+        None => disk::remove(place),
+        Some(new) => {
+            let new = folder.join(new);
+            if !new.exists() {
+                return Ok(());
+            }
+            if let Some(above) = place.parent() {
+                disk::make_folder(above)?;
+            }
+            disk::rename(&new, place)
+        }
+    }
+}
+
+/// Undoes every step: what was there is there again.
+fn undo(folder: &Path, journal: &Journal) -> io::Result<()> {
+    for step in &journal.steps {
+        let place = folder.join(&step.place);
+        match step.old.as_ref().map(|old| folder.join(old)) {
+            // Without its second name it is back already.
+            Some(old) if old.exists() => disk::rename(&old, &place)?,
+            Some(_) => {}
+            None => disk::remove(&place)?,
+        }
+        if let Some(aside) = &step.aside {
+            disk::remove(&folder.join(aside))?;
+        }
+    }
+    sync_places(folder, journal)?;
+    take_back(folder)
+}
+
+/// Puts the new names on the disk, and forgets how they came there.
+fn finish(folder: &Path, journal: &Journal) -> io::Result<()> {
+    sync_places(folder, journal)?;
+    let work = folder.join(FOLDER);
+    // From here on the rest is rubbish.
+    disk::rename(&work.join(JOURNAL), &work.join(DONE))?;
+    disk::remove_folder(&work)
+}
+
+fn sync_places(folder: &Path, journal: &Journal) -> io::Result<()> {
+    let places = journal.steps.iter().map(|step| folder.join(&step.place));
+    let folders: BTreeSet<PathBuf> = places.filter_map(|place| Some(place.parent()?.to_owned())).collect();
+    folders.iter().filter(|folder| folder.is_dir()).try_for_each(|folder| disk::sync_names(folder))
+}
+
+/// Removes what was written aside.
+fn take_back(folder: &Path) -> io::Result<()> {
+    let work = folder.join(FOLDER);
+    if let Ok(file) = File::open(work.join(OUTSIDE)) {
+        let outside: Vec<PathBuf> = serde_json::from_reader(io::BufReader::new(file)).unwrap_or_default();
+        let ours = |path: &&PathBuf| {
+            path.file_name()
+                .and_then(|name| name.to_str())
+                .is_some_and(|name| name.starts_with(".macroglot-"))
+        };
+        // A list that somebody else wrote removes nothing of theirs.
+        outside.iter().filter(ours).try_for_each(|path| disk::remove(path))?;
+    }
+    disk::remove_folder(&work)
+}

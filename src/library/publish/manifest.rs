@@ -1,0 +1,145 @@
+//! `macroglot.manifest`: what macroglot wrote into a folder, with hashes.
+//!
+//! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
+
+use crate::library::inputs::slashed;
+use crate::verify::sha256;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// A conversion.
+    Program,
+    /// A conversion with alarms at its holes.
+    Draft,
+    /// What was verified of the program beside it.
+    Certificate,
+    /// What was found of a program that is not written.
+    Withheld,
+}
+
+/// The files that macroglot wrote into a folder.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Version of this file's shape.
+    pub version: u32,
+    /// The files, by their names in the folder.
+    #[serde(default)]
+    pub files: BTreeMap<String, Entry>,
+}
+
+/// A file of a manifest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Entry {
+    /// What it is.
+    pub kind: Kind,
+    /// The source's name among the inputs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// Where the source stood, seen from the folder; standard input stands nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<String>,
+    /// SHA-256 of the file.
+    pub sha256: String,
+}
+
+/// Why a manifest could not be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}: {1}. Mend it, or delete it: then macroglot no longer knows which files of the folder it wrote")]
+pub struct ManifestError(PathBuf, String);
+
+const VERSION: u32 = 1;
+
+const HEAD: &str = "\
+# What macroglot wrote into this folder, with the SHA-256 of each file, and the source that each comes from.
+# Its next run knows from this what is stale and what was changed by hand. Keep it with the programs.
+
+";
+
+impl Manifest {
+    /// The file's name.
+    pub const NAME: &'static str = "macroglot.manifest";
+
+    /// The manifest of a folder; an empty one if it has none.
+    ///
+    /// # Errors
+    /// A file that is no manifest.
+    pub fn load(folder: &Path) -> Result<Self, ManifestError> {
+        let path = folder.join(Self::NAME);
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Ok(Self::default());
+            }
+            Err(error) => return Err(ManifestError(path, error.to_string())),
+        };
+        let manifest: Self = toml::from_str(&text)
+            .map_err(|error| ManifestError(path.clone(), error.message().to_string()))?;
+        if manifest.version != VERSION {
+            let why = format!("is of version {}, this macroglot writes version {VERSION}", manifest.version);
+            return Err(ManifestError(path, why));
+        }
+        Ok(manifest)
+    }
+
+    /// Its text.
+    pub fn print(&self) -> String {
+        let this = Self { version: VERSION, files: self.files.clone() };
+        format!("{HEAD}{}", toml::to_string(&this).unwrap_or_default())
+    }
+
+    /// The programs among these that stand otherwise than macroglot wrote them: a certificate is not about them.
+    pub fn changed<'f>(&self, files: impl Iterator<Item = (&'f str, &'f [u8])>) -> Vec<&'f str> {
+        let changed = |(name, bytes): &(&str, &[u8])| {
+            self.files.get(*name).is_some_and(|entry| entry.sha256 != sha256(bytes))
+        };
+        files.filter(changed).map(|(name, _)| name).collect()
+    }
+
+    /// The programs whose source is gone: it is none of `names`, and does not stand where it stood.
+    pub fn gone(&self, folder: &Path, names: &[&str]) -> Vec<String> {
+        let gone = |entry: &Entry| {
+            let is_here = entry.source.as_deref().is_none_or(|source| names.contains(&source));
+            !is_here && entry.at.as_ref().is_some_and(|at| !folder.join(at).exists())
+        };
+        let programs =
+            self.files.iter().filter(|(_, entry)| matches!(entry.kind, Kind::Program | Kind::Draft));
+        programs.filter(|(_, entry)| gone(entry)).map(|(name, _)| name.clone()).collect()
+    }
+}
+
+/// Where a source stands, seen from a folder; none for standard input, and for what shares no root with it.
+pub fn seen_from(folder: &Path, source: &Path) -> Option<String> {
+    let (folder, source) = (fs::canonicalize(folder).ok()?, fs::canonicalize(source).ok()?);
+    let shared = folder.components().zip(source.components()).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return None;
+    }
+    let up = std::iter::repeat_n("..", folder.components().count() - shared);
+    let down: PathBuf = source.components().skip(shared).collect();
+    Some(up.map(str::to_owned).chain([slashed(&down)]).collect::<Vec<_>>().join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_source_is_seen_from_its_conversion() {
+        let shop = tempfile::tempdir().unwrap();
+        let (out, program) = (shop.path().join("a/out"), shop.path().join("in/b/x.nc"));
+        fs::create_dir_all(&out).unwrap();
+        fs::create_dir_all(program.parent().unwrap()).unwrap();
+        fs::write(&program, "M30").unwrap();
+        assert_eq!(seen_from(&out, &program).as_deref(), Some("../../in/b/x.nc"));
+        assert_eq!(seen_from(&out, Path::new("-")), None);
+    }
+}

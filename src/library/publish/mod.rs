@@ -1,0 +1,119 @@
+//! What a run leaves in a folder: whole, current, and nobody else's.
+//!
+//! - `held`: one run at a time.
+//! - `journal`: a set of files becomes visible together, or not at all.
+//! - `manifest`: which files macroglot wrote, so that a later run knows what is stale and what a person changed.
+//! - `changes`: what a run replaces, takes away and leaves.
+
+mod changes;
+mod disk;
+mod held;
+mod journal;
+mod manifest;
+mod sync;
+
+pub use changes::{Told, Wanted, changes};
+pub use held::{Held, Recovered, abandon};
+pub use journal::is_pending;
+pub use manifest::{Kind, Manifest, ManifestError};
+
+use std::borrow::Cow;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A change of a folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change<'b> {
+    /// Where, from the output folder.
+    pub place: PathBuf,
+    /// What is to stand there; none for a file that is taken away.
+    pub bytes: Option<Cow<'b, [u8]>>,
+    /// Where what stands there now is kept, from the output folder.
+    pub aside: Option<PathBuf>,
+}
+
+/// Why nothing was written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// Two files for one place.
+    #[error("{0} and {1} would both be written to {2}; nothing was written")]
+    Collision(String, String, PathBuf),
+    /// A file that would overwrite an input.
+    #[error("{0} is an input and would be overwritten; nothing was written. Name another place for it")]
+    OverInput(PathBuf),
+    /// A place outside the output folder.
+    #[error("'{0}' would be written outside the output folder; nothing was written")]
+    Outside(String),
+    /// A place that cannot be written.
+    #[error("{0}: cannot be written: {1}; nothing was written")]
+    Unwritable(PathBuf, io::Error),
+    /// A file that nobody may change.
+    #[error("{0}: is read-only; nothing was written. Say --force to replace it")]
+    ReadOnly(PathBuf),
+    /// A set that is half in its place, and could not be taken back.
+    #[error(
+        "{0}: could not be written ({1}), nor brought back to what it was ({2}). Mend that and run the same again: it begins with that"
+    )]
+    HalfWay(PathBuf, io::Error, io::Error),
+}
+
+/// Publishes changes in a folder: all of them, or none.
+///
+/// # Errors
+/// Those of the disk; what can be found before anything is written is. Read-only files are replaced by `force` alone.
+pub fn publish(held: &Held, changes: &[Change<'_>], force: bool) -> Result<(), OutputError> {
+    let folder = held.folder();
+    changes.iter().try_for_each(|change| fits(folder, change, force))?;
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let _uninterrupted = held::uninterrupted();
+    journal::publish(folder, changes)
+}
+
+/// Writes one file in whatever folder.
+///
+/// # Errors
+/// As of [`publish`].
+pub fn write_file(path: &Path, bytes: &[u8], force: bool) -> Result<(), OutputError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (held, _) = Held::take(folder, || ())?;
+    let place = path.file_name().map(PathBuf::from).unwrap_or_default();
+    publish(&held, &[Change { place, bytes: Some(bytes.into()), aside: None }], force)
+}
+
+/// Looks whether a change can be made, before any is.
+fn fits(folder: &Path, change: &Change<'_>, force: bool) -> Result<(), OutputError> {
+    let places = [Some(&change.place), change.aside.as_ref()];
+    for place in places.into_iter().flatten().map(|place| folder.join(place)) {
+        let fault = |error| Err(OutputError::Unwritable(place.clone(), error));
+        match fs::symlink_metadata(&place) {
+            Ok(facts) if facts.is_dir() => return fault(io::ErrorKind::IsADirectory.into()),
+            Ok(facts) if facts.permissions().readonly() && !facts.is_symlink() && !force => {
+                return Err(OutputError::ReadOnly(place));
+            }
+            // A name that is too long shows here, and so does a file in the place of a folder.
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return fault(error),
+            _ => {}
+        }
+        if place.starts_with(folder) && !on_one_file_system(folder, &place) {
+            return fault(io::ErrorKind::CrossesDevices.into());
+        }
+    }
+    Ok(())
+}
+
+/// True if a file can be renamed from the folder to this place in it.
+#[cfg(unix)]
+fn on_one_file_system(folder: &Path, place: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let device = |path: &Path| fs::metadata(path).map(|facts| facts.dev()).ok();
+    let above = place.ancestors().skip(1).find_map(device);
+    above.is_none() || above == device(folder)
+}
+
+#[cfg(not(unix))]
+fn on_one_file_system(_: &Path, _: &Path) -> bool {
+    true
+}
