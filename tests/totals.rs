@@ -5,7 +5,7 @@ mod support;
 
 use macroglot::diag::{Code, Severity};
 use macroglot::dialect::{Control, registry};
-use macroglot::library::{Conversion, Lock, Options, Outcome, convert, gather};
+use macroglot::library::{Conversion, Found, Lock, Options, Outcome, convert, gather};
 use macroglot::syntax::{parse_file, parse_totals};
 use macroglot::verify::Outcome as Verdict;
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,7 +40,7 @@ fn reading(out: &mut String) {
     );
     out.push_str("|---|---:|---:|---:|---:|---:|---:|\n");
     for entry in registry::all() {
-        let (inputs, errors) = gather(&[root().join("corpus").join(entry.name)], &[]);
+        let Found { programs: inputs, errors, .. } = gather(&[root().join("corpus").join(entry.name)], &[]);
         assert!(errors.is_empty(), "{errors:?}");
         let (mut parsed, mut blocks, mut unparsed, mut lossless) = (0, 0, 0, 0);
         for input in &inputs {
@@ -162,7 +162,7 @@ fn refusals(out: &mut String, pairs: &[Pair]) {
 fn nothing_changes_from_a_control_to_itself() {
     for entry in registry::all() {
         let control = Control::plain(entry.name).unwrap();
-        let (inputs, _) = gather(&[root().join("corpus").join(entry.name)], &[]);
+        let Found { programs: inputs, .. } = gather(&[root().join("corpus").join(entry.name)], &[]);
         let lock = Lock::new(entry.name, entry.name);
         let conversion = convert(&inputs, &control, &control, lock, Options::default());
         for (input, text) in inputs.iter().zip(&conversion.texts) {

@@ -3,13 +3,19 @@
 use super::UNUSABLE;
 use super::streams::{complain, tell};
 use crate::dialect::{Control, Profile, registry};
-use crate::library::{Detected, Input, InputError, Project, detect, gather, looks_like};
+use crate::library::{Detected, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like};
 use std::path::{Path, PathBuf};
 
 /// Reads the programs under the paths; faults are said, and any of them is fatal.
 pub fn read(paths: &[PathBuf]) -> Result<Vec<Input>, u8> {
-    let (inputs, errors) = gather(paths, &endings());
-    fit(inputs, &errors)
+    read_all(paths).map(|(inputs, _)| inputs)
+}
+
+/// Reads the programs under the paths, and says what was left out.
+pub fn read_all(paths: &[PathBuf]) -> Result<(Vec<Input>, Vec<LeftOut>), u8> {
+    let Found { programs, mut left_out, errors } = gather(paths, &endings());
+    left_out.extend(errors.iter().filter_map(InputError::left_out));
+    Ok((fit(programs, &errors)?, left_out))
 }
 
 /// Endings of program files, by the tables of all dialects.
@@ -20,7 +26,7 @@ pub fn endings() -> Vec<String> {
 
 /// What was read of the programs, unless a fault among them is fatal.
 pub fn fit<T>(read: Vec<T>, errors: &[InputError]) -> Result<Vec<T>, u8> {
-    let harmless = |error: &InputError| matches!(error, InputError::Empty(_) | InputError::Binary(..));
+    let harmless = |error: &InputError| error.left_out().is_some();
     for error in errors {
         complain(error);
     }

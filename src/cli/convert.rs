@@ -49,6 +49,9 @@ pub struct Arguments {
     /// How to print the outcome
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Name every file of the folders that is left out
+    #[arg(long)]
+    verbose: bool,
     /// Print no diagnostics, only the summary
     #[arg(long, short)]
     quiet: bool,
@@ -106,6 +109,8 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             targets,
             notes: &job.notes,
             folder,
+            left_out: &job.left_out,
+            verbose: arguments.verbose,
         })
         .collect();
     let reports = outcome::reports(&arguments.report, &parts);

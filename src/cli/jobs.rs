@@ -1,10 +1,11 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
-use super::common::{control, controls, dialect_of, doubt, names, own_profile, read};
+use super::common::{control, controls, dialect_of, doubt, names, own_profile, read_all};
 use super::streams::{complain, tell};
 use crate::dialect::Control;
 use crate::library::{
-    Files, Held, Input, Lock, Manifest, Project, Recovered, certificate_of, plan, slashed, withheld_of,
+    Files, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, certificate_of, plan, slashed,
+    withheld_of,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,6 +14,8 @@ use std::path::{Path, PathBuf};
 pub struct Job {
     /// Its programs.
     pub inputs: Vec<Input>,
+    /// What was left out of the folders that were named.
+    pub left_out: Vec<LeftOut>,
     /// The control they are written for.
     pub source: Control,
     /// The control they go to.
@@ -77,7 +80,7 @@ pub fn jobs(wish: &Wish<'_>) -> Result<(Vec<Job>, Files), u8> {
 }
 
 fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
-    let inputs = read(wish.paths)?;
+    let (inputs, left_out) = read_all(wish.paths)?;
     let from = dialect_of(wish.from, &inputs)?;
     let Some(to) = wish.to else {
         return Err(complain(format!("say the control to convert for with --to: one of {}", names())));
@@ -86,7 +89,7 @@ fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
     read_too.extend(own);
     planned(
-        inputs,
+        (inputs, left_out),
         source,
         target,
         wish.out.map(|folder| hold(folder).map(|held| (folder, held))).transpose()?,
@@ -139,7 +142,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     let mut held = hold_all(&ways)?;
     let planned = ways.into_iter().map(|way| {
         let out = held.remove(&way.folder).map(|held| (way.folder.as_path(), held));
-        planned(read(&[way.path])?, way.source, way.target, out)
+        planned(read_all(&[way.path])?, way.source, way.target, out)
     });
     planned.collect()
 }
@@ -187,7 +190,7 @@ fn hold(folder: &Path) -> Result<Held, u8> {
 }
 
 fn planned(
-    inputs: Vec<Input>,
+    (inputs, left_out): (Vec<Input>, Vec<LeftOut>),
     source: Control,
     target: Control,
     out: Option<(&Path, Held)>,
@@ -216,7 +219,7 @@ fn planned(
         None => (None, fresh),
     };
     let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, source, target, out, lock, notes })
+    Ok(Job { inputs, left_out, source, target, out, lock, notes })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

@@ -2,8 +2,8 @@
 
 use super::{FOUND, WELL, common, streams};
 use crate::dialect::registry;
-use crate::library::{Input, InputError, Source, sources};
-use crate::report::Sheet;
+use crate::library::{Found, Input, InputError, LeftOut, Source, sources};
+use crate::report::{Sheet, left_out_text};
 use crate::syntax::{ParseTotals, Parser, parse_faults, parse_totals};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -19,6 +19,9 @@ pub struct Arguments {
     /// How to print the counts
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Name every file of the folders that is left out
+    #[arg(long)]
+    verbose: bool,
     /// Draw every fault that is found
     #[arg(long)]
     faults: bool,
@@ -30,7 +33,7 @@ enum Format {
     Json,
 }
 
-#[derive(serde::Serialize)]
+#[derive(Default, serde::Serialize)]
 struct Counts {
     files: usize,
     bytes: usize,
@@ -39,6 +42,8 @@ struct Counts {
     faulty: usize,
     lossless: usize,
     seconds: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<LeftOut>,
 }
 
 pub fn run(arguments: &Arguments) -> u8 {
@@ -48,8 +53,8 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn work(arguments: &Arguments) -> Result<u8, u8> {
-    let (sources, errors) = sources(&arguments.paths, &common::endings());
-    let mut sources = common::fit(sources, &errors)?;
+    let Found { programs, mut left_out, errors } = sources(&arguments.paths, &common::endings());
+    let mut sources = common::fit(programs, &errors)?;
     let heads = if arguments.dialect.is_some() { &mut [] } else { sources.as_mut_slice() };
     // What cannot be read is said below.
     let heads: Vec<Input> = heads.iter_mut().filter_map(|source| source.head().ok()).collect();
@@ -61,8 +66,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         )));
     };
     let start = Instant::now();
-    let mut counts =
-        Counts { files: 0, bytes: 0, blocks: 0, unparsed: 0, faulty: 0, lossless: 0, seconds: 0.0 };
+    let mut counts = Counts::default();
     let (mut read, mut errors) = (Vec::new(), Vec::new());
     for source in sources {
         match totals(source, parse, arguments.faults) {
@@ -79,11 +83,14 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         }
     }
     common::fit(read, &errors)?;
+    left_out.extend(errors.iter().filter_map(InputError::left_out));
+    counts.left_out = left_out;
     counts.seconds = start.elapsed().as_secs_f64();
     match arguments.format {
         Format::Json => streams::print(&(serde_json::to_string(&counts).unwrap_or_default() + "\n"))?,
         Format::Text => streams::print(&format!(
-            "{} files, {} bytes, {} blocks: {} unparsed, {} with faults; {} of {} files lossless; {:.3} s\n",
+            "{}{} files, {} bytes, {} blocks: {} unparsed, {} with faults; {} of {} files lossless; {:.3} s\n",
+            left_out_text(&counts.left_out, arguments.verbose),
             counts.files,
             counts.bytes,
             counts.blocks,

@@ -145,10 +145,9 @@ mod tests {
     use crate::library::gather;
 
     fn corpus(dialect: &str) -> Vec<Input> {
-        let (inputs, errors) =
-            gather(&[format!("{}/corpus/{dialect}", env!("CARGO_MANIFEST_DIR")).into()], &[]);
-        assert!(errors.is_empty());
-        inputs
+        let found = gather(&[format!("{}/corpus/{dialect}", env!("CARGO_MANIFEST_DIR")).into()], &[]);
+        assert!(found.errors.is_empty());
+        found.programs
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Finds and reads the programs that a command was given.
 
+use super::walk::{LeftOut, Walked, WhyNot, walk};
 use crate::text::MAX_FILE;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -48,44 +49,65 @@ pub enum InputError {
     Twice(PathBuf, PathBuf, String),
 }
 
-/// Endings that program files have, over and above those of the dialects' tables.
-const ENDINGS: &[&str] = &[
-    "nc", "cnc", "ngc", "tap", "eia", "iso", "prg", "pgm", "mpf", "spf", "min", "txt", "prog", "gcode", "g",
-    "ncf", "fnc", "h",
-];
+impl InputError {
+    /// The file that is left out for it, if it is one that harms nothing in a folder of programs.
+    pub fn left_out(&self) -> Option<LeftOut> {
+        let (path, why) = match self {
+            Self::Empty(path) => (path, WhyNot::Empty),
+            Self::Binary(path, ..) => (path, WhyNot::Binary),
+            _ => return None,
+        };
+        Some(LeftOut { path: path.clone(), why })
+    }
+}
 
 /// Bytes that are looked at to tell a binary file from a program.
 const HEAD: usize = 64 * 1024;
 
+/// What was found under the paths of a command.
+#[derive(Debug)]
+pub struct Found<T> {
+    /// The programs.
+    pub programs: Vec<T>,
+    /// What was left out of folders.
+    pub left_out: Vec<LeftOut>,
+    /// Paths and files that could not be read.
+    pub errors: Vec<InputError>,
+}
+
 /// Reads every program under the paths. Faults of single files come back beside what could be read.
-pub fn gather(paths: &[PathBuf], endings: &[String]) -> (Vec<Input>, Vec<InputError>) {
-    let mut inputs = Vec::new();
-    let (sources, mut errors) = sources(paths, endings);
+pub fn gather(paths: &[PathBuf], endings: &[String]) -> Found<Input> {
+    let Found { programs: sources, left_out, mut errors } = sources(paths, endings);
+    let mut programs = Vec::new();
     for source in sources {
         match source.read() {
-            Ok(input) => inputs.push(input),
+            Ok(input) => programs.push(input),
             Err(error) => errors.push(error),
         }
     }
-    (inputs, errors)
+    Found { programs, left_out, errors }
 }
 
-/// Finds every program under the paths: a file whatever its ending, in a folder
-/// those whose ending programs have (or that have none). Ignore files are honoured.
-pub fn sources(paths: &[PathBuf], endings: &[String]) -> (Vec<Source>, Vec<InputError>) {
+/// Finds every program under the paths: a file whatever its ending, in a folder what [`walk`] finds.
+pub fn sources(paths: &[PathBuf], endings: &[String]) -> Found<Source> {
     let mut sources = BTreeMap::new();
-    let mut errors = Vec::new();
+    let mut all = Found { programs: Vec::new(), left_out: Vec::new(), errors: Vec::new() };
     for path in paths {
         match find(path, endings) {
             Ok(found) => {
-                for (path, name) in found {
-                    add(&mut sources, Source { path, name, start: Vec::new() }, &mut errors);
+                all.left_out.extend(found.left_out);
+                for (path, name) in found.programs {
+                    add(&mut sources, Source { path, name, start: Vec::new() }, &mut all.errors);
                 }
             }
-            Err(error) => errors.push(error),
+            Err(error) => all.errors.push(error),
         }
     }
-    (sources.into_values().collect(), errors)
+    // What is named by hand besides is not left out.
+    let read = Files::of(sources.values().map(|source| source.path.as_path()));
+    all.left_out.retain(|left| left.why == WhyNot::Link || !read.holds(&left.path));
+    all.programs = sources.into_values().collect();
+    all
 }
 
 fn add(sources: &mut BTreeMap<String, Source>, source: Source, errors: &mut Vec<InputError>) {
@@ -137,44 +159,19 @@ impl Files {
     }
 }
 
-fn find(path: &Path, endings: &[String]) -> Result<Vec<(PathBuf, String)>, InputError> {
+fn find(path: &Path, endings: &[String]) -> Result<Walked, InputError> {
+    let one = |name: String| Walked { programs: vec![(path.to_owned(), name)], left_out: Vec::new() };
     if path == Path::new("-") {
-        return Ok(vec![(path.to_owned(), "stdin.nc".into())]);
+        return Ok(one("stdin.nc".into()));
     }
     let facts = fs::metadata(path).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => InputError::Missing(path.to_owned()),
         _ => InputError::Unreadable(path.to_owned(), error),
     })?;
-    if !facts.is_dir() {
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        return Ok(vec![(path.to_owned(), name)]);
+    if facts.is_dir() {
+        return walk(path, endings);
     }
-    let mut found = Vec::new();
-    let walk = ignore::WalkBuilder::new(path).require_git(false).sort_by_file_path(Path::cmp).build();
-    for entry in walk {
-        let entry =
-            entry.map_err(|error| InputError::Unreadable(path.to_owned(), io::Error::other(error)))?;
-        if entry.file_type().is_some_and(|kind| kind.is_file()) && is_program(entry.path(), endings) {
-            let name = entry.path().strip_prefix(path).map(slashed).unwrap_or_default();
-            found.push((entry.into_path(), name));
-        }
-    }
-    if found.is_empty() {
-        let endings = ENDINGS.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" ");
-        return Err(InputError::NoPrograms(path.to_owned(), endings));
-    }
-    Ok(found)
-}
-
-fn is_program(path: &Path, endings: &[String]) -> bool {
-    match path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()) {
-        Some(ending) => ENDINGS.contains(&ending.as_str()) || endings.contains(&ending),
-        // Controls write O1234 and the like; build files and licences have no ending either.
-        None => path.file_name().is_some_and(|name| {
-            let name = name.to_string_lossy().to_ascii_uppercase();
-            name.strip_prefix('O').unwrap_or(&name).bytes().all(|b| b.is_ascii_digit())
-        }),
-    }
+    Ok(one(path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())))
 }
 
 /// A path with `/` between its parts, wherever it is written down.
@@ -315,15 +312,6 @@ mod tests {
         );
         assert_eq!(binary_byte(b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03", true), Some(4));
         assert_eq!(binary_byte(b"\0\0\0", true), Some(0));
-    }
-
-    #[test]
-    fn files_without_ending_are_programs_by_their_number() {
-        for (name, program) in
-            [("O1234", true), ("8010", true), ("README", false), ("a.NC", true), ("a.tsv", false)]
-        {
-            assert_eq!(is_program(Path::new(name), &[]), program, "{name}");
-        }
     }
 
     #[test]

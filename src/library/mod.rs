@@ -20,11 +20,12 @@ mod publish;
 mod refused_calls;
 mod segments;
 mod verified;
+mod walk;
 mod withdrawn;
 
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
 pub use detect::{Detected, detect, looks_like};
-pub use inputs::{Files, Input, InputError, Source, gather, same_file, slashed, sources};
+pub use inputs::{Files, Found, Input, InputError, Source, gather, same_file, slashed, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
 pub use project::{Library, Machine, Project, ProjectError};
@@ -33,3 +34,4 @@ pub use publish::{
     is_pending, publish, write_file,
 };
 pub use verified::{Certificates, judge};
+pub use walk::{LeftOut, WhyNot};

@@ -1,12 +1,12 @@
 //! A conversion as JSON. Its keys are a contract: `programs` with `source`, `target`, `program`,
-//! `outcome`, `diagnostics`; `totals`; and `notes` and `folders`, if there is something to be said of the programs as a
-//! whole, or of files of earlier runs.
+//! `outcome`, `diagnostics`; `totals`; and `notes`, `folders` and `left_out`, if there is something to be said of the
+//! programs as a whole, of files of earlier runs, or of files that were not read.
 //!
 //! It is written piece by piece: a library of many findings makes more of it than of itself.
 
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
-use crate::library::{Input, Outcome, ProgramReport, Told};
+use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
 use crate::text::LineIndex;
 use crate::verify;
 use serde::{Serialize, Serializer};
@@ -21,6 +21,8 @@ struct Report<'a> {
     notes: Vec<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     folders: Vec<&'a Told>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<&'a LeftOut>,
 }
 
 #[derive(Serialize)]
@@ -64,8 +66,9 @@ pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     // Of a known type: what it is given are mostly single marks.
     let mut out = io::BufWriter::with_capacity(64 * 1024, out);
     let notes = parts.iter().flat_map(|part| part.notes).map(String::as_str).collect();
+    let left_out = parts.iter().flat_map(|part| part.left_out).collect();
     let folders = parts.iter().map(|part| part.folder).filter(|told| !told.is_empty()).collect();
-    let report = Report { programs: parts, totals: Totals::of(parts), notes, folders };
+    let report = Report { programs: parts, totals: Totals::of(parts), notes, folders, left_out };
     serde_json::to_writer_pretty(&mut out, &report)?;
     out.write_all(b"\n")?;
     out.flush()

@@ -16,7 +16,7 @@ pub use markdown::conversion as markdown;
 pub use part::{Part, Place};
 pub use plot::backplot;
 pub use sarif::conversion as sarif;
-pub use text::{Sheet, explain, summary};
+pub use text::{Sheet, explain, left_out_text, summary};
 pub use totals::Totals;
 pub use trace::{trace_json, trace_text};
 

@@ -1,7 +1,7 @@
 //! What every renderer renders: libraries, and what became of them.
 
 use crate::diag::Diagnostic;
-use crate::library::{Conversion, Input, Told};
+use crate::library::{Conversion, Input, LeftOut, Told};
 use crate::text::LineIndex;
 use std::path::PathBuf;
 
@@ -22,6 +22,10 @@ pub struct Part<'a> {
     pub notes: &'a [String],
     /// What a person is told of the output folder.
     pub folder: &'a Told,
+    /// What was left out of the folders that were named.
+    pub left_out: &'a [LeftOut],
+    /// True if each of those is named, and not counted alone.
+    pub verbose: bool,
 }
 
 /// A place in a file, as people and their editors count: from 1.

@@ -2,11 +2,11 @@
 
 use super::{Part, Totals};
 use crate::diag::{Code, Diagnostic, Severity};
-use crate::library::{Outcome, Told};
+use crate::library::{LeftOut, Outcome, Told};
 use crate::text::{shown, shown_lines};
 use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents};
 use miette::{Report, SourceCode, SourceSpan, SpanContents};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -128,6 +128,7 @@ pub fn summary(parts: &[Part<'_>]) -> String {
         }
         list(&mut out, part);
         folder(&mut out, part.folder);
+        out.push_str(&left_out_text(part.left_out, part.verbose));
     }
     let _ = writeln!(out, "{}", Totals::of(parts));
     out
@@ -155,6 +156,23 @@ fn list(out: &mut String, part: &Part<'_>) {
         };
         let _ = writeln!(out, "registers taken: {taken}{ask}");
     }
+}
+
+/// How many files were left out, and why; each by its name too.
+pub fn left_out_text(left_out: &[LeftOut], named: bool) -> String {
+    let mut out = String::new();
+    for left in left_out.iter().filter(|_| named) {
+        let _ = writeln!(out, "left out   {}: {}", shown(&left.path.to_string_lossy()), left.why.words());
+    }
+    let mut counts = BTreeMap::new();
+    left_out.iter().for_each(|left| *counts.entry(left.why).or_insert(0) += 1);
+    let counts: Vec<String> =
+        counts.into_iter().map(|(why, n): (_, usize)| format!("{n} {}", why.words())).collect();
+    if !counts.is_empty() {
+        let ask = if named { "" } else { "; --verbose names them" };
+        let _ = writeln!(out, "left out: {}{ask}", counts.join(", "));
+    }
+    out
 }
 
 /// What became of files of earlier runs.

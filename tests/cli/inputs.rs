@@ -127,3 +127,56 @@ fn two_programs_with_one_number() {
         }
     }
 }
+
+/// What is not read is counted, with the reason, and named if that is asked for.
+#[cfg(unix)]
+#[test]
+fn nothing_is_left_out_in_silence() {
+    let shop = Shop::with(&[
+        ("in/a.nc", CLEAN),
+        ("in/.b.nc", CLEAN),
+        ("in/.git/x/y.nc", CLEAN),
+        ("in/old/c.nc", CLEAN),
+        ("in/.gitignore", "old/\n"),
+        ("in/d.pdf", "x"),
+        ("in/e.nc", ""),
+        ("in/macroglot.toml", ""),
+    ]);
+    shop.write("in/f.nc", b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03\0\0\0");
+    std::os::unix::fs::symlink(shop.path("in/a.nc"), shop.path("in/g.nc")).unwrap();
+    let line = "convert in --from fanuc --to haas --out out --quiet";
+    let counted = "left out: 3 hidden, 1 ignored, 1 a link, 1 of no known ending, 1 empty, 1 binary";
+    let run = shop.run(line);
+    assert!(run.out.contains(&format!("{counted}; --verbose names them\n")), "{}", run.out);
+    let run = shop.run(&format!("{line} --verbose"));
+    for told in [
+        "in/.b.nc: hidden",
+        "in/.git: hidden",
+        "in/.gitignore: hidden",
+        "in/old: ignored",
+        "in/g.nc: a link",
+        "in/d.pdf: of no known ending",
+        "in/e.nc: empty",
+        "in/f.nc: binary",
+    ] {
+        assert!(run.out.contains(&format!("left out   {told}\n")), "{told}: {}", run.out);
+    }
+    let run = shop.run(&format!("{line} --format json"));
+    assert!(run.out.contains("\"path\": \"in/old\",\n      \"why\": \"ignored\""), "{}", run.out);
+    let run = shop.run("parse in --dialect fanuc");
+    assert!(run.out.starts_with(counted), "{}", run.out);
+    let run = shop.run("parse in --dialect fanuc --format json");
+    assert!(run.out.contains("{\"path\":\"in/d.pdf\",\"why\":\"unknown\"}"), "{}", run.out);
+}
+
+/// An ignore file says what a walk passes by; a folder that is named by hand is not passed by.
+#[test]
+fn an_ignored_folder_that_is_named_is_read() {
+    let shop = Shop::with(&[(".gitignore", "made/*\n"), ("made/a.nc", CLEAN), ("b.nc", CLEAN)]);
+    for named in ["made", "made/a.nc"] {
+        let run = shop.run(&format!("convert {named} --from fanuc --to haas --out out"));
+        assert_eq!((run.code, run.err.as_str()), (0, ""), "{named}");
+    }
+    let run = shop.run("parse . --dialect fanuc");
+    assert!(run.out.starts_with("left out: 1 hidden, 1 ignored"), "{}", run.out);
+}

@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test uses its part
 
 use macroglot::dialect::{Control, Profile, registry};
-use macroglot::library::{Conversion, Input, Lock, Options, Project, convert, gather, judge};
+use macroglot::library::{Conversion, Found, Input, Lock, Options, Project, convert, gather, judge};
 use macroglot::verify::{Certificate, Effort};
 use std::path::{Path, PathBuf};
 
@@ -58,7 +58,7 @@ pub fn pairs() -> Vec<Pair> {
     for library in project.libraries.values() {
         for machine in library.targets.keys() {
             let (source, target) = (control_of(&library.machine), control_of(machine));
-            let (inputs, errors) = gather(&[root().join(&library.path)], &[]);
+            let Found { programs: inputs, errors, .. } = gather(&[root().join(&library.path)], &[]);
             assert!(errors.is_empty(), "{errors:?}");
             let lock = Lock::new(source.name(), target.name());
             let mut conversion = convert(&inputs, &source, &target, lock, Options::default());
