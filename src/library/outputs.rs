@@ -85,8 +85,13 @@ mod tests {
         assert!(matches!(plan(folder, &["a/../../b.nc"], &[]), Err(OutputError::Outside(_))));
         assert!(matches!(plan(folder, &["/etc/x.nc"], &[]), Err(OutputError::Outside(_))));
         assert!(matches!(plan(folder, &["a.nc", "A.NC"], &[]), Err(OutputError::Collision(..))));
-        let input = Input { path: "out/a.nc".into(), name: "a.nc".into(), bytes: vec![] };
-        assert!(matches!(plan(folder, &["a.nc"], &[input]), Err(OutputError::OverInput(_))));
+        let there = tempfile::tempdir().unwrap();
+        let path = there.path().join("a.nc");
+        fs::write(&path, "M30").unwrap();
+        let input = Input { path, name: "a.nc".into(), bytes: vec![] };
+        assert!(matches!(plan(there.path(), &["a.nc"], &[input]), Err(OutputError::OverInput(_))));
+        let own = plan(folder, &["macroglot.manifest"], &[]);
+        assert!(matches!(own, Err(OutputError::Collision(..))));
         assert_eq!(plan(folder, &["x/a.nc"], &[]).ok(), Some(vec![PathBuf::from("out/x/a.nc")]));
     }
 }
