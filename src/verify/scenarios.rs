@@ -17,8 +17,10 @@ pub struct Proposals<'i> {
     random: Random,
     effort: Effort,
     count: usize,
-    /// Single values that are still to be tried, by variable and by which of the two ground states.
-    singles: Vec<(usize, Option<f64>, bool)>,
+    /// Single values that are still to be tried, by variable, and the ground state of the others.
+    singles: Vec<(usize, Option<f64>, usize)>,
+    /// The same on the other ground states, for ways that were not gone until then.
+    again: Vec<(usize, Option<f64>, usize)>,
     /// Pairs of variables that are compared with each other, and by how much the second is to be more.
     pairs: Vec<(usize, usize, f64)>,
     /// Answers of the operator that are still to be tried.
@@ -38,6 +40,9 @@ const ANSWERS: u32 = 48;
 /// The ground states that come before anything is drawn, at the least: each setting of the skip switches comes in them.
 const GROUNDS: usize = 8;
 
+/// The ground states that a single value is tried on if ways are left: all others 0, vacant, and negative.
+const OTHER_GROUNDS: [usize; 3] = [4, 0, 5];
+
 /// The first answers to questions that are one and the same, where an answer is tried; a loop until a sensible one ends.
 const SAME_ANSWERS: u32 = 4;
 
@@ -55,12 +60,16 @@ impl<'i> Proposals<'i> {
             ranked.extend(values.enumerate().map(|(rank, value)| (rank, at, value)));
         }
         ranked.sort_by_key(|(rank, at, _)| (*rank, *at));
-        let singles = ranked.into_iter().map(|(rank, at, value)| (at, value, rank % 2 == 1)).rev().collect();
+        let others =
+            ranked.iter().flat_map(|(_, at, value)| OTHER_GROUNDS.map(|ground| (*at, *value, ground)));
+        let again = others.rev().collect();
+        let ground = |rank: usize| if rank % 2 == 1 { 7 } else { 1 };
+        let singles = ranked.iter().rev().map(|(rank, at, value)| (*at, *value, ground(*rank))).collect();
         let apart = |(a, b): &(usize, usize)| [0.0, 1.0, -1.0].map(|more| (*a, *b, more));
         let pairs = inputs.pairs.iter().flat_map(apart).collect();
         let answers = if inputs.asks { inputs.numbers.iter().rev().copied().collect() } else { Vec::new() };
         let (random, theirs, skips) = (Random::new(effort.seed), BTreeMap::new(), skips(inputs));
-        Self { inputs, random, effort, count: 0, singles, pairs, answers, theirs, skips }
+        Self { inputs, random, effort, count: 0, singles, pairs, answers, theirs, skips, again }
     }
 
     /// What is in registers that the target alone has, in the last scenario.
@@ -87,17 +96,17 @@ impl<'i> Proposals<'i> {
         self.count += 1;
         let (mut variables, mut theirs) = (BTreeMap::new(), BTreeMap::new());
         let is_ground = count < self.grounds();
-        let drawn = !is_ground && (count % 4 == 1 || self.singles.is_empty());
+        let drawn = !is_ground && (count % 4 == 1 || (self.singles.is_empty() && count % 2 == 1));
         let pair = if is_ground || drawn { None } else { self.pairs.pop() };
-        let single = if is_ground || drawn || pair.is_some() { None } else { self.singles.pop() };
+        let single = if is_ground || drawn || pair.is_some() {
+            None
+        } else {
+            self.singles.pop().or_else(|| self.again.pop())
+        };
         let answer = if is_ground || single.is_some() { None } else { self.answers.pop() };
         for (at, input) in self.inputs.variables.iter().enumerate() {
             let ordinal = at as f64 + 1.0;
-            let ground = match single {
-                Some((_, _, true)) => 7,
-                Some((_, _, false)) => 1,
-                None => count,
-            };
+            let ground = single.map_or(count, |(_, _, ground)| ground);
             let value = match (single, ground) {
                 // Nothing but the two, so that what other variables decide is out of the way.
                 _ if pair.is_some() => pair.and_then(|(a, b, more)| match at {

@@ -2,13 +2,16 @@
 
 use super::solve::{constant, solve};
 use super::{Input, Inputs, name_of};
-use crate::canon::{Op, Sys};
+use crate::canon::{Func, Op, Sys};
 use crate::dialect::Control;
 use crate::syntax::{
     BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Row, Target, TestSubject, VarRef, Word, for_each_expr,
 };
 use crate::verify::names::class_of;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Assignments that a number is followed back through, at the most.
+const STEPS_BACK: usize = 4;
 
 /// Reads the items of programs, one after the other.
 pub(super) struct Reader<'c> {
@@ -19,6 +22,8 @@ pub(super) struct Reader<'c> {
     written: BTreeSet<String>,
     order: Vec<String>,
     compared: BTreeMap<String, Vec<f64>>,
+    /// What was written last into a variable, if it is made of one variable.
+    made_of: BTreeMap<String, Expr>,
     numbers: Vec<f64>,
     /// State that is read, and the numbers that it is compared with.
     cells: BTreeMap<(Sys, Vec<u32>), Vec<f64>>,
@@ -38,6 +43,7 @@ impl<'c> Reader<'c> {
             written: BTreeSet::new(),
             order: Vec::new(),
             compared: BTreeMap::new(),
+            made_of: BTreeMap::new(),
             numbers: Vec::new(),
             cells: BTreeMap::new(),
             skips: BTreeSet::new(),
@@ -75,6 +81,7 @@ impl<'c> Reader<'c> {
                 self.numbers.extend(step(target, value));
                 self.asks |= self.state_of(target) == Some(Sys::StopMessage);
                 self.write(target, sure);
+                self.make(target, value);
             }
             ItemKind::Timer(target) => self.write(target, sure),
             ItemKind::Input { targets, .. } => {
@@ -117,9 +124,31 @@ impl<'c> Reader<'c> {
         }
     }
 
+    /// Remembers what a variable is made of, to say what that must be for a condition on it.
+    fn make(&mut self, target: &VarRef, value: &Expr) {
+        let Some(name) = name_of(target) else { return };
+        match solve(value, 1.0) {
+            Some(_) => self.made_of.insert(name, value.clone()),
+            None => self.made_of.remove(&name),
+        };
+    }
+
     fn read_in(&mut self, e: &Expr) {
-        if let ExprKind::Variable(variable) = &e.kind {
-            self.read(variable);
+        match &e.kind {
+            ExprKind::Variable(variable) => self.read(variable),
+            ExprKind::Call { function: Func::Asin | Func::Acos, arguments, .. } => self.in_domain(arguments),
+            _ => {}
+        }
+    }
+
+    /// Has arguments on both sides of 0 tried, of functions that take little else.
+    fn in_domain(&mut self, arguments: &[Expr]) {
+        let [argument] = arguments else { return };
+        for wanted in [-0.5, 0.5] {
+            let Some((variable, value)) = solve(argument, wanted) else { return };
+            let Some(name) = name_of(variable) else { return };
+            self.trace_back(name.clone(), vec![value]);
+            self.compared.entry(name).or_default().push(value);
         }
     }
 
@@ -202,7 +231,24 @@ impl<'c> Reader<'c> {
         if let Some(cell) = self.cell(variable) {
             self.cells.entry(cell).or_default().extend(near);
         } else if let Some(name) = name_of(variable) {
+            self.trace_back(name.clone(), near.clone());
             self.compared.entry(name).or_default().extend(near);
+        }
+    }
+
+    /// Has numbers tried in what a variable is made of: `#2=ASIN[#1]` is -30 for #1 -0.5.
+    fn trace_back(&mut self, mut name: String, mut values: Vec<f64>) {
+        for _ in 0..STEPS_BACK {
+            let Some(value) = self.made_of.get(&name) else { return };
+            let found = values.iter().filter_map(|wanted| solve(value, *wanted));
+            let found: Vec<_> = found.filter_map(|(variable, n)| Some((name_of(variable)?, n))).collect();
+            let Some(from) = found.first().map(|(from, _)| from.clone()) else { return };
+            values = found.into_iter().map(|(_, n)| n).filter(|n| n.abs() < 1e7).collect();
+            self.compared.entry(from.clone()).or_default().extend(&values);
+            if from == name {
+                return;
+            }
+            name = from;
         }
     }
 

@@ -15,6 +15,7 @@ pub fn solve(e: &Expr, wanted: f64) -> Option<(&VarRef, f64)> {
         ExprKind::Call { function, arguments, .. } => match (function, arguments.as_slice()) {
             (Func::Abs | Func::Fix | Func::Fup | Func::Round, [inner]) => solve(inner, wanted),
             (Func::Sqrt, [inner]) => solve(inner, wanted * wanted),
+            (function, [inner]) => solve(inner, argument(*function, wanted)?),
             _ => None,
         },
         ExprKind::Binary(op, a, b) => match (op, constant(a), constant(b)) {
@@ -30,6 +31,20 @@ pub fn solve(e: &Expr, wanted: f64) -> Option<(&VarRef, f64)> {
         },
         _ => None,
     }
+}
+
+/// An argument for which a function of angles has a value, to four places: enough to come near what is wanted.
+fn argument(function: Func, wanted: f64) -> Option<f64> {
+    let argument = match function {
+        Func::Asin => wanted.to_radians().sin(),
+        Func::Acos => wanted.to_radians().cos(),
+        Func::Atan => wanted.to_radians().tan(),
+        Func::Sin => wanted.asin().to_degrees(),
+        Func::Cos => wanted.acos().to_degrees(),
+        Func::Tan => wanted.atan().to_degrees(),
+        _ => return None,
+    };
+    argument.is_finite().then(|| (argument * 1e4).round() / 1e4)
 }
 
 /// The value of an expression without variables: numbers, and the four operations on them.
