@@ -30,6 +30,8 @@ pub struct Inputs {
     pub asks: bool,
     /// True for each of A, B and C that a program of the library moves.
     pub rotary: [bool; 3],
+    /// True if the control has tool offsets past 99.
+    pub many_tools: bool,
     /// The unit that the machine must be set to, where the program checks it: true for inch.
     pub inch: Option<bool>,
 }
@@ -103,7 +105,14 @@ fn inputs_by(side: &Side<'_>, program: ProgramRef, order: &[u32]) -> Inputs {
         }
         at += 1;
     }
-    Inputs { rotary: ['A', 'B', 'C'].map(|letter| moves(side, letter)), ..reader.finish() }
+    let rotary = ['A', 'B', 'C'].map(|letter| moves(side, letter));
+    Inputs { rotary, many_tools: has_many_tools(side), ..reader.finish() }
+}
+
+/// True if a table of tool offsets has more rows than two digits count.
+fn has_many_tools(side: &Side<'_>) -> bool {
+    let rows = side.control.dialect().system.iter().filter(|row| row.state.is_tool_offset());
+    rows.filter_map(|row| row.subscripts.first()).any(|subscript| subscript.count > 99)
 }
 
 /// True where a program of the library has a word of this axis.

@@ -199,9 +199,9 @@ impl<'i> Proposals<'i> {
         scenario
     }
 
-    /// Now and then a tool of more than two digits, small tools and near offsets: conditions name sizes and places too.
+    /// Now and then a tool of more than two digits, if the control has such, small tools and near offsets: conditions name sizes and places too.
     fn tables(&mut self, scenario: &mut Scenario, count: usize) {
-        if count % 4 == 2 {
+        if count % 4 == 2 && self.inputs.many_tools {
             let row = scenario.tools.get(&scenario.tool).copied().unwrap_or_default();
             scenario.tool *= 101;
             scenario.tools.insert(scenario.tool, row);

@@ -279,6 +279,7 @@ impl<'c> Reader<'c> {
             skips: self.skips,
             asks: self.asks,
             rotary: [false; 3],
+            many_tools: false,
             inch: self.inch,
         }
     }
