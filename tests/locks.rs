@@ -11,13 +11,16 @@ fn converted(files: &[(&str, &str)], lock: Lock, profile: &str) -> Conversion {
     let source = Control::plain("fadal").unwrap();
     let profile = Profile::read(&format!("dialect = \"fanuc\"\n{profile}")).unwrap();
     let target = Control::new(registry::find("fanuc").unwrap(), profile).unwrap();
+    convert(&inputs(files), &source, &target, lock, Options::default())
+}
+
+fn inputs(files: &[(&str, &str)]) -> Vec<Input> {
     let input = |(name, text): &(&str, &str)| Input {
         path: PathBuf::from(name),
         name: (*name).into(),
         bytes: text.as_bytes().to_vec(),
     };
-    let inputs: Vec<Input> = files.iter().map(input).collect();
-    convert(&inputs, &source, &target, lock, Options::default())
+    files.iter().map(input).collect()
 }
 
 fn empty() -> Lock {
@@ -79,13 +82,7 @@ fn a_program_keeps_the_number_that_it_was_given() {
 /// A library of Fanuc programs, for the Haas, whose numbers end at #699 and begin again at #800.
 fn to_haas(files: &[(&str, &str)], lock: Lock) -> Conversion {
     let (source, target) = (Control::plain("fanuc").unwrap(), Control::plain("haas").unwrap());
-    let input = |(name, text): &(&str, &str)| Input {
-        path: PathBuf::from(name),
-        name: (*name).into(),
-        bytes: text.as_bytes().to_vec(),
-    };
-    let inputs: Vec<Input> = files.iter().map(input).collect();
-    convert(&inputs, &source, &target, lock, Options::default())
+    convert(&inputs(files), &source, &target, lock, Options::default())
 }
 
 fn codes(made: &Conversion) -> Vec<&'static str> {

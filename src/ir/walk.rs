@@ -7,6 +7,7 @@ use super::{
     Call, Callee, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program, StmtKind, TermKind,
     Var,
 };
+use crate::canon::Op;
 
 /// Writes a visitor by shared and by exclusive reference from one text.
 macro_rules! visitors {
@@ -187,6 +188,11 @@ impl StmtKind {
     /// Its NC words, where it is a block of them.
     pub fn nc(&self) -> Option<&Nc> {
         if let StmtKind::Nc(nc) = self { Some(nc) } else { None }
+    }
+
+    /// True for a block of NC words that has this operation.
+    pub fn has_op(&self, op: Op) -> bool {
+        self.nc().is_some_and(|nc| nc.has(op))
     }
 
     /// The place that the statement writes by itself.

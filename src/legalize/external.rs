@@ -9,7 +9,7 @@ use super::Context;
 use super::behind::behind;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, Place, StmtKind};
 use crate::text::Span;
 
 const ONE: &str = "shift.local.is.external";
@@ -38,13 +38,12 @@ fn set_positions(module: &Module, context: &mut Context<'_>) {
     {
         return;
     }
-    let has = |stmt: &Stmt, op: Op| stmt.kind.nc().is_some_and(|nc| nc.has(op));
     behind(
         module,
-        |stmt| has(stmt, Op::LocalShift),
+        |stmt| stmt.kind.has_op(Op::LocalShift),
         |_| false,
         |index, stmt| {
-            if has(stmt, Op::SetPosition) {
+            if stmt.kind.has_op(Op::SetPosition) {
                 context.rests_on_source(index, stmt.site.span, ENDS);
                 context.rests_on_target(index, stmt.site.span, ENDS);
                 if context.source.is(ENDS) != context.target.is(ENDS) {

@@ -8,17 +8,16 @@ use super::Context;
 use super::behind::behind;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Module, Stmt};
+use crate::ir::Module;
 
 /// Reports selections behind a set position.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let has = |stmt: &Stmt, op: Op| stmt.kind.nc().is_some_and(|nc| nc.has(op));
     behind(
         module,
-        |stmt| has(stmt, Op::SetPosition),
+        |stmt| stmt.kind.has_op(Op::SetPosition),
         |_| false,
         |index, stmt| {
-            if has(stmt, Op::SelectWork) {
+            if stmt.kind.has_op(Op::SelectWork) {
                 let what = "a work offset is selected where a position that was set may be in force: whether that ends it is not known of both controls";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }

@@ -11,7 +11,7 @@ use super::behind::behind;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row};
-use crate::ir::{Expr, Module, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
 
 const ABOUT: &str = "mirror.about";
@@ -34,11 +34,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let shapes = [(Op::RotateOn, Op::RotateOff), (Op::ScaleOn, Op::ScaleOff), (Op::MirrorOn, Op::MirrorOff)];
     let mut found: Vec<(usize, Span, &'static str)> = Vec::new();
     for (on, off) in shapes {
-        let has = |stmt: &Stmt, op: Op| stmt.kind.nc().is_some_and(|nc| nc.has(op));
         behind(
             module,
-            |stmt| has(stmt, on),
-            |stmt| has(stmt, off),
+            |stmt| stmt.kind.has_op(on),
+            |stmt| stmt.kind.has_op(off),
             |index, stmt| {
                 let Some(nc) = stmt.kind.nc() else { return };
                 if nc.ops().any(is_of_frame) {

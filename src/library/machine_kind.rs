@@ -1,10 +1,12 @@
 //! Programs of a lathe among those of a library that is read as a mill's.
 //!
-//! Law: a program is for a lathe where its own text says so more clearly than it speaks for a mill: a letter that only a
-//! lathe has, against Y, a length offset, a change by M6. What calls it, what it calls and what stands in its
-//! file are for the same machine, unless their own text is a mill's; what both kinds of program lead to may be for
-//! either. A program without a word for the machine does the same on both. Programs without any sign follow the rest of the library where no program of it is for a mill.
-//! Where a machine profile says `machine = "mill"`, only what no mill has counts, and only what is linked with it goes with it.
+//! Law: a program is for a lathe if its own text has more signs of a lathe than of a mill. A sign of a lathe is a letter
+//! that only a lathe has; Y, a length offset and a change by M6 are signs of a mill. What a lathe program calls, what
+//! calls it and what stands in its file are a lathe's too, unless their own text is a mill's. What both kinds lead to may
+//! be for either. A program without NC words does the same on both machines. A program without any sign follows the rest
+//! of its library, if no program there is a mill's.
+//! A machine profile may say `machine = "mill"`. Then only what no mill has is a sign, and only programs that are linked
+//! with such a program go with it.
 
 use super::Input;
 use crate::canon::{Op, Role};
@@ -47,8 +49,8 @@ impl Signs {
             let weight = if text.is_some_and(|letter| b"UVWuvw".contains(letter)) { 2 } else { ENOUGH };
             if seen.insert(finding.message.clone()) {
                 signs.lathe += weight;
-                let sign = finding.message.split(": ").next().unwrap_or_default();
-                signs.first.get_or_insert((finding.span, sign.to_owned()));
+                // What lowering says of it is the sign.
+                signs.first.get_or_insert((finding.span, finding.message.to_string()));
             }
         }
         let mut words = BTreeSet::new();

@@ -130,8 +130,7 @@ impl<'a> Lowering<'a> {
     fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>) {
         let comma = if word.comma { "," } else { "" };
         if self.foreign_axis(word) {
-            let message =
-                format!("{} is no axis of this machine: the program looks like a lathe program", word.letter);
+            let message = format!("{} is no axis of this machine", word.letter);
             let help = "name a machine profile with machine = \"lathe\", or one that lists this axis";
             return self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }
@@ -163,7 +162,7 @@ impl<'a> Lowering<'a> {
                 'F' if per_turn => "a feed beside G98 or G99 without a cycle",
                 _ => continue,
             };
-            let message = format!("{what} is a lathe's: the program looks like a lathe program");
+            let message = format!("{what} is a lathe's");
             let help = "name a machine profile with machine = \"lathe\"";
             self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }
