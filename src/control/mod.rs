@@ -14,6 +14,7 @@
 //! Every run ends: it is bounded in steps, in events and in time.
 
 pub mod cc100;
+pub mod entry;
 pub mod fadal;
 pub mod fanuc;
 mod fewer;
@@ -30,6 +31,7 @@ pub(crate) mod testing;
 pub mod trace;
 mod words;
 
+pub use entry::Entry;
 pub use library::{Library, LoadedFile, ProgramRef};
 pub use outcome::{Branch, Branches, End, Run, Stop};
 pub use scenario::Scenario;

@@ -1,5 +1,6 @@
 //! The circumstances of a run: all that a program meets from outside.
 
+use super::entry::Entry;
 use crate::canon::{Op, Sys};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -25,6 +26,8 @@ pub struct Scenario {
     /// What is in force at the start, where that is not what power-on leaves: planes, feed modes, absolute or
     /// incremental.
     pub modes: Vec<Op>,
+    /// What else is in force then.
+    pub entry: Entry,
     /// Machine position at the start.
     pub start: Axes,
     /// Work offsets, by common number: 1 to 6, 101 and up.
@@ -123,6 +126,7 @@ impl Default for Scenario {
             called: false,
             inch: None,
             modes: Vec::new(),
+            entry: Entry::default(),
             start: [0.0; AXES],
             work_offsets: BTreeMap::new(),
             external_shift: [0.0; AXES],

@@ -72,13 +72,16 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn new(library: &'r Library<'f>, control: &'r Control, scenario: &'r Scenario) -> Self {
         let deadline =
             scenario.milliseconds.and_then(|ms| Instant::now().checked_add(Duration::from_millis(ms)));
+        let machine = Machine::new(control, scenario);
+        let mut trace = Trace::new(scenario.events, &control.profile().confirm);
+        machine.tell_entry(&scenario.entry, &mut trace);
         Self {
             control,
             scenario,
             files: library.files,
             sections: &library.sections,
-            machine: Machine::new(control, scenario),
-            trace: Trace::new(scenario.events, &control.profile().confirm),
+            machine,
+            trace,
             branches: Branches::default(),
             digits: FewerDigits::of(scenario),
             programs: Vec::new(),
@@ -232,6 +235,14 @@ impl<'r, 'f> Session<'r, 'f> {
     /// The way that a branching block takes.
     pub fn branch(&mut self, way: i64) {
         self.branches.took(self.trace.at, way);
+    }
+
+    /// The words that an earlier program left in force, in the units of the program: the letters that all controls have.
+    pub fn words_in_force(&self) -> Vec<(char, f64)> {
+        let entry = &self.scenario.entry;
+        let feed = entry.feed.map(|_| ('F', self.machine.feed()));
+        let speed = entry.spindle.map(|speed| ('S', speed));
+        feed.into_iter().chain(speed).collect()
     }
 
     /// The finished run.

@@ -46,6 +46,8 @@ pub enum Told {
     Loose,
     /// A change of spindle or coolant that no code of the program says: what stops the program does it.
     Implied,
+    /// What the program found in force when it started.
+    Found,
 }
 
 /// A place of a library: a program and bytes of its file.

@@ -29,6 +29,15 @@ pub struct Lasting<'c> {
     pub cycle: Option<&'c CodeMeaning>,
 }
 
+impl<'c> Lasting<'c> {
+    /// The codes that are in force when a program starts.
+    pub fn at_start(session: &Session<'c, '_>) -> Self {
+        let row = |op: Op| session.control.code_for(op, &Default::default());
+        let motion = Some(session.machine.motion()).filter(|op| *op != Op::Rapid);
+        Self { motion: motion.and_then(row), cycle: session.machine.cycle().and_then(row) }
+    }
+}
+
 /// What a block's words say.
 #[derive(Debug, Default)]
 pub struct Read<'c> {

@@ -27,16 +27,19 @@ use store::Store;
 /// The files of the library named `cycle20...` and so on are the cycles: G820 runs the first
 /// program of `cycle20...`.
 pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+    let session = Session::new(library, control, scenario);
+    let lasting = Lasting::at_start(&session);
+    let last = session.words_in_force().into_iter().collect();
     let mut interpreter = Interpreter {
-        session: Session::new(library, control, scenario),
+        session,
         store: Store::new(scenario),
         condition: Condition::default(),
         polar: Polar::default(),
         labels: HashMap::new(),
-        last: HashMap::new(),
+        last,
         at: At { section: 0, index: 0 },
         depth: 0,
-        lasting: Lasting::default(),
+        lasting,
     };
     let halt = interpreter.main(main);
     let variables = interpreter.store.all();

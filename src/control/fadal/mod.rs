@@ -30,6 +30,7 @@ use std::rc::Rc;
 /// Runs a program on the emulated control; [`super::Execute`].
 pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
     let session = Session::new(library, control, scenario);
+    let lasting = Lasting::at_start(&session);
     let mut interpreter = Interpreter {
         session,
         registers: Registers::new(scenario),
@@ -37,7 +38,7 @@ pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scena
         at: At { section: 0, index: 0 },
         level: Level::Main,
         depth: 0,
-        lasting: Lasting::default(),
+        lasting,
         modal: Vec::new(),
         in_modal: false,
         line: String::new(),

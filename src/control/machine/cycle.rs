@@ -4,6 +4,7 @@ use super::command::axis;
 use super::state::axes_of;
 use super::{Command, Machine, expand};
 use crate::canon::{Op, Role};
+use crate::control::entry::Drilling;
 use crate::control::outcome::Stop;
 use crate::control::trace::{Happening, Trace};
 
@@ -175,6 +176,12 @@ impl Cycle {
             shift: (0.0, 0.0),
             lead: None,
         }
+    }
+
+    /// A drilling cycle that was left in force, from an initial plane.
+    pub(super) fn drilling(initial: f64, left: Drilling) -> Self {
+        let (r, z) = (Some((left.retract, false)), Some((left.bottom, false)));
+        Self { r, z, ..Self::new(Op::CycleDrill, initial) }
     }
 
     /// Takes the block's words; those it does not have stay.

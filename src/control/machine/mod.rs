@@ -10,6 +10,7 @@ mod auxiliary;
 mod block;
 mod command;
 mod cycle;
+mod entry;
 mod expand;
 mod frame;
 mod left;
@@ -155,25 +156,9 @@ impl Machine {
         for cell in &scenario.state {
             machine.cells.insert(system::cell(cell.state, &cell.subscripts), cell.value);
         }
-        machine.select(1);
         scenario.modes.iter().for_each(|op| machine.start_in(*op));
+        machine.enter(&scenario.entry);
         machine
-    }
-
-    /// Starts in a mode that a caller gives.
-    fn start_in(&mut self, op: Op) {
-        match op {
-            Op::Rapid | Op::Linear | Op::ArcCw | Op::ArcCcw => self.motion = op,
-            Op::Absolute => self.incremental = false,
-            Op::Incremental => self.incremental = true,
-            Op::PlaneXy => self.plane = Plane::Xy,
-            Op::PlaneZx => self.plane = Plane::Zx,
-            Op::PlaneYz => self.plane = Plane::Yz,
-            Op::FeedPerMinute => self.feed_mode = FeedMode::PerMinute,
-            Op::FeedPerTurn => self.feed_mode = FeedMode::PerTurn,
-            Op::FeedInverse => self.feed_mode = FeedMode::Inverse,
-            op => self.name_unit(op),
-        }
     }
 
     /// Does what a block says. What it moved and switched stands in the trace; an alarm

@@ -132,8 +132,7 @@ impl<'c> Runner<'c> {
         for (at, word) in words.words.iter().enumerate().take(last) {
             let Some(value) = values.get(at).copied().flatten() else { continue };
             if !word.comma {
-                let place = (word.letter as usize).wrapping_sub('A' as usize) + 1;
-                if let Some(address) = self.addresses.get_mut(place) {
+                if let Some(address) = self.addresses.get_mut(place_of(word.letter)) {
                     *address = value;
                 }
             }
@@ -241,6 +240,11 @@ impl<'c> Runner<'c> {
     pub fn enter(&mut self, program: u32, level: bool) {
         self.session.trace.push(Happening::Enter { program, level });
     }
+}
+
+/// The place of an address among the last values: A at 1.
+pub fn place_of(letter: char) -> usize {
+    (letter as usize).wrapping_sub('A' as usize).wrapping_add(1)
 }
 
 /// Operations whose axis words do not move.

@@ -2,6 +2,7 @@
 
 use super::calls::{Frame, ModalCall};
 use super::code::{Goto, Program, Step};
+use super::commands::place_of;
 use super::compile::Compiler;
 use super::memory::{Locals, Memory};
 use super::numeric::Numeric;
@@ -106,6 +107,7 @@ impl<'c> Runner<'c> {
         // The program before this one called for the tool that is in the spindle.
         runner.addresses[20] = f64::from(scenario.tool);
         runner.start_modes();
+        runner.start_words();
         runner
     }
 
@@ -296,13 +298,27 @@ impl<'c> Runner<'c> {
             };
             let mut operands = std::collections::BTreeMap::new();
             if op == Op::SelectWork {
-                operands.insert(Role::WorkOffset, 1.0);
+                operands.insert(Role::WorkOffset, f64::from(self.session.machine.work_offset()));
             }
             let head = self.session.control.code_for(op, &operands).and_then(CodeMeaning::head);
             if let (Some(head), Some(place)) = (head, self.modal.get_mut(number as usize)) {
                 *place = head.number();
             }
         }
+    }
+
+    /// The words and the drilling cycle that an earlier program left in force.
+    fn start_words(&mut self) {
+        let entry = &self.session.scenario.entry;
+        let offsets = [('H', entry.length), ('D', entry.cutter)];
+        let offsets = offsets.into_iter().filter_map(|(letter, number)| Some((letter, f64::from(number?))));
+        for (letter, value) in self.session.words_in_force().into_iter().chain(offsets) {
+            if let Some(address) = self.addresses.get_mut(place_of(letter)) {
+                *address = value;
+            }
+        }
+        let cycle = self.session.machine.cycle();
+        self.cycle = cycle.and_then(|op| self.session.control.code_for(op, &Default::default()));
     }
 
     /// The meaning of words whose codes are computed or of which some are dropped.
