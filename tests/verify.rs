@@ -1,11 +1,15 @@
 //! Pairs of programs by hand, handed to the verifier as if one were the conversion of the other: those that
 //! differ in one place must be told apart there, those that are only written otherwise must not.
 
+use machine::machine;
 use macroglot::control::LoadedFile;
-use macroglot::dialect::{Control, registry};
+use macroglot::dialect::registry;
 use macroglot::syntax::parse_file;
 use macroglot::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, verify};
 use std::path::PathBuf;
+
+#[path = "support/machine.rs"]
+mod machine;
 
 /// A pair, and what of the target is changed.
 struct Pair<'p> {
@@ -60,8 +64,8 @@ fn pair(text: &str) -> Pair<'_> {
 
 /// Verifies a target of a pair.
 fn judge(pair: &Pair<'_>, target: &str) -> Certificate {
-    let controls = [pair.from, pair.to].map(|name| Control::plain(name).unwrap());
-    let execute = [pair.from, pair.to].map(|name| registry::find(name).unwrap().execute.unwrap());
+    let controls = [pair.from, pair.to].map(|spec| machine(spec).unwrap());
+    let execute = [0, 1].map(|at: usize| registry::find(controls[at].name()).unwrap().execute.unwrap());
     let parsed = [(pair.source, &controls[0]), (target, &controls[1])]
         .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
     let ours = [LoadedFile { name: "a.nc", parsed: &parsed[0] }];

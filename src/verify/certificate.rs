@@ -97,6 +97,8 @@ pub struct ProgramCertificate {
     pub unconfirmed: Vec<String>,
     /// Messages, outputs and alarm numbers that read differently: source, target.
     pub texts: Vec<(String, String)>,
+    /// The states of the machine that it was started in besides that of power-on, by name.
+    pub started: Vec<&'static str>,
     /// Where they differ.
     pub witness: Option<Witness>,
     /// The programs that its runs came through.
@@ -171,6 +173,8 @@ pub enum Why {
     NotByItself,
     /// With another literal at the head of both texts they do different things.
     Edited,
+    /// What the source does rests on a state that it finds on the machine, and from another one they do different things.
+    EntryState,
     /// A branch went one way only.
     NotReached,
     /// Something rests on a fact that no source confirms.
@@ -184,6 +188,8 @@ pub struct Witness {
     pub what: String,
     /// The circumstances, as the source's names have them.
     pub scenario: Scenario,
+    /// The states of the machine that the runs were started in, in words; none where it was that of power-on.
+    pub started: Vec<&'static str>,
     /// What stood in registers that the target alone has, by its own names.
     pub target_variables: BTreeMap<String, f64>,
     /// Where the source was; none where it did nothing more.

@@ -91,19 +91,11 @@ fn labels(side: &Side<'_>, program: ProgramRef) -> BTreeSet<u32> {
 /// Reads a program whose computed jumps are sent to these labels.
 fn inputs_by(side: &Side<'_>, program: ProgramRef, order: &[u32]) -> Inputs {
     let mut reader = Reader::new(side.control);
-    let mut called = vec![program];
-    let mut at = 0;
-    while let Some(&one) = called.get(at) {
+    for (at, one) in called_from(side, program).into_iter().enumerate() {
         reader.own = at == 0;
         reader.labels =
             if at == 0 { order.to_vec() } else { labels(side, one).into_iter().take(LABELS).collect() };
-        for block in side.text(one) {
-            reader.items(&block.items, reader.own);
-            let programs = calls(side, &block.items).filter(|program| !called.contains(program));
-            let more: Vec<ProgramRef> = programs.collect();
-            called.extend(more);
-        }
-        at += 1;
+        side.text(one).iter().for_each(|block| reader.items(&block.items, at == 0));
     }
     let rotary = ['A', 'B', 'C'].map(|letter| moves(side, letter));
     Inputs { rotary, many_tools: has_many_tools(side), ..reader.finish() }
@@ -113,6 +105,20 @@ fn inputs_by(side: &Side<'_>, program: ProgramRef, order: &[u32]) -> Inputs {
 fn has_many_tools(side: &Side<'_>) -> bool {
     let rows = side.control.dialect().system.iter().filter(|row| row.state.is_tool_offset());
     rows.filter_map(|row| row.subscripts.first()).any(|subscript| subscript.count > 99)
+}
+
+/// A program and those that it calls, and that these call.
+pub(super) fn called_from(side: &Side<'_>, program: ProgramRef) -> Vec<ProgramRef> {
+    let mut all = vec![program];
+    let mut at = 0;
+    while let Some(&one) = all.get(at) {
+        for block in side.text(one) {
+            let new: Vec<ProgramRef> = calls(side, &block.items).filter(|to| !all.contains(to)).collect();
+            all.extend(new);
+        }
+        at += 1;
+    }
+    all
 }
 
 /// True where a program of the library has a word of this axis.

@@ -33,6 +33,7 @@ mod questions;
 mod random;
 mod rounding;
 mod scenarios;
+mod starts;
 mod stops;
 mod substitutes;
 #[cfg(test)]

@@ -67,13 +67,20 @@ pub(super) fn is_pause(what: &Happening) -> bool {
     matches!(what, Asked { .. } | End { .. } | Message { .. } | OptionalStop | Stop | ToolChange { .. })
 }
 
-/// The settings that a machine has before a program says anything.
-fn initial() -> Vec<Happening> {
+/// The settings that a machine has before a program says anything. A spindle that was found running and is stopped keeps
+/// its speed, which is nothing that anybody sees.
+fn initial(run: &Run) -> Vec<Happening> {
+    let found = run.events.iter().take_while(|event| event.told == Told::Found);
+    let speeds = found.filter_map(|event| match event.what {
+        Happening::Spindle { speed, .. } => Some(speed),
+        _ => None,
+    });
+    let speed = speeds.last().unwrap_or(0.0);
     vec![
         Happening::WorkOffset { number: 1 },
         Happening::ToolLength { offset: 0, value: 0.0 },
         Happening::CutterRadius { side: Side::Off, offset: 0, value: 0.0 },
-        Happening::Spindle { direction: Spindle::Stopped, speed: 0.0, surface: false },
+        Happening::Spindle { direction: Spindle::Stopped, speed, surface: false },
         Happening::Coolant { state: Op::CoolantOff },
     ]
 }
@@ -89,13 +96,15 @@ const NOWHERE: f64 = 1e-9;
 pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
     let mut seen =
         Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new(), open: [false; 2] };
-    seen.held = initial().into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
+    seen.held = initial(run).into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
     for (at, event) in run.events.iter().enumerate().filter(|(_, event)| is_observable(&event.what)) {
         if let Some(kind) = setting(&event.what) {
             // What the program says before a stop is told, whatever the stop does then.
-            let ends = event.told == Told::Implied || is_end(&event.what);
-            if ends && seen.waiting.iter().any(|(other, _)| *other == kind) {
-                seen.settle(false);
+            let implied = event.told == Told::Implied;
+            let said =
+                |(other, event): &(Setting, &Event)| *other == kind && (implied || event.told != Told::Found);
+            if (implied || is_end(&event.what)) && seen.waiting.iter().any(said) {
+                seen.settle(false, false);
             }
             seen.waiting.retain(|(other, _)| *other != kind);
             seen.waiting.push((kind, event));
@@ -103,13 +112,13 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
         }
         // Which settings stand before a mode of corners and which behind it nobody could tell.
         if !is_mode(&event.what) {
-            seen.settle(returns(&event.what));
+            seen.settle(returns(&event.what), is_idle(&event.what));
         }
         seen.act(event, run.events.get(at + 1));
     }
     // Where a run was stopped from outside, nothing says which settings the next action would have found.
     if !is_cut(run) {
-        seen.settle(false);
+        seen.settle(false, false);
     }
     seen.out
 }
@@ -125,14 +134,16 @@ struct Observer<'o, 'r> {
 }
 
 impl<'r> Observer<'_, 'r> {
-    /// Lets the settings that changed take their places; the work offset only at the `end`.
-    fn settle(&mut self, end: bool) {
+    /// Lets the settings that changed take their places; the work offset only at the `end`. What was found running is
+    /// nothing that counts before an `idle` move.
+    fn settle(&mut self, end: bool, idle: bool) {
+        let stays = |(kind, event): &(Setting, &Event)| {
+            let runs = matches!(kind, Setting::Spindle | Setting::Coolant);
+            (*kind == Setting::Work && !end) || (runs && idle && event.told == Told::Found)
+        };
         self.waiting.sort_by_key(|(kind, _)| *kind);
-        let (now, later) = std::mem::take(&mut self.waiting)
-            .into_iter()
-            .partition(|(kind, _)| end || *kind != Setting::Work);
+        let (later, now): (Vec<_>, Vec<_>) = std::mem::take(&mut self.waiting).into_iter().partition(stays);
         self.waiting = later;
-        let now: Vec<(Setting, &'r Event)> = now;
         for (kind, event) in now {
             let old = self.held.iter_mut().find(|(other, _)| *other == kind);
             let is_news = running(kind)
@@ -189,6 +200,11 @@ fn prompt(text: &str) -> &str {
 pub fn is_mode(what: &Happening) -> bool {
     let Happening::Other { operation, .. } = what else { return false };
     operation.group() == Group::PathMode || *operation == Op::LimitLookahead
+}
+
+/// True for a move or a wait in which nothing is cut.
+fn is_idle(what: &Happening) -> bool {
+    matches!(what, Happening::Rapid { .. } | Happening::Dwell { .. })
 }
 
 /// True for what stops the spindle or switches coolant off.

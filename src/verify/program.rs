@@ -3,27 +3,29 @@
 mod assumed;
 mod edited;
 mod elsewhere;
+mod entries;
 mod explore;
 mod fewer_digits;
+mod otherwise;
+mod weigh;
 
 use super::assumed::{Assumptions, excuse, facts, tried};
 use super::branches::{Coverage, NotReached};
-use super::callers::{Shown, implicate, programs_of, through, ways};
+use super::callers::{Shown, implicate, programs_of, through};
 use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness, sha256};
 use super::compare::{Difference, Tolerance, compare, is_cut, writes_elsewhere};
 use super::given::{Given, given};
 use super::inputs::is_called;
 use super::names::{Names, Side};
 use super::questions::unconfirmed;
-use super::rounding::hangs_on_rounding;
 use super::scenarios::{asked, on_target};
-use super::stops::{off_its_circle, stops_by_itself};
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
-use crate::control::trace::{Event, Happening};
+use crate::control::trace::Happening;
 use crate::control::{End, ProgramRef, Run, Scenario};
-use explore::of_target;
+pub(super) use explore::of_target;
 use std::collections::{BTreeMap, BTreeSet};
+use weigh::{Pair, ROUNDS};
 
 /// What is to be compared.
 pub struct Job<'j> {
@@ -84,6 +86,14 @@ struct Verifier<'v, 'j> {
     entered: BTreeSet<ProgramRef>,
     /// How many runs kept each of its assumptions, and how many broke it.
     assumed: BTreeMap<usize, (usize, usize)>,
+    /// Scenarios that went new ways to an end of the program's own, with what was in registers of the target alone.
+    telling: Vec<(Scenario, BTreeMap<String, f64>)>,
+    /// True where it returns, so that others may call it.
+    returns: bool,
+    /// The settings of the switches that skip blocks.
+    skips: Vec<u32>,
+    /// The states that it was started in besides that of power-on.
+    started: Vec<&'static str>,
 }
 
 impl<'v, 'j> Verifier<'v, 'j> {
@@ -113,6 +123,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
             shown: Shown::default(),
             entered: BTreeSet::new(),
             assumed: BTreeMap::new(),
+            telling: Vec::new(),
+            returns: false,
+            skips: Vec::new(),
+            started: Vec::new(),
         }
     }
 
@@ -122,6 +136,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
         match there {
             Some(there) => {
                 self.search(there);
+                self.otherwise(there);
+                self.entries(there);
                 self.elsewhere(there);
                 self.edited(there);
             }
@@ -130,24 +146,32 @@ impl<'v, 'j> Verifier<'v, 'j> {
         self.certificate(there)
     }
 
+    /// The circumstances of a scenario on the target, whose source ran so.
+    fn circumstances(&self, scenario: &Scenario, run: &Run) -> Scenario {
+        let Job { source, target, names, .. } = self.job;
+        let mut out = on_target(scenario, names, (source, target), (self.called, &self.theirs));
+        out.inch = self.given.inch().or(out.inch);
+        out.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
+        if is_cut(run) {
+            // Only what both did so far is compared.
+            out.steps = scenario.steps.saturating_mul(3);
+        }
+        out
+    }
+
     fn run_source(&self, scenario: &Scenario) -> Run {
         let source = self.job.source;
         (source.execute)(&source.library, self.program, source.control, scenario)
     }
 
-    fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) {
+    /// Compares the runs of a scenario. True where the target's went a new way.
+    fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) -> bool {
         let Job { source, target, names, .. } = self.job;
-        let mut circumstances = on_target(scenario, names, (source, target), (self.called, &self.theirs));
-        circumstances.inch = self.given.inch().or(circumstances.inch);
-        circumstances.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
-        if is_cut(run) {
-            // Only what both did so far is compared.
-            circumstances.steps = scenario.steps.saturating_mul(3);
-        }
+        let circumstances = self.circumstances(scenario, run);
         let other = (target.execute)(&target.library, there, target.control, &circumstances);
         self.entered.extend(programs_of(source, run));
         let assumed = facts(self.job, run);
-        self.target_coverage.add(&other);
+        let new_there = self.target_coverage.add(&other);
         for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
             match &library_run.end {
                 End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
@@ -191,60 +215,22 @@ impl<'v, 'j> Verifier<'v, 'j> {
         self.count(&tried, ended && difference.is_none());
         self.compared += usize::from(ended && excuse.is_none());
         let upto = difference.as_ref().map(|difference| difference.target);
-        match difference {
-            // Where the source's control itself stops the program, the program says nothing.
-            Some(difference) if stops_by_itself(run, &difference) && !finds_no_label(run) => {
-                let text = match &run.end {
-                    End::Alarm { stop, .. } => format!("{} {}", stop.number, stop.text),
-                    _ => String::new(),
-                };
-                let text = format!("the source stops with an alarm of the control ({})", text.trim());
-                self.because(Why::SourceAlarms, &text);
+        if let Some(difference) = &difference {
+            let pair = Pair { scenario, run, there, circumstances: &circumstances, other: &other };
+            match self.weigh(&pair, difference, excuse) {
+                Some((why, text)) => {
+                    if why == Why::Unconfirmed {
+                        self.unconfirmed.insert(ROUNDS.into(), None);
+                    }
+                    self.because(why, &text);
+                }
+                None => self.witnessed(&pair, difference),
             }
-            Some(_) if excuse.is_some() => self.because(Why::Condition, &excuse.unwrap_or_default()),
-            Some(difference) if off_its_circle(&difference).is_some() => {
-                let off = off_its_circle(&difference).unwrap_or_default();
-                let text = format!(
-                    "an arc of the source ends {off:.3} mm off its circle: no source says what comes of it"
-                );
-                self.because(Why::SourceAlarms, &text);
-            }
-            Some(_)
-                if hangs_on_rounding(
-                    self.job,
-                    self.tolerance,
-                    (self.program, scenario, run),
-                    (there, &circumstances, &other),
-                ) =>
-            {
-                let text =
-                    "behaviour:word.rounds.to.increment is not confirmed, and decides what is read back";
-                self.unconfirmed.insert("behaviour:word.rounds.to.increment".into(), None);
-                self.because(Why::Unconfirmed, text);
-            }
-            Some(difference) => {
-                let spot = |run: &Run, event: Option<&Event>| {
-                    let at = event?.at;
-                    Some((run.programs.get(at.program as usize)?.file, at.span))
-                };
-                self.shown = Shown {
-                    source: spot(run, difference.source),
-                    target: spot(&other, difference.target),
-                    ways: ways(run, self.program.file).collect(),
-                };
-                self.witness = Some(Witness {
-                    what: difference.what.clone(),
-                    scenario: scenario.clone(),
-                    target_variables: self.theirs.clone(),
-                    source: difference.source.map(|event| Moment::of(source, run, event)),
-                    target: difference.target.map(|event| Moment::of(target, &other, event)),
-                });
-            }
-            None => {}
         }
         if self.witness.is_none() && self.sensitive != Some(true) && !is_cut(&other) {
             self.sensitive = Some(self.is_sensitive((there, &circumstances), &other, upto));
         }
+        new_there
     }
 
     fn because(&mut self, why: Why, text: &str) {
@@ -316,6 +302,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             unconfirmed: self.unconfirmed.into_keys().collect(),
             texts: self.texts.into_iter().take(20).collect(),
             witness: self.witness,
+            started: self.started,
             entered: self.entered,
             assumptions,
         }
@@ -331,9 +318,4 @@ fn in_words(missed: &[NotReached], whose: &str) -> String {
     let more = missed.len().saturating_sub(NAMED);
     let rest = (more > 0).then(|| format!("and {more} more ways{whose} were not gone"));
     named.chain(rest).collect::<Vec<_>>().join("; ")
-}
-
-/// True where a jump of the source finds no block with its number: that stops the program, and the target must stop too.
-fn finds_no_label(run: &Run) -> bool {
-    matches!(&run.end, End::Alarm { stop, .. } if stop.no_label)
 }

@@ -77,6 +77,11 @@ impl<'i> Proposals<'i> {
         &self.theirs
     }
 
+    /// The settings of the switches that skip blocks.
+    pub fn skips(&self) -> &[u32] {
+        &self.skips
+    }
+
     fn grounds(&self) -> usize {
         GROUNDS.max(self.skips.len())
     }

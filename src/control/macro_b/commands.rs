@@ -131,10 +131,10 @@ impl<'c> Runner<'c> {
         let flow = meaning.codes.iter().any(|code| code.row.is_some_and(|row| row.op.is_flow()));
         for (at, word) in words.words.iter().enumerate().take(last) {
             let Some(value) = values.get(at).copied().flatten() else { continue };
-            if !word.comma {
-                if let Some(address) = self.addresses.get_mut(place_of(word.letter)) {
-                    *address = value;
-                }
+            if !word.comma
+                && let Some(address) = self.addresses.get_mut(place_of(word.letter))
+            {
+                *address = value;
             }
             if is_code(word.letter, word.comma) {
                 continue;

@@ -1,11 +1,12 @@
 //! The search for scenarios: in which both sides go every way that they can.
 
 use super::Verifier;
-use crate::control::{ProgramRef, Run, Scenario};
+use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::assumed::telling_numbers;
 use crate::verify::certificate::Why;
 use crate::verify::compare::is_cut;
 use crate::verify::inputs::{calls, inputs_of_both};
+use crate::verify::observe::returns;
 use crate::verify::scenarios::{Proposals, unit};
 use crate::verify::{Effort, Job};
 
@@ -24,6 +25,10 @@ const ENDLESS: usize = 4;
 /// Runs of both sides for ways that the target alone has left, after the source has gone all of its own.
 const FOR_THE_TARGET: usize = 48;
 
+/// Telling scenarios that are kept, at the most, and those that are, whether they go new ways or not.
+const TELLING: usize = 4;
+const ANYWAY: usize = 2;
+
 impl Verifier<'_, '_> {
     /// Tries the source in scenario after scenario, and compares in those that reach anything new. While the target has
     /// ways left, each is run on both sides.
@@ -34,6 +39,7 @@ impl Verifier<'_, '_> {
         let blocks = source.blocks(self.program).len() as u64;
         let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
+        self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
         while let Some(mut scenario) = proposals.next() {
             scenario.inch = unit(source, target).or(found.inch);
@@ -51,7 +57,8 @@ impl Verifier<'_, '_> {
             let wanted = !self.target_coverage.is_complete() && for_target < FOR_THE_TARGET;
             if new || telling || spare || wanted {
                 for_target += usize::from(!new && !telling && !spare);
-                self.compare(&scenario, &run, there);
+                let new_there = self.compare(&scenario, &run, there);
+                self.tell(scenario, &run, new || new_there);
             }
             let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
             let done = self.coverage.is_complete() && gone && !telling && self.compared >= FEWEST;
@@ -73,6 +80,19 @@ impl Verifier<'_, '_> {
         }
     }
 
+    /// Keeps a scenario that tells much of the program: one that went a new way, and the first ones of all.
+    fn tell(&mut self, scenario: Scenario, run: &Run, new: bool) {
+        let ended = match &run.end {
+            End::Ended => true,
+            End::Alarm { stop, .. } => stop.program_number.is_some(),
+            _ => false,
+        };
+        self.returns |= run.events.last().is_some_and(|last| returns(&last.what));
+        if ended && self.telling.len() < TELLING && (new || self.telling.len() < ANYWAY) {
+            self.telling.push((scenario, self.theirs.clone()));
+        }
+    }
+
     /// True where neither side has ways left.
     pub(super) fn went_every_way(&self) -> bool {
         self.coverage.is_complete() && self.target_coverage.is_complete()
@@ -91,7 +111,7 @@ impl Verifier<'_, '_> {
 
 /// The programs of the target that a program of the source became: its own, and those that this calls and that no
 /// program of the source became.
-pub(super) fn of_target(job: &Job<'_>, program: ProgramRef) -> Vec<ProgramRef> {
+pub fn of_target(job: &Job<'_>, program: ProgramRef) -> Vec<ProgramRef> {
     let Job { source, target, names, .. } = *job;
     let became = |program: ProgramRef| names.program(source, program, target);
     let others = || target.became.get_or_init(|| source.programs().into_iter().filter_map(became).collect());
