@@ -92,6 +92,9 @@ pub struct Computed<T> {
     pub before: usize,
 }
 
+/// Bytes of messages and outputs that a run remembers.
+const MOST_TEXT: usize = 16 << 20;
+
 /// Computed codes that a run remembers.
 const MOST_CODES: usize = 4096;
 
@@ -110,6 +113,8 @@ pub struct Trace {
     /// For spindle and coolant: true if nobody knows whether a stop has ended it, and no code has said since what runs.
     pub open: [bool; 2],
     limit: usize,
+    /// Bytes of messages and outputs that are still kept.
+    room: usize,
     full: bool,
     doubted: HashSet<(String, Place)>,
     /// Codes whose number was computed, with their letter, and how many events came before each.
@@ -131,6 +136,7 @@ impl Trace {
             rounded: 0.0,
             open: [false; 2],
             limit,
+            room: MOST_TEXT,
             full: false,
             doubted: HashSet::new(),
             computed_codes: BTreeMap::new(),
@@ -142,10 +148,16 @@ impl Trace {
 
     /// Records an event of the present block.
     pub fn push(&mut self, what: Happening) {
-        if self.events.len() < self.limit {
-            self.events.push(self.event(what));
-        } else {
-            self.full = true;
+        let text = match &what {
+            Happening::Message { text } | Happening::Output { text } => text.len(),
+            _ => 0,
+        };
+        match self.room.checked_sub(text) {
+            Some(room) if self.events.len() < self.limit => {
+                self.room = room;
+                self.events.push(self.event(what));
+            }
+            _ => self.full = true,
         }
     }
 

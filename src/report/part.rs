@@ -28,6 +28,9 @@ pub struct Part<'a> {
     pub verbose: bool,
 }
 
+/// How much of a line is shown before a place in it, and after it: bytes. A line may have as many places as bytes.
+const ABOUT: usize = 200;
+
 /// A place in a file, as people and their editors count: from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place<'a> {
@@ -35,7 +38,7 @@ pub struct Place<'a> {
     pub line: u32,
     /// The column, in bytes.
     pub column: u32,
-    /// The line's bytes, without its end.
+    /// The line's bytes, without its end; of a long line those about the place.
     pub text: &'a [u8],
 }
 
@@ -53,6 +56,7 @@ impl<'a> Part<'a> {
         let ends = |byte: &u8| matches!(byte, b'\n' | b'\r');
         let start = bytes[..at].iter().rposition(ends).map_or(0, |end| end + 1);
         let stop = bytes[at..].iter().position(ends).map_or(bytes.len(), |end| at + end);
+        let (start, stop) = (start.max(at.saturating_sub(ABOUT)), stop.min(at.saturating_add(ABOUT)));
         Place { line, column, text: &bytes[start..stop] }
     }
 }

@@ -29,7 +29,30 @@ impl Lines {
     fn line(&self, offset: usize) -> usize {
         self.starts.partition_point(|start| *start <= offset).saturating_sub(1)
     }
+
+    /// What stands about a place on its line, and no other line: a line may have as many places as bytes.
+    fn window<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: bool,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let line = self.line(span.offset());
+        let first = self.starts.get(line).copied().unwrap_or(0);
+        let last = self.starts.get(line + 1).map_or(self.text.len(), |next| next - 1);
+        let start = if before { span.offset().saturating_sub(ABOUT).max(first) } else { span.offset() };
+        let end = span.offset().saturating_add(span.len().saturating_add(ABOUT)).min(last).max(start);
+        let data = self.text.as_bytes().get(start..end).ok_or(MietteError::OutOfBounds)?;
+        let at = SourceSpan::from((start, data.len()));
+        let name = self.name.clone();
+        Ok(Box::new(MietteSpanContents::new_named(name, data, at, line, start - first, 1)))
+    }
 }
+
+/// Bytes about a place from which on it is drawn with what stands next to it, not with its lines.
+const LONG: usize = 4000;
+
+/// How much of a long line is drawn before a place and after it, and of a place itself: bytes.
+const ABOUT: usize = 120;
 
 impl SourceCode for Lines {
     fn read_span<'a>(
@@ -44,6 +67,9 @@ impl SourceCode for Lines {
         let last = self.line(span.offset().saturating_add(span.len())).saturating_add(after + 2);
         let end = self.starts.get(last).copied().unwrap_or(self.text.len());
         let around = self.text.as_bytes().get(start..end).ok_or(MietteError::OutOfBounds)?;
+        if around.len() > LONG {
+            return self.window(span, before > 0);
+        }
         let inside = SourceSpan::from((span.offset().saturating_sub(start), span.len()));
         let (at, line, column, count) = {
             let found = around.read_span(&inside, before, after)?;
@@ -79,7 +105,7 @@ impl Sheet {
         let start = (span.start as usize).min(text.len());
         // Only the first line of a place is drawn.
         let end = (span.end as usize).clamp(start, text.len());
-        let end = start + text[start..end].find('\n').unwrap_or(end - start);
+        let end = start + text[start..end].find('\n').unwrap_or(end - start).min(4 * ABOUT);
         let severity = match diagnostic.severity() {
             Severity::Error => miette::Severity::Error,
             Severity::Review => miette::Severity::Warning,
@@ -202,6 +228,17 @@ fn folder(out: &mut String, told: &Told) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A place on a long line is drawn with what stands next to it, and its column is the line's.
+    #[test]
+    fn a_long_line_is_drawn_about_its_place() {
+        let text = format!("O1\n{}M38 {}\nM30\n", "X1.".repeat(2000), "Y2.".repeat(2000));
+        let at = 3 + 6000;
+        let finding = Diagnostic::new(Code::Unmapped, crate::text::Span::new(at, at + 3), "here");
+        let drawn = Sheet::new("a.nc", text.as_bytes()).draw(&finding);
+        assert!(drawn.len() < 3000, "{}", drawn.len());
+        assert!(drawn.contains("[a.nc:2:6001]") && drawn.contains("X1.M38 Y2."), "{drawn}");
+    }
 
     #[test]
     fn a_place_is_read_as_from_the_whole_text() {
