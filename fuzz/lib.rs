@@ -6,11 +6,24 @@ use macroglot::library::{Input, Lock, Options, convert, detect};
 use macroglot::syntax::{for_each_expr, for_each_item, parse_file, parse_totals};
 use std::path::PathBuf;
 
+pub mod blocks;
+
 #[path = "../tests/support/generate/mod.rs"]
 pub mod generate;
 
 /// Bytes of a program that are fuzzed; longer ones say nothing that short ones do not.
 const LONGEST: usize = 4096;
+
+/// Changes the first `size` bytes in their place, and yields how many there are then: mostly by blocks, now and then as
+/// libFuzzer does.
+pub fn mutated(data: &mut [u8], size: usize, most: usize, seed: u32) -> usize {
+    if seed.is_multiple_of(8) {
+        return libfuzzer_sys::fuzzer_mutate(data, size, most);
+    }
+    let made = blocks::mutate(&data[..size], most.min(data.len()), seed);
+    data[..made.len()].copy_from_slice(&made);
+    made.len()
+}
 
 fn control(dialect: &str) -> Control {
     Control::plain(dialect).expect("the table loads")
