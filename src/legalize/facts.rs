@@ -11,7 +11,9 @@ use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
 use crate::dialect::{CodeMeaning, Control, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
-use crate::ir::{BinOp, Block, Callee, Class, Cond, Expr, Module, Nc, NcItem, StmtKind, TermKind, Var};
+use crate::ir::{
+    BinOp, Block, Callee, Class, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind, Var,
+};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
@@ -45,12 +47,14 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
         rows: HashMap::new(),
         program: 0,
         all: Vec::new(),
+        places: Vec::new(),
         home: Span::default(),
         seen: BTreeSet::new(),
         words: [0; WORDS],
     };
     for (index, program) in module.programs.iter().enumerate() {
         (found.home, found.program) = (program.site.span, found.program + 1);
+        found.places = places(program);
         found.seen.clear();
         found.words = [0; WORDS];
         let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
@@ -83,6 +87,21 @@ fn given(module: &Module) -> BTreeMap<&ProgramName, BTreeSet<Var>> {
     given
 }
 
+/// The place of the first statement from here on that has one.
+fn first_place(block: &Block, at: usize) -> Option<Span> {
+    let stmts = block.stmts.iter().skip(at).map(|stmt| stmt.site.span);
+    stmts.chain([block.term.site.span]).find(|span| !span.is_empty())
+}
+
+/// The first place in the last blocks of a program, by how many they are.
+fn places(program: &Program) -> Vec<Option<Span>> {
+    let mut places = vec![None];
+    for block in program.blocks.iter().rev() {
+        places.push(first_place(block, 0).or(places.last().copied().flatten()));
+    }
+    places
+}
+
 struct Found<'c> {
     control: &'c Control,
     side: Side,
@@ -92,7 +111,9 @@ struct Found<'c> {
     program: u32,
     /// What is to be said of the present program.
     all: Vec<Diagnostic>,
-    /// Where a finding goes whose statement has no place of its own.
+    /// Where a finding goes whose statement has no place of its own: that of the next one, by how many blocks are left.
+    places: Vec<Option<Span>>,
+    /// Where a finding goes if no such statement comes.
     home: Span,
     /// Operations and words of blocks that were looked at.
     seen: BTreeSet<Shape>,
@@ -182,11 +203,8 @@ impl<'c> Found<'c> {
     /// The place of a statement of the first of `blocks`, or of the next one that has any: what an emulation puts
     /// before a statement has none, and may end a block.
     fn span(&self, blocks: &[Block], at: usize) -> Span {
-        let spans = blocks.iter().enumerate().flat_map(|(number, block)| {
-            let stmts = block.stmts.iter().skip(if number == 0 { at } else { 0 });
-            stmts.map(|stmt| stmt.site.span).chain([block.term.site.span])
-        });
-        spans.into_iter().find(|span| !span.is_empty()).unwrap_or(self.home)
+        let here = blocks.first().and_then(|block| first_place(block, at));
+        here.or_else(|| self.places.get(blocks.len().wrapping_sub(1)).copied().flatten()).unwrap_or(self.home)
     }
 
     fn block(&mut self, blocks: &[Block]) {
