@@ -5,7 +5,7 @@ use machine::machine;
 use macroglot::control::LoadedFile;
 use macroglot::dialect::registry;
 use macroglot::syntax::parse_file;
-use macroglot::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, verify};
+use macroglot::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, Spent, verify};
 use std::path::PathBuf;
 
 #[path = "support/machine.rs"]
@@ -75,7 +75,17 @@ fn judge(pair: &Pair<'_>, target: &str) -> Certificate {
     let variables = pair.lock.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
     let names = Names { variables, ..Names::default() };
     let (assumptions, effort) = (Assumptions::new(), Effort::default());
-    verify(&Job { source: &source, target: &target, names: &names, assumptions: &assumptions, effort }, &[])
+    verify(
+        &Job {
+            source: &source,
+            target: &target,
+            names: &names,
+            assumptions: &assumptions,
+            effort,
+            spent: &Spent::default(),
+        },
+        &[],
+    )
 }
 
 /// The pairs of all files.

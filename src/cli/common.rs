@@ -4,6 +4,7 @@ use super::UNUSABLE;
 use super::streams::{complain, tell};
 use crate::dialect::{Control, Profile, registry};
 use crate::library::{Detected, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like};
+use crate::verify::Effort;
 use std::path::{Path, PathBuf};
 
 /// Reads the programs under the paths; faults are said, and any of them is fatal.
@@ -165,4 +166,21 @@ pub fn with_progress<T>(files: usize, work: impl FnOnce() -> T) -> T {
     let done = work();
     bar.finish_and_clear();
     done
+}
+
+/// How long verification may take.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct Time {
+    /// Seconds of processor time for the verification of one program; what is not done then is undecided
+    #[arg(long, value_name = "N", default_value_t = Effort::default().program_seconds)]
+    program_seconds: f64,
+    /// Seconds of processor time for the verification of all programs together
+    #[arg(long, value_name = "N", default_value_t = Effort::default().library_seconds)]
+    library_seconds: f64,
+}
+
+/// How much the verifier may do.
+pub fn effort(time: &Time) -> Effort {
+    let Time { program_seconds, library_seconds } = *time;
+    Effort { program_seconds, library_seconds, ..Effort::default() }
 }

@@ -5,7 +5,6 @@ use super::{FOUND, WELL, common, outcome, streams};
 use crate::library::{Certificates, Conversion, Options, convert, judge};
 use crate::opt::Level;
 use crate::report::{self, Part};
-use crate::verify::Effort;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -55,6 +54,8 @@ pub struct Arguments {
     /// Print no diagnostics, only the summary
     #[arg(long, short)]
     quiet: bool,
+    #[command(flatten)]
+    time: common::Time,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, clap::ValueEnum)]
@@ -138,7 +139,9 @@ fn verified(arguments: &Arguments, jobs: &[Job], conversions: &mut [Conversion])
         jobs.iter().zip(conversions).map(|(job, conversion)| match job.source.is_same_machine(&job.target) {
             // A program that stays on its machine is copied, byte for byte.
             true => Certificates::default(),
-            false => judge(&job.inputs, conversion, &job.source, &job.target, Effort::default()),
+            false => {
+                judge(&job.inputs, conversion, &job.source, &job.target, common::effort(&arguments.time))
+            }
         });
     judged.collect()
 }

@@ -1,6 +1,6 @@
 //! `macroglot verify SOURCE TARGET`.
 
-use super::common::{controls, dialect_of, own_profile, read};
+use super::common::{Time, controls, dialect_of, effort, own_profile, read};
 use super::streams::{complain, print, tell};
 use super::{FOUND, WELL};
 use crate::control::LoadedFile;
@@ -8,7 +8,7 @@ use crate::dialect::Control;
 use crate::library::{Files, Input, Lock, Manifest, is_pending, write_file};
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::shown;
-use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, verify};
+use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, Spent, verify};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -32,6 +32,8 @@ pub struct Arguments {
     /// Replace a read-only certificate too
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    time: Time,
 }
 
 pub fn run(arguments: &Arguments) -> u8 {
@@ -55,7 +57,8 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let own = own_profile(arguments.from.as_deref(), &ours)?;
     let (source, target) = controls(&from, &to, &arguments.machine, own.as_deref())?;
     let names = names(&arguments.target, &source, &target)?;
-    let certificate = certify((&ours, &source), (&theirs, &target), &names)?;
+    let effort = effort(&arguments.time);
+    let certificate = certify((&ours, &source), (&theirs, &target), &names, effort)?;
     let text = certificate.print();
     if let Some(path) = &arguments.certificate {
         write_file(path, text.as_bytes(), arguments.force).map_err(complain)?;
@@ -105,6 +108,7 @@ fn certify(
     (ours, source): (&[Input], &Control),
     (theirs, target): (&[Input], &Control),
     names: &Names,
+    effort: Effort,
 ) -> Result<Certificate, u8> {
     let executor = |control: &Control| {
         let none = || complain(format!("there is no emulated control for '{}'", control.name()));
@@ -115,7 +119,14 @@ fn certify(
     let (ours, theirs) = (loaded(ours, &ours_parsed), loaded(theirs, &theirs_parsed));
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
     let assumptions = Assumptions::new();
-    let job = Job { source: &from, target: &to, names, assumptions: &assumptions, effort: Effort::default() };
+    let job = Job {
+        source: &from,
+        target: &to,
+        names,
+        assumptions: &assumptions,
+        effort,
+        spent: &Spent::default(),
+    };
     Ok(verify(&job, &[]))
 }
 

@@ -152,7 +152,7 @@ pub fn convert(
             let mut diagnostics = std::mem::take(&mut made.found[index]);
             diagnostics.sort_by_key(|d| (d.span.start, d.code));
             diagnostics.dedup();
-            drop_echoes(&mut diagnostics);
+            super::echoes::drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut map = Vec::new();
             let start = text.len();
@@ -327,27 +327,6 @@ fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Resu
         })
         .collect();
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
-}
-
-/// Emission fails again where an earlier part already said why, and lowering where reading did: the first word is
-/// enough.
-pub(super) fn drop_echoes(diagnostics: &mut Vec<Diagnostic>) {
-    let later = |code| matches!(code, Code::Unmapped | Code::NotUnderstood);
-    if !diagnostics.iter().any(|d| later(d.code)) {
-        return;
-    }
-    let told = diagnostics.iter().filter(|d| d.severity() == Severity::Error && d.code != Code::Unmapped);
-    let told: Vec<(Span, Code)> = told.map(|d| (d.span, d.code)).collect();
-    // What reading and lowering found; legalization comes behind them.
-    let before = |code: Code| code != Code::NotUnderstood && code.number() < "MG04";
-    let touches =
-        |span: Span, t: Span| t.start < span.end.max(span.start + 1) && span.start < t.end.max(t.start + 1);
-    let holds = |t: Span, span: Span| t.start <= span.start && span.end <= t.end;
-    diagnostics.retain(|d| match d.code {
-        Code::Unmapped => !told.iter().any(|(t, _)| touches(d.span, *t)),
-        Code::NotUnderstood => !told.iter().any(|(t, code)| before(*code) && holds(*t, d.span)),
-        _ => true,
-    });
 }
 
 pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {

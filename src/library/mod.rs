@@ -8,6 +8,7 @@ mod callees;
 mod convert;
 mod detect;
 mod draft;
+mod echoes;
 mod inputs;
 mod lock;
 mod machine_kind;

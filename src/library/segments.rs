@@ -7,7 +7,7 @@
 //! comments and program ends only; one control family, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
-use super::convert::{Made, ProgramReport, drop_echoes, frames, make, outcome};
+use super::convert::{Made, ProgramReport, frames, make, outcome};
 use super::pieces::{Piece, Pieces};
 use super::{Conversion, Input, Lock, Options, Outcome};
 use crate::canon::Op;
@@ -237,7 +237,7 @@ impl Sink {
         // From the last to the first, so that what is taken out moves nothing that is still to be looked at.
         for ((name, mut diagnostics), start) in programs.into_iter().zip(starts).rev() {
             diagnostics.sort_by_key(|d| (d.span.start, d.code));
-            drop_echoes(&mut diagnostics);
+            super::echoes::drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut length = 0;
             match outcome {

@@ -9,7 +9,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
-use crate::verify::{self, Certificate, Effort, Job, Names, ProgramCertificate, Side};
+use crate::verify::{self, Certificate, Effort, Job, Names, ProgramCertificate, Side, Spent};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -80,7 +80,14 @@ pub fn judge(
     let reports = programs_of(conversion, &all);
     let assumed = |at: &usize| assumptions(&conversion.programs[*at]);
     let assumptions = reports.iter().map(|(program, at)| (*program, assumed(at))).collect();
-    let job = Job { source: &from, target: &to, names: &names, assumptions: &assumptions, effort };
+    let job = Job {
+        source: &from,
+        target: &to,
+        names: &names,
+        assumptions: &assumptions,
+        effort,
+        spent: &Spent::default(),
+    };
     let wanted = wanted(conversion, &all, inputs.len());
     let mut verified: Vec<Option<Certificate>> = wanted
         .par_iter()

@@ -159,6 +159,8 @@ pub enum Why {
     CannotRun,
     /// A run did not come to its end.
     Endless,
+    /// Its verification took the processor time that it may.
+    OutOfTime,
     /// The source stops with an alarm of its control where the target goes on, or stops elsewhere.
     SourceAlarms,
     /// The target cannot do what the source does, and does something else or nothing in its place.

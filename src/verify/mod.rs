@@ -16,6 +16,7 @@ mod assumed;
 mod branches;
 mod callers;
 mod certificate;
+mod clock;
 mod compare;
 mod constants;
 mod differ;
@@ -46,6 +47,7 @@ pub use callers::implicate;
 pub use certificate::{
     Assumed, Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness, sha256,
 };
+pub use clock::Spent;
 pub use names::{Names, Side};
 pub use program::{Job, verify};
 
@@ -74,10 +76,22 @@ pub struct Effort {
     pub all_steps: u64,
     /// Seed of the scenarios that are drawn.
     pub seed: u64,
+    /// Seconds of processor time for one program, at the most.
+    pub program_seconds: f64,
+    /// Seconds of processor time for all programs of a library together, at the most.
+    pub library_seconds: f64,
 }
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { scenarios: 160, tries: 400, steps: 50_000, all_steps: 1_000_000, seed: 0x6d67_0001 }
+        Self {
+            scenarios: 160,
+            tries: 400,
+            steps: 50_000,
+            all_steps: 1_000_000,
+            seed: 0x6d67_0001,
+            program_seconds: 60.0,
+            library_seconds: 3600.0,
+        }
     }
 }

@@ -13,6 +13,7 @@ use super::assumed::{Assumptions, excuse, facts, tried};
 use super::branches::{Coverage, NotReached};
 use super::callers::{Shown, implicate, programs_of, through};
 use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness, sha256};
+use super::clock::{Clock, Spent};
 use super::compare::{Difference, Tolerance, compare, is_cut, writes_elsewhere};
 use super::given::{Given, given};
 use super::inputs::is_called;
@@ -39,6 +40,8 @@ pub struct Job<'j> {
     pub assumptions: &'j Assumptions,
     /// How much may be done.
     pub effort: Effort,
+    /// What was done for other programs.
+    pub spent: &'j Spent,
 }
 
 /// Ways not gone that a reason names.
@@ -55,6 +58,7 @@ pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
 
 struct Verifier<'v, 'j> {
     job: &'v Job<'j>,
+    clock: Clock,
     program: ProgramRef,
     /// True where other programs of the library call it.
     called: bool,
@@ -100,8 +104,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
     fn new(job: &'v Job<'j>, program: ProgramRef) -> Self {
         let called = is_called(job.source, program);
         let given = || job.source.given.get_or_init(|| given(job)).get(&program).cloned();
+        let Effort { program_seconds, library_seconds, .. } = job.effort;
         Self {
             job,
+            clock: job.spent.clock(program_seconds, library_seconds),
             program,
             called,
             given: if called { given().unwrap_or_default() } else { Given::default() },
@@ -143,6 +149,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             }
             None => self.because(Why::NoTarget, "the target has no such program"),
         }
+        self.job.spent.add(&self.clock);
         self.certificate(there)
     }
 

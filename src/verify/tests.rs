@@ -10,7 +10,7 @@ mod nesting;
 mod random;
 mod skips;
 
-use super::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
+use super::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Spent, Why, verify};
 use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
 use crate::dialect::{Control, registry};
@@ -62,7 +62,14 @@ fn supposing(
         assumptions.entry(ProgramRef { file: 0, program }).or_default().push(assumption);
     }
     let effort = Effort::default();
-    let job = Job { source: &source, target: &target, names: &names, assumptions: &assumptions, effort };
+    let job = Job {
+        source: &source,
+        target: &target,
+        names: &names,
+        assumptions: &assumptions,
+        effort,
+        spent: &Spent::default(),
+    };
     verify(&job, &[]).programs
 }
 

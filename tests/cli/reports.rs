@@ -117,3 +117,19 @@ fn a_report_of_no_known_kind_is_refused_before_anything_is_written() {
     shop.fails(&format!("{line} --report r.json --report r.json"), &["twice"]);
     shop.fails(&format!("{line} --report in/b.nc"), &["b.nc"]);
 }
+
+/// A program whose verification has no time left is undecided, and written all the same.
+#[test]
+fn time_that_is_up_decides_nothing() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", &CLEAN.replace("O1234", "O1235"))]);
+    let line = "convert in --from fanuc --to haas --out out";
+    for time in ["--program-seconds 0", "--library-seconds 0"] {
+        let run = shop.run(&format!("{line} {time}"));
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(run.out.contains("0 verified, 2 undecided"), "{}", run.out);
+        assert!(run.err.contains("the processor time for its verification is up"), "{}", run.err);
+        assert!(shop.read("out/a.nc.certificate.json").contains("\"out_of_time\""));
+    }
+    assert!(shop.run(&format!("{line} --program-seconds 1000")).out.contains("2 verified"));
+    assert_eq!(shop.run(&format!("{line} --program-seconds x")).code, 2);
+}

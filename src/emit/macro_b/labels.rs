@@ -181,8 +181,10 @@ struct Inventor {
     next: Vec<Option<u32>>,
     /// By block: the number in a label like `L100`.
     wishes: Vec<Option<u32>>,
-    /// Where to go on when there is no room between neighbours.
+    /// Where to go on when there is no room between neighbours: every tenth number from here, if there is one.
     spare: u32,
+    /// And the largest number that may be free when there is none of those.
+    top: u32,
 }
 
 impl Inventor {
@@ -201,7 +203,7 @@ impl Inventor {
             next[at] = next[at].or(next[at + 1]);
         }
         let wishes = program.blocks.iter().map(lettered).collect();
-        Self { taken, last, next, wishes, spare: labels.reach.floor().unwrap_or(SPARE) }
+        Self { taken, last, next, wishes, spare: labels.reach.floor().unwrap_or(SPARE), top: labels.most }
     }
 
     fn invent(mut self, labels: &mut Labels, missing: &[usize], faults: &mut Vec<String>) {
@@ -236,11 +238,15 @@ impl Inventor {
         let free = |number: &u32| !self.taken.contains(number) && labels.reach.may_be_invented(*number);
         let between = (tens..end).step_by(10).take(TRIES).find(free);
         let between = between.or_else(|| (before.saturating_add(1)..end).take(TRIES).find(free));
+        // What was found taken stays so: each number is looked at once.
         between.or_else(|| {
-            let number =
-                (self.spare..=most).step_by(10).find(free).or_else(|| (1..=most).rev().find(free))?;
-            self.spare = number;
-            Some(number)
+            let tenth = (self.spare..=most).step_by(10).find(free);
+            let number = tenth.or_else(|| (1..=self.top).rev().find(free));
+            match tenth {
+                Some(number) => self.spare = number,
+                None => (self.spare, self.top) = (most.saturating_add(1), number.unwrap_or(0)),
+            }
+            number
         })
     }
 }

@@ -50,7 +50,7 @@ impl Verifier<'_, '_> {
             let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
             let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
             for value in values(constant.value, &numbers) {
-                if self.went_every_way() || steps == 0 || for_target == 0 {
+                if self.went_every_way() || steps == 0 || for_target == 0 || self.is_out_of_time() {
                     return;
                 }
                 for_target -= usize::from(self.coverage.is_complete());
@@ -67,7 +67,7 @@ impl Verifier<'_, '_> {
         value: f64,
         steps: &mut u64,
     ) {
-        let Job { source, target, names, assumptions, effort } = *self.job;
+        let Job { source, target, names, assumptions, effort, spent } = *self.job;
         let Some(text) = with(source, self.program, ours, value) else { return };
         let parsed = parse_file(&text, source.control.entry().parse);
         let files = replaced(source, self.program, &parsed);
@@ -101,7 +101,8 @@ impl Verifier<'_, '_> {
             return;
         }
         let assumptions = moved(assumptions, self.program.file, ours.span.start, grown);
-        let job = Job { source: &new_source, target: &new_target, names, assumptions: &assumptions, effort };
+        let job =
+            Job { source: &new_source, target: &new_target, names, assumptions: &assumptions, effort, spent };
         let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
         pair.compare(&scenario, &run, there);
         let back = moved_back(target, there.file, &text, theirs);

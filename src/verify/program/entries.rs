@@ -47,7 +47,7 @@ impl Verifier<'_, '_> {
             let open = |state: &&&Start| state.turns == turns && !settled.contains(state.name);
             let all: Vec<&'static Start> = states.iter().filter(open).copied().collect();
             settled.extend(self.start_in(&all, &scenario, there));
-            if self.witness.is_some() {
+            if self.witness.is_some() || self.is_out_of_time() {
                 break;
             }
         }

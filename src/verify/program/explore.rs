@@ -42,6 +42,10 @@ impl Verifier<'_, '_> {
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
         while let Some(mut scenario) = proposals.next() {
+            if self.is_out_of_time() {
+                break;
+            }
+            scenario.milliseconds = scenario.milliseconds.map(|most| most.min(self.clock.left()));
             scenario.inch = unit(source, target).or(found.inch);
             self.given.start(&mut scenario);
             self.theirs = proposals.theirs().clone();
@@ -91,6 +95,17 @@ impl Verifier<'_, '_> {
         if ended && self.telling.len() < TELLING && (new || self.telling.len() < ANYWAY) {
             self.telling.push((scenario, self.theirs.clone()));
         }
+    }
+
+    /// True once its time is up: then it is not decided.
+    pub(super) fn is_out_of_time(&mut self) -> bool {
+        let is_up = self.clock.is_up();
+        if is_up {
+            let text = "the processor time for its verification is up: give it more with --program-seconds, or all \
+                        programs together with --library-seconds";
+            self.because(Why::OutOfTime, text);
+        }
+        is_up
     }
 
     /// True where neither side has ways left.

@@ -19,6 +19,9 @@ impl Verifier<'_, '_> {
         let switches: BTreeSet<u32> = self.skips.iter().copied().collect();
         let (ours, theirs) = (commons(self.job.source), self.registers());
         for (scenario, registers) in self.telling.clone() {
+            if self.is_out_of_time() {
+                break;
+            }
             self.theirs = registers;
             for block_skip in switches.iter().copied().filter(|setting| *setting != scenario.block_skip) {
                 self.once_more(&Scenario { block_skip, ..scenario.clone() }, there);

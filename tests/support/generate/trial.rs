@@ -27,7 +27,15 @@ static CONTROLS: LazyLock<[Control; 4]> = LazyLock::new(|| {
 });
 
 /// Enough for small programs; a nightly run makes up for it in number.
-pub const EFFORT: Effort = Effort { scenarios: 16, tries: 40, steps: 2000, all_steps: 60_000, seed: 1 };
+pub const EFFORT: Effort = Effort {
+    scenarios: 16,
+    tries: 40,
+    steps: 2000,
+    all_steps: 60_000,
+    seed: 1,
+    program_seconds: 60.0,
+    library_seconds: 600.0,
+};
 
 /// What became of a program.
 pub struct Trial {
