@@ -106,6 +106,15 @@ fn kinds(nc: &Nc) -> impl Iterator<Item = Auxiliary> + '_ {
     nc.items.iter().filter_map(move |item| kind(item, starts))
 }
 
+/// True for a word that goes where a code goes: the speed of a spindle that starts, the tool of a change.
+fn belongs(item: &NcItem, code: &NcItem) -> bool {
+    match item {
+        NcItem::Word(Role::Speed, _) => matches!(code, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)),
+        NcItem::Word(Role::Tool, _) => *code == NcItem::Op(Op::ToolChange),
+        _ => false,
+    }
+}
+
 /// A block that moves, and what goes before it and behind it, a block each.
 struct Block<'b> {
     nc: &'b mut Nc,
@@ -170,20 +179,12 @@ impl Block<'_> {
 
     /// Moves a kind out of the block: a code each, in their order.
     fn take(&mut self, wanted: Auxiliary, starts: bool, late: bool) {
-        let turns = matches!(wanted, Auxiliary::Forward | Auxiliary::Start);
-        let with = |item: &NcItem, code: &NcItem| match item {
-            NcItem::Word(Role::Speed, _) => {
-                turns && matches!(code, NcItem::Op(Op::SpindleCw | Op::SpindleCcw))
-            }
-            NcItem::Word(Role::Tool, _) => *code == NcItem::Op(Op::ToolChange),
-            _ => false,
-        };
         let items = std::mem::take(&mut self.nc.items);
         let codes: Vec<NcItem> =
             items.iter().filter(|item| kind(item, starts) == Some(wanted)).cloned().collect();
         let mut rest = items;
         for code in codes {
-            let goes = |item: &NcItem| *item == code || with(item, &code);
+            let goes = |item: &NcItem| *item == code || belongs(item, &code);
             let (block, kept): (Vec<_>, Vec<_>) = rest.into_iter().partition(goes);
             rest = kept;
             if late { self.late.push(block) } else { self.early.push(block) }
@@ -205,10 +206,10 @@ impl Block<'_> {
             }
             let first = codes.iter().find(|(kind, _)| !kind.waits() && *kind != Auxiliary::Speed);
             let late = first.is_none();
-            let Some((_, code)) = first.or(codes.last()) else { return };
-            let speeds = matches!(code, NcItem::Op(Op::SpindleCw | Op::SpindleCcw));
-            let goes =
-                |item: &NcItem| item == code || (speeds && matches!(item, NcItem::Word(Role::Speed, _)));
+            // Of those that wait the one that acts last goes first: a stop comes behind a change.
+            let last = || codes.iter().max_by_key(|(kind, _)| *kind);
+            let Some((_, code)) = first.or_else(last) else { return };
+            let goes = |item: &NcItem| item == code || belongs(item, code);
             let (block, kept) = std::mem::take(&mut self.nc.items).into_iter().partition(goes);
             self.nc.items = kept;
             if late { self.late.insert(0, block) } else { self.early.push(block) }

@@ -3,7 +3,7 @@
 use super::differ::{ANOTHER_FEED, differ};
 use super::left::left_differs;
 use super::letters;
-use super::loose::moves_over;
+use super::loose::{Found, farthest};
 use super::names::{Names, Side, class_of};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
@@ -84,19 +84,25 @@ pub fn compare<'r>(
     names: &Names,
     tolerance: Tolerance,
 ) -> Comparison<'r> {
-    let (ours, theirs) = (observe(source.0, source.1), observe(target.0, target.1));
-    let found = Comparison::default();
-    let mut pairs = Pairs {
-        target: target.0,
-        tolerance,
-        found,
-        at: [None; 2],
-        runs: [Runs::new(), Runs::new()],
-        uncancelled: false,
-    };
-    pairs.walk(ours, theirs, is_cut(source.1) || is_cut(target.1));
-    let mut found = pairs.found;
-    if found.difference.is_some() || is_cut(source.1) || is_cut(target.1) {
+    let cut = is_cut(source.1) || is_cut(target.1);
+    let mut found = farthest([source.1, target.1], |[ours, theirs]| {
+        let (ours, theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
+        let found = Comparison::default();
+        let mut pairs = Pairs {
+            target: target.0,
+            tolerance,
+            found,
+            at: [None; 2],
+            runs: [Runs::new(), Runs::new()],
+            uncancelled: false,
+        };
+        let far = pairs.walk(&ours, &theirs, cut);
+        let what = pairs.found;
+        let blocks = what.difference.as_ref().map(|found| [found.source, found.target]);
+        let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
+        Found { pairs: what.difference.is_some().then_some(far), blocks, what }
+    });
+    if found.difference.is_some() || cut {
         return found;
     }
     let left = left_differs(source, target, tolerance, &mut found.substituted);
@@ -122,13 +128,13 @@ struct Pairs<'p, 'r> {
 
 impl<'r> Pairs<'_, 'r> {
     /// Pairs the acts of both sides up to the first difference; behind the last of a run that was `cut`
-    /// nothing is missed.
-    fn walk(&mut self, mut ours: Vec<Act<'r>>, mut theirs: Vec<Act<'r>>, cut: bool) {
+    /// nothing is missed. How many it came by.
+    fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) -> usize {
         let (mut i, mut j) = (0, 0);
         loop {
             let (a, b) = (ours.get(i), theirs.get(j));
             let what = match (a, b) {
-                (None, None) => return,
+                (None, None) => return i + j,
                 (Some(a), Some(b)) => match self.differ(a, b, self.near(a, b)) {
                     None => {
                         self.moved(0, a);
@@ -138,14 +144,10 @@ impl<'r> Pairs<'_, 'r> {
                     }
                     Some(what) => what,
                 },
-                _ if cut => return,
+                _ if cut => return i + j,
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
-            if moves_over(&mut ours, i) || moves_over(&mut theirs, j) {
-                continue;
-            }
-            let (a, b) = (ours.get(i), theirs.get(j));
             let runs = |side: usize, act: Option<&Act<'r>>, others: &[Act<'r>], runs: &[Runs; 2]| {
                 act.is_some_and(|act| {
                     may_do_so(act, others, side == 1) || runs[side].is_told(&runs[1 - side], act)
@@ -171,7 +173,7 @@ impl<'r> Pairs<'_, 'r> {
                     }
                     _ => {
                         self.found.difference = Some(difference);
-                        return;
+                        return i + j;
                     }
                 }
                 a.into_iter().for_each(|a| self.moved(0, a));

@@ -2,29 +2,78 @@
 //!
 //! Nobody could tell in the work: nothing is cut. So such a change may stand before the move of its block or behind it.
 
-use super::observe::{Act, setting};
-use crate::control::trace::Told;
+use crate::control::Run;
+use crate::control::trace::{Event, Place, Told};
+use std::collections::BTreeSet;
 
-/// Puts the change that may stand elsewhere, of the block of the act at `at`, in the other place: before the moves that it
-/// stands behind, or behind those that it stands before. False where there is none.
-pub fn moves_over(acts: &mut [Act<'_>], at: usize) -> bool {
-    let Some(block) = acts.get(at).map(|act| act.event.at) else { return false };
-    let rest = acts.get_mut(at..).unwrap_or_default();
-    let length = rest.iter().take_while(|act| act.event.at == block).count();
-    let rest = rest.get_mut(..length).unwrap_or_default();
-    let Some(place) = rest.iter().position(|act| act.told == Told::Loose) else { return false };
-    // Once is enough: what does not fit in either place is a difference.
-    rest[place].told = Told::Plain;
-    let place = if place > 0 {
-        rest[..=place].rotate_right(1);
-        at
-    } else {
-        rest.rotate_left(1);
-        at + length - 1
-    };
-    // Among the settings of one place those of another block may come first.
-    let settings = acts.get_mut(place..).unwrap_or_default();
-    let many = settings.iter().take_while(|act| setting(&act.what).is_some()).count();
-    settings.get_mut(..many).unwrap_or_default().sort_by_key(|act| setting(&act.what));
-    length > 1
+/// The order in which the events of a run are looked at.
+#[derive(Clone, Debug)]
+pub struct Order<'r>(Vec<&'r Event>);
+
+impl<'r> Order<'r> {
+    /// The order in which they came.
+    pub fn of(run: &'r Run) -> Self {
+        Self(run.events.iter().collect())
+    }
+
+    /// The events.
+    pub fn events(&self) -> &[&'r Event] {
+        &self.0
+    }
+
+    /// Puts the changes of a block that may stand elsewhere in their other place, wherever it ran. False where it has
+    /// none.
+    fn turn(&mut self, block: Place) -> bool {
+        let mut found = false;
+        for run in self
+            .0
+            .chunk_by_mut(|a, b| a.at == b.at)
+            .filter(|run| run.first().is_some_and(|event| event.at == block))
+        {
+            let loose = |event: &&Event| event.told == Told::Loose;
+            let first = run.iter().take_while(|event| loose(event)).count();
+            let (before, rest) = run.split_at(first);
+            let (behind, moves): (Vec<_>, Vec<_>) = rest.iter().copied().partition(loose);
+            found |= first + behind.len() > 0;
+            let turned: Vec<&Event> = behind.into_iter().chain(moves).chain(before.iter().copied()).collect();
+            run.copy_from_slice(&turned);
+        }
+        found
+    }
+}
+
+/// Blocks that are looked at, at the most.
+const TURNS: usize = 40;
+
+/// How far two runs go together in one order of their events.
+pub struct Found<T> {
+    /// What was found.
+    pub what: T,
+    /// How many acts were paired; none where nothing differs.
+    pub pairs: Option<usize>,
+    /// The blocks of the first difference, of both sides.
+    pub blocks: [Option<Place>; 2],
+}
+
+/// Compares two runs; where they differ at a block with a change that may stand elsewhere, on one side or on both, it is
+/// looked for there, and left there if the runs then go farther together.
+pub fn farthest<'r, T>(runs: [&'r Run; 2], mut compare: impl FnMut(&[Order<'r>; 2]) -> Found<T>) -> T {
+    let mut orders = runs.map(Order::of);
+    let mut best = compare(&orders);
+    let mut tried = BTreeSet::new();
+    for _ in 0..TURNS {
+        let Some(pairs) = best.pairs.filter(|_| tried.insert(best.blocks)) else { break };
+        let farther = [&[0][..], &[1], &[0, 1]].into_iter().find_map(|sides| {
+            let mut other = orders.clone();
+            let mut turn = |side: usize| best.blocks[side].is_some_and(|block| other[side].turn(block));
+            if !sides.iter().all(|side| turn(*side)) {
+                return None;
+            }
+            let found = compare(&other);
+            found.pairs.is_none_or(|farther| farther > pairs).then_some((found, other))
+        });
+        let Some(farther) = farther else { break };
+        (best, orders) = farther;
+    }
+    best.what
 }

@@ -1,6 +1,7 @@
 //! What an observer of the machine could tell of a run.
 
 use super::compare::is_cut;
+use super::loose::Order;
 use super::names::Side as Library;
 use super::paths::apart;
 use crate::canon::{Group, Op, Running, Sys};
@@ -15,7 +16,7 @@ pub struct Act<'r> {
     pub event: &'r Event,
     /// What the observer tells of it: a stop at which the operator enters a value is a text and a question.
     pub what: Cow<'r, Happening>,
-    /// What is known of the event; a change of spindle or coolant may have to be looked for elsewhere.
+    /// What is known of the event.
     pub told: Told,
     /// Of a text, how many characters more the control would have shown; none where it knows no limit.
     pub room: Option<usize>,
@@ -93,32 +94,41 @@ const NOWHERE: f64 = 1e-9;
 ///
 /// Which work offset is selected shows in the machine coordinates of the moves, every offset having
 /// values of its own; so the selection itself counts only where a program returns, for its caller.
-pub fn observe<'r>(side: &Library<'_>, run: &'r Run) -> Vec<Act<'r>> {
+/// Which tool is made ready shows at the next change.
+pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<Act<'r>> {
     let mut seen =
         Observer { side, out: Vec::new(), waiting: Vec::new(), held: Vec::new(), open: [false; 2] };
     seen.held = initial(run).into_iter().filter_map(|what| Some((setting(&what)?, what))).collect();
-    for (at, event) in run.events.iter().enumerate().filter(|(_, event)| is_observable(&event.what)) {
+    let events = order.events();
+    for (at, event) in events.iter().copied().enumerate().filter(|(_, event)| is_observable(&event.what)) {
         if let Some(kind) = setting(&event.what) {
             // What the program says before a stop is told, whatever the stop does then.
             let implied = event.told == Told::Implied;
-            let said =
-                |(other, event): &(Setting, &Event)| *other == kind && (implied || event.told != Told::Found);
-            if (implied || is_end(&event.what)) && seen.waiting.iter().any(said) {
-                seen.settle(false, false);
-            }
-            seen.waiting.retain(|(other, _)| *other != kind);
+            let stays = |before: &Event| {
+                let said = implied || before.told != Told::Found;
+                said && (implied || is_end(&event.what)) && !is_end(&before.what)
+            };
+            seen.waiting.retain(|(other, before)| *other != kind || stays(before));
             seen.waiting.push((kind, event));
             continue;
         }
         // Which settings stand before a mode of corners and which behind it nobody could tell.
         if !is_mode(&event.what) {
-            seen.settle(returns(&event.what), is_idle(&event.what));
+            let (back, tool) = (returns(&event.what), finds_tool(&event.what));
+            let idle = is_idle(&event.what);
+            seen.settle(|kind, event| match kind {
+                Setting::Work => back,
+                Setting::Ready => tool,
+                // What was found running is nothing that counts before an idle move.
+                Setting::Spindle | Setting::Coolant => !(idle && event.told == Told::Found),
+                _ => true,
+            });
         }
-        seen.act(event, run.events.get(at + 1));
+        seen.act(event, events.get(at + 1).copied());
     }
     // Where a run was stopped from outside, nothing says which settings the next action would have found.
     if !is_cut(run) {
-        seen.settle(false, false);
+        seen.settle(|kind, _| kind != Setting::Work);
     }
     seen.out
 }
@@ -134,15 +144,11 @@ struct Observer<'o, 'r> {
 }
 
 impl<'r> Observer<'_, 'r> {
-    /// Lets the settings that changed take their places; the work offset only at the `end`. What was found running is
-    /// nothing that counts before an `idle` move.
-    fn settle(&mut self, end: bool, idle: bool) {
-        let stays = |(kind, event): &(Setting, &Event)| {
-            let runs = matches!(kind, Setting::Spindle | Setting::Coolant);
-            (*kind == Setting::Work && !end) || (runs && idle && event.told == Told::Found)
-        };
+    /// Lets the settings that count now take their places, if they changed.
+    fn settle(&mut self, counts: impl Fn(Setting, &Event) -> bool) {
         self.waiting.sort_by_key(|(kind, _)| *kind);
-        let (later, now): (Vec<_>, Vec<_>) = std::mem::take(&mut self.waiting).into_iter().partition(stays);
+        let all = std::mem::take(&mut self.waiting).into_iter();
+        let (now, later): (Vec<_>, Vec<_>) = all.partition(|(kind, event)| counts(*kind, event));
         self.waiting = later;
         for (kind, event) in now {
             let old = self.held.iter_mut().find(|(other, _)| *other == kind);
@@ -215,6 +221,11 @@ fn is_end(what: &Happening) -> bool {
         Spindle { direction: crate::control::trace::Spindle::Stopped, .. }
             | Coolant { state: Op::CoolantOff }
     )
+}
+
+/// True for what finds the tool that was made ready: a change, and what goes on behind an end.
+fn finds_tool(what: &Happening) -> bool {
+    matches!(what, Happening::ToolChange { .. } | Happening::End { .. })
 }
 
 /// True for the end of a program that others call.

@@ -31,7 +31,7 @@ pub(super) fn behind(machine: &mut Machine, command: &Command, before: &Before, 
 
 /// The kinds of what a block does beside moving, in the order in which they act.
 fn kinds<'c>(machine: &Machine, command: &'c Command) -> impl Iterator<Item = Auxiliary> + use<'c> {
-    let by_word = machine.rules.tool_word_changes.peek() && command.word(Role::Tool).is_some();
+    let by_word = changes_by_word(machine, command);
     let is = move |kind: &Auxiliary| match kind {
         // The word has changed it.
         Auxiliary::Change if by_word => false,
@@ -41,6 +41,11 @@ fn kinds<'c>(machine: &Machine, command: &'c Command) -> impl Iterator<Item = Au
         kind => of_kind(command, *kind).next().is_some(),
     };
     Auxiliary::ALL.into_iter().filter(is)
+}
+
+/// True where the tool word has changed the tool before anything else of the block.
+fn changes_by_word(machine: &Machine, command: &Command) -> bool {
+    machine.rules.tool_word_changes.peek() && command.word(Role::Tool).is_some()
 }
 
 fn of_kind(command: &Command, kind: Auxiliary) -> impl Iterator<Item = Op> + '_ {
@@ -58,7 +63,8 @@ fn starts(command: &Command) -> bool {
 fn acts_late(machine: &Machine, command: &Command, kind: Auxiliary) -> bool {
     let late = |kind| machine.rules.acts_late(kind).peek();
     // A tool in the changer does not turn: what starts waits for the change.
-    let waits = command.has(Op::ToolChange) && late(Auxiliary::Change) && !kind.waits();
+    let changes = command.has(Op::ToolChange) && !changes_by_word(machine, command);
+    let waits = changes && late(Auxiliary::Change) && !kind.waits();
     waits || late(kind)
 }
 
