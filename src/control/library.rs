@@ -27,6 +27,20 @@ impl<'f> Library<'f> {
     pub fn new(files: &'f [LoadedFile<'f>]) -> Self {
         Self { files, sections: Sections::new(files) }
     }
+
+    /// The cycle with this number, which is a file's first program.
+    pub fn cycle(&self, number: u32) -> Option<ProgramRef> {
+        let file = self.files.iter().position(|file| cycle_number(file.name) == Some(number))?;
+        Some(ProgramRef { file, program: 0 })
+    }
+}
+
+/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`.
+pub(super) fn cycle_number(file: &str) -> Option<u32> {
+    let name = file.rsplit(['/', '\\']).next()?.to_ascii_lowercase();
+    let rest = name.strip_prefix("cycle")?;
+    let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
+    rest.get(..end)?.parse().ok()
 }
 
 /// A program of a library.

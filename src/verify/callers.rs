@@ -237,7 +237,7 @@ fn enters(job: &Job<'_>, run: &Run, program: ProgramRef) -> bool {
 
 /// A program as a run came to it first.
 pub(super) fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r trace::Program> {
-    let name = called(job.source.name(program)?);
+    let name = job.source.name(program).map_or_else(String::new, called);
     run.programs.iter().find(|other| other.file == program.file && other.name == name)
 }
 

@@ -7,7 +7,7 @@ mod solve;
 pub use both::inputs_of_both;
 
 use super::names::Side;
-use crate::canon::Sys;
+use crate::canon::{Op, Sys};
 use crate::control::ProgramRef;
 use crate::syntax::{ExprKind, Index, Item, ItemKind, Label, VarRef};
 use reader::Reader;
@@ -128,13 +128,17 @@ fn moves(side: &Side<'_>, letter: char) -> bool {
     items.any(|item| matches!(&item.kind, ItemKind::Word(word) if word.letter == letter))
 }
 
-/// The programs that a block may call: those whose numbers stand in its P words.
+/// The programs that a block may call: those whose numbers stand in its P words, and cycles that a code of theirs calls.
 pub(super) fn calls<'s>(side: &'s Side<'_>, items: &'s [Item]) -> impl Iterator<Item = ProgramRef> + 's {
     items.iter().filter_map(|item| {
         let ItemKind::Word(word) = &item.kind else { return None };
         let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else {
             return None;
         };
+        if word.letter == 'G' {
+            let row = side.control.code('G', number.value, &[]).filter(|row| row.op == Op::CallCycle);
+            return row.and_then(|_| side.library.cycle((number.value % 100.0) as u32));
+        }
         let is_number = word.letter == 'P' && number.value >= 1.0 && number.value.fract() == 0.0;
         // A float outside the range becomes its nearest end.
         is_number.then(|| side.numbered(number.value as u32)).flatten()

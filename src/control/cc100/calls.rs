@@ -2,19 +2,12 @@
 
 use super::{At, Interpreter, Next};
 use crate::control::ProgramRef;
+use crate::control::library::cycle_number;
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
 use crate::syntax::{ItemKind, Label};
 use std::collections::HashMap;
-
-/// The number of the cycle that a file holds: 20 for `cycle20-auto-offset.nc`.
-fn cycle_number(file: &str) -> Option<u32> {
-    let name = file.rsplit(['/', '\\']).next()?.to_ascii_lowercase();
-    let rest = name.strip_prefix("cycle")?;
-    let end = rest.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(rest.len());
-    rest.get(..end)?.parse().ok()
-}
 
 /// How deep calls nest before the emulation gives up.
 const DEEPEST: u32 = 40;

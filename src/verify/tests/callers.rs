@@ -1,7 +1,10 @@
 //! Called programs: what their callers show of them, and what they do not.
 
 use super::programs;
-use crate::verify::{Outcome, ProgramCertificate, Why};
+use crate::control::LoadedFile;
+use crate::dialect::{Control, Profile, registry};
+use crate::syntax::parse_file;
+use crate::verify::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
 
 /// O2 rests on the mode that its caller is in.
 #[test]
@@ -212,4 +215,42 @@ fn programs_that_are_called_in_both_units_are_run_in_both() {
         let found = programs(("haas", &library("13")), ("haas", &library(words)), &[]);
         assert_eq!(found[2].outcome, Outcome::Different, "{words}: {found:#?}");
     }
+}
+
+/// A cycle stands in a file of its own, and is called by its code: it is in the unit of its caller, to which the target
+/// is not set.
+#[test]
+fn a_cycle_is_called_by_its_code() {
+    let control = |dialect: &str, units: &str| {
+        let profile = Profile::read(&format!("dialect = \"{dialect}\"\nunits = \"{units}\"")).unwrap();
+        Control::new(registry::find(dialect).unwrap(), profile).unwrap()
+    };
+    let controls = [control("cc100", "metric"), control("haas", "inch")];
+    let judged = |head: &str, way: &str| {
+        let texts = [
+            ["G90\nG54\nG0 X1\nG820\nM30\n".to_owned(), "G0\nZ-1.5\nM2\n".to_owned()],
+            [format!("O1000\n{head}G90G54\nG0X1.\nM98P8000\nM30\n"), format!("O8000\nG0\nZ{way}\nM99\n")],
+        ];
+        let parsed: Vec<Vec<_>> = (texts.iter().zip(&controls))
+            .map(|(files, control)| {
+                files.iter().map(|text| parse_file(text.as_bytes(), control.entry().parse)).collect()
+            })
+            .collect();
+        let files: Vec<Vec<LoadedFile<'_>>> = (parsed.iter())
+            .map(|files| {
+                let named = ["a.nc", "cycle20.nc"].into_iter().zip(files);
+                named.map(|(name, parsed)| LoadedFile { name, parsed }).collect()
+            })
+            .collect();
+        let side = |at: usize| Side::new(&controls[at], controls[at].entry().execute.unwrap(), &files[at]);
+        let (source, target) = (side(0), side(1));
+        let programs = [("a.nc".to_owned(), 1000), ("cycle20.nc".to_owned(), 8000)].into();
+        let names = Names { programs, ..Names::default() };
+        let (assumptions, effort) = (Assumptions::new(), Effort::default());
+        let job = Job { source: &source, target: &target, names: &names, assumptions: &assumptions, effort };
+        verify(&job, &[]).programs.into_iter().map(|program| program.outcome == Outcome::Different).collect()
+    };
+    let judged: [Vec<bool>; 3] = [judged("G21\n", "-1.5"), judged("", "-1.5"), judged("G21\n", "-1.6")];
+    assert_eq!(judged[0], [false, false]);
+    assert_eq!((judged[1][0], judged[2][1]), (true, true));
 }
