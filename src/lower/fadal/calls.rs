@@ -20,6 +20,12 @@ pub fn return_goal(items: &[Item], codes: &Codes<'_, '_>) -> Option<Goal> {
     operand(items, codes, Role::Sequence).and_then(program_number).map(Goal::Sequence)
 }
 
+/// True for `M99 P+R2`, which goes to the block that the number names.
+pub fn returns_computed(items: &[Item], codes: &Codes<'_, '_>) -> bool {
+    let to = || operand(items, codes, Role::Sequence);
+    codes.has(Op::Return) && to().is_some_and(|to| program_number(to).is_none())
+}
+
 fn call(callee: Callee, count: Option<Expr>) -> Call {
     Call { callee, level: false, arguments: Vec::new(), count }
 }
@@ -113,9 +119,27 @@ impl<'b> Lowering<'b> {
             self.end(TermKind::Jump(to));
             return Some(());
         }
-        let to = self.nc_value(to, Some(Role::Sequence))?;
-        self.end(TermKind::Return { to: Some(to) });
+        let value = self.nc_value(to, Some(Role::Sequence))?;
+        let targets = if here && value.constant().is_none() { self.all_sequences(span)? } else { Vec::new() };
+        self.end(match targets.is_empty() {
+            true => TermKind::Return { to: Some(value) },
+            false => TermKind::Computed { value, targets },
+        });
         Some(())
+    }
+
+    /// The blocks of the program that have a sequence number.
+    fn all_sequences(&mut self, span: Span) -> Option<Vec<(u32, BlockId)>> {
+        let numbers = self.shape.goals.keys().filter_map(|goal| match goal {
+            Goal::Sequence(number) => Some(*number),
+            Goal::Label(_) => None,
+        });
+        let mut numbers: Vec<u32> = numbers.collect();
+        numbers.sort_unstable();
+        numbers
+            .into_iter()
+            .map(|number| Some((number, self.block_of(&Goal::Sequence(number), span)?)))
+            .collect()
     }
 
     /// The block of a jump goal.

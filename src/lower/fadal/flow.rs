@@ -231,6 +231,11 @@ impl<'b> Flow<'b> {
                     if let (Some(goal), Some(_)) = (super::calls::return_goal(items, &codes), run) {
                         self.jump(&goal, &state);
                     }
+                    if run.is_some() && super::calls::returns_computed(items, &codes) {
+                        let all = self.shape.goals.keys();
+                        let all = all.filter(|goal| matches!(goal, Goal::Sequence(_))).cloned();
+                        all.collect::<Vec<_>>().iter().for_each(|goal| self.jump(goal, &state));
+                    }
                     return None;
                 }
                 Step::AreaEnd | Step::End => return None,

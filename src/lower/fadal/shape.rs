@@ -63,6 +63,7 @@ impl Shape {
         let mut wanted = HashSet::new();
         let mut leaders = vec![0];
         let mut at_head = true;
+        let mut any_sequence = false;
         for (at, block) in blocks.iter().enumerate() {
             let mut flows = false;
             for_each_item(&block.items, &mut |item| match &item.kind {
@@ -78,6 +79,7 @@ impl Shape {
             if let Some(goal) = super::calls::return_goal(&block.items, &codes) {
                 wanted.insert(goal);
             }
+            any_sequence |= super::calls::returns_computed(&block.items, &codes);
             flows |= !steps.is_empty();
             if at_head && let Some(number) = defines(&block.items, &steps) {
                 shape.numbers.entry(number).or_insert(shape.subs.len());
@@ -95,6 +97,10 @@ impl Shape {
             }
         }
         shape.close(blocks.len());
+        if any_sequence {
+            let items = blocks.iter().flat_map(|block| &block.items);
+            wanted.extend(items.filter_map(sequence));
+        }
         shape.find(blocks, &wanted);
         for (goal, (at, _)) in &shape.goals {
             let label = match goal {
@@ -136,10 +142,10 @@ impl Shape {
         for (at, block) in blocks.iter().enumerate() {
             for item in &block.items {
                 let goal = match &item.kind {
-                    ItemKind::Sequence { number, .. } => Goal::Sequence(*number),
-                    ItemKind::Label(label) => Goal::Label(label.clone()),
-                    _ => continue,
+                    ItemKind::Label(label) => Some(Goal::Label(label.clone())),
+                    _ => sequence(item),
                 };
+                let Some(goal) = goal else { continue };
                 if wanted.contains(&goal) {
                     self.goals.entry(goal).or_insert((at, 0)).1 += 1;
                 }
@@ -167,6 +173,14 @@ impl Shape {
     pub fn region(&self, at: usize) -> Option<usize> {
         let place = self.subs.partition_point(|sub| sub.blocks.end <= at);
         self.subs.get(place).filter(|sub| sub.blocks.contains(&at)).map(|_| place)
+    }
+}
+
+/// The goal that a sequence number is.
+fn sequence(item: &Item) -> Option<Goal> {
+    match item.kind {
+        ItemKind::Sequence { number, .. } => Some(Goal::Sequence(number)),
+        _ => None,
     }
 }
 
