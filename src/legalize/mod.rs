@@ -21,6 +21,7 @@ mod census;
 mod chain;
 mod clear;
 mod codes;
+mod computed_calls;
 mod computed_numbers;
 mod conditions;
 mod constants;

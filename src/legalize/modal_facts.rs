@@ -2,9 +2,11 @@
 //!
 //! A forward analysis over all programs at once: the state at a program's entry
 //! joins the states at all its calls, and the state behind a call is the
-//! callee's at its returns. What a program without a known caller starts in, and
-//! what an unknown callee leaves, is not known.
+//! callee's at its returns. A computed call enters every program that it may be
+//! meant for. What a program without a known caller starts in, and what an
+//! unknown callee leaves, is not known.
 
+use super::computed_calls::{Callees, computed_calls};
 use super::{Modal, calls_of, reachable};
 use crate::ir::{BlockId, Call, Callee, Module, Stmt, StmtKind, TermKind};
 use crate::syntax::ProgramName;
@@ -52,6 +54,7 @@ struct Analysis<'m> {
     /// True where nested modal calls do not enter the program that they name.
     copies: bool,
     by_name: BTreeMap<&'m ProgramName, usize>,
+    computed: BTreeMap<Routine, Callees>,
     entries: Vec<Vec<Entry>>,
     exits: BTreeMap<Routine, Modal>,
     /// Call blocks to look at again when a routine's exit changes.
@@ -71,6 +74,7 @@ impl<'m> Analysis<'m> {
                 .enumerate()
                 .filter_map(|(i, p)| Some((p.name.as_ref()?, i)))
                 .collect(),
+            computed: computed_calls(module),
             entries: module.programs.iter().map(|p| vec![None; p.blocks.len()]).collect(),
             exits: BTreeMap::new(),
             callers: BTreeMap::new(),
@@ -107,7 +111,9 @@ impl<'m> Analysis<'m> {
 
     fn called_programs(&self) -> BTreeSet<usize> {
         let calls = self.module.programs.iter().flat_map(|p| &p.blocks).flat_map(calls_of);
-        calls.filter_map(|call| self.program_of(&call.callee)).collect()
+        let computed = self.computed.values().filter(|callees| callees.known);
+        let computed = computed.flat_map(|callees| callees.programs.iter().copied());
+        calls.filter_map(|call| self.program_of(&call.callee)).chain(computed).collect()
     }
 
     fn program_of(&self, callee: &Callee) -> Option<usize> {
@@ -173,6 +179,11 @@ impl<'m> Analysis<'m> {
         let routine = match (&call.callee, self.program_of(&call.callee)) {
             (Callee::Block(entry), _) => (index, *entry),
             (_, Some(program)) => (program, BlockId(0)),
+            (Callee::Computed(_), _) => {
+                let callees = self.computed.get(&(index, id)).cloned().unwrap_or_default();
+                callees.programs.into_iter().for_each(|program| self.flow(program, BlockId(0), state));
+                return Rc::new(Modal::unknown_under(state));
+            }
             _ => return Rc::new(Modal::unknown_under(state)),
         };
         if self.callers.entry(routine).or_default().insert((index, id)) {
