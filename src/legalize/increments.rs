@@ -131,7 +131,7 @@ pub(super) fn names_unit(program: &Program) -> bool {
     units_named(program).next().is_some()
 }
 
-fn units_named(program: &Program) -> impl Iterator<Item = Units> + '_ {
+pub(super) fn units_named(program: &Program) -> impl Iterator<Item = Units> + '_ {
     let ncs = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| match &stmt.kind {
         StmtKind::Nc(nc) => Some(nc),
         _ => None,

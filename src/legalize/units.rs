@@ -10,7 +10,7 @@ use super::census::{Census, Thing};
 use super::codes::numbers;
 use super::emptied::drop_emptied;
 use super::exposed::roots;
-use super::increments::names_unit;
+use super::increments::{names_unit, units_named};
 use super::{Context, ModalFacts, calls_of, reachable};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -52,7 +52,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let known = entry.op(Group::Units).is_some() || module.programs.iter().any(names_unit);
     let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
     let open = open(module, &facts);
-    for root in mains(module).into_iter().filter(|&root| open[root]) {
+    let mut heads = mains(module);
+    if let Some(units) = ours.filter(|units| theirs.is_some_and(|theirs| theirs != *units)) {
+        heads.extend(lone(module, units));
+    }
+    for root in heads.into_iter().filter(|&root| open[root]) {
         let Some(units) = ours.or(checked[root]) else {
             let lost = lost(module, &facts, root);
             let (span, why) =
@@ -284,6 +288,17 @@ fn mains(module: &Module) -> Vec<usize> {
         end && (roots.contains(index) || !back)
     };
     (0..module.programs.len()).filter(is_main).collect()
+}
+
+/// The programs that others call whom the library has not, where nothing in it names another unit than this one: what
+/// calls them on the target may be in the unit that the target is set to.
+fn lone(module: &Module, units: Units) -> Vec<usize> {
+    if module.programs.iter().flat_map(units_named).any(|named| named != units) {
+        return Vec::new();
+    }
+    let mains: BTreeSet<usize> = mains(module).into_iter().collect();
+    let is_named = |root: &usize| module.programs[*root].name.is_some();
+    roots(module).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
 }
 
 fn head(program: &mut Program, op: Op) {

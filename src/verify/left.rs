@@ -9,7 +9,7 @@ use super::compare::Tolerance;
 use super::names::Side;
 use super::observe::returns;
 use super::substitutes::lacks;
-use crate::canon::Op;
+use crate::canon::{Group, Op};
 use crate::control::Run;
 use crate::control::machine::Left;
 use crate::control::scenario::{AXES, Axes, Tool};
@@ -90,7 +90,10 @@ fn state_differs(
     };
     let has = |side: &Side<'_>, op: Op| side.control.code_for(op, &Default::default()).is_some();
     let same = |op: Op, there: Op| op == there || (is_line(op, source) && is_line(there, source));
-    for ((_, op), (_, there)) in ours.modes.iter().zip(&theirs.modes) {
+    // Without a word of it each leaves the unit that its caller, or its machine, was in.
+    let kept = |group: Group| group == Group::Units && !ours.unit_named && !theirs.unit_named;
+    for ((_, op), (_, there)) in ours.modes.iter().zip(&theirs.modes).filter(|((group, _), _)| !kept(*group))
+    {
         if !same(*op, *there) && has(source, *there) && has(target, *op) {
             return Some(format!("in {op}, the target in {there}"));
         }

@@ -23,6 +23,8 @@ const MODES: [Group; 8] = [
 pub struct Left {
     /// The operation in force in each modal group.
     pub modes: Vec<(Group, Op)>,
+    /// True where the program named its unit; else that is the one it began in.
+    pub unit_named: bool,
     /// The feed in force, millimetres.
     pub feed: f64,
     /// The selected work offset: 0 none.
@@ -58,6 +60,7 @@ impl Machine {
         work_offsets.insert(0, self.frame.external);
         Left {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
+            unit_named: self.unit_named,
             feed: self.feed,
             work: self.frame.number,
             shift: std::array::from_fn(|axis| self.frame.shift(axis)),

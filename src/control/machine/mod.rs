@@ -63,6 +63,8 @@ pub struct Machine {
     unturned: Axes,
     work_offsets: BTreeMap<u32, Axes>,
     inch: bool,
+    /// True once the program named its unit.
+    unit_named: bool,
     incremental: bool,
     motion: Op,
     cycle: Option<Cycle>,
@@ -118,6 +120,7 @@ impl Machine {
             unturned: scenario.start,
             work_offsets: scenario.work_offsets.clone(),
             inch: scenario.inch.unwrap_or(control.units() == Some(Units::Inch)),
+            unit_named: false,
             incremental: false,
             motion: Op::Rapid,
             cycle: None,
@@ -177,8 +180,9 @@ impl Machine {
         match op {
             Op::Inch => self.inch = true,
             Op::Metric => self.inch = false,
-            _ => {}
+            _ => return,
         }
+        self.unit_named = true;
     }
 
     /// True where coordinates are incremental.
