@@ -3,6 +3,7 @@
 //! `MACROGLOT_PROGRAMS=1000 MACROGLOT_SEED=7 cargo test --test random -- --nocapture` tries so many programs
 //! of each dialect and policy. A program that shows a fault is made smaller, then printed with its seed.
 //! `MACROGLOT_KINDS="fadal DeepDo"` tries that kind alone, `MACROGLOT_KINDS=fadal` those of one dialect.
+//! `MACROGLOT_SMALLER=0` prints programs with faults as they were drawn.
 //! `MACROGLOT_REASONS=1` prints why each conversion is undecided.
 
 #[path = "support/generate/mod.rs"]
@@ -25,7 +26,7 @@ const SEED: u64 = 20_261;
 /// Programs with faults that are printed.
 const SHOWN: usize = 24;
 /// Smaller programs that are tried for one with a fault.
-const SMALLER: usize = 400;
+const SMALLER: u64 = 400;
 /// Reasons of undecided conversions that are printed.
 const REASONS: usize = 25;
 /// The time that a program may take: more is a fault of its own. Small programs take milliseconds.
@@ -41,8 +42,7 @@ fn drawn(dialect: &'static str, policy: Policy, seed: u64) -> Program {
 
 /// Tries a program; a panic is a fault like others.
 fn tried(program: &Program) -> Trial {
-    let text = program.text();
-    catch_unwind(|| trial::run(program.dialect, &text)).unwrap_or_else(|_| Trial {
+    catch_unwind(|| trial::run(program)).unwrap_or_else(|_| Trial {
         useful: false,
         judged: Vec::new(),
         faults: vec!["panicked".into()],
@@ -104,7 +104,7 @@ fn kind(fault: &str) -> String {
 
 /// The smallest program found that shows a fault of the same kind.
 fn smallest(program: Program, wanted: &str) -> Program {
-    let (mut program, mut left) = (program, SMALLER);
+    let (mut program, mut left) = (program, setting("MACROGLOT_SMALLER", SMALLER));
     'again: loop {
         for next in generate::smaller(&program) {
             if left == 0 {
@@ -213,7 +213,7 @@ fn the_bytes_of_a_fuzzer_make_programs_too() {
         let program = generate::fuzzed(bytes);
         assert!(program.text().lines().count() > 5);
         assert_eq!(program.text(), generate::fuzzed(bytes).text());
-        assert!(trial::run(program.dialect, &program.text()).faults.is_empty());
+        assert!(trial::run(&program).faults.is_empty());
     }
 }
 

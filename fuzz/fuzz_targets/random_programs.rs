@@ -6,7 +6,6 @@ use macroglot_fuzz::generate::{fuzzed, trial};
 
 libfuzzer_sys::fuzz_target!(|choices: &[u8]| {
     let program = fuzzed(choices);
-    let text = program.text();
-    let faults = trial::run(program.dialect, &text).faults;
-    assert!(faults.is_empty(), "{} {:?}\n{text}-- {}", program.dialect, program.policy, faults.join("\n"));
+    let faults = trial::run(&program).faults;
+    assert!(faults.is_empty(), "{} {:?}\n{}-- {}", program.dialect, program.policy, program.text(), faults.join("\n"));
 });

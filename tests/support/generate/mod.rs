@@ -5,6 +5,7 @@
 //! calls only those behind it; so every program ends. Each step carries its own salt for the writer's
 //! choices: where steps are left out, the others stay spelled as they were.
 
+mod beside;
 mod cc100;
 mod draw;
 mod fadal;
@@ -44,11 +45,19 @@ pub enum Policy {
     Operator,
     /// Words by variables, numbers in all forms, spacing, tools and spindle.
     Words,
+    /// Codes of spindle, coolant, tool and stops in the blocks of moves.
+    Beside,
+    /// Variables, jumps and calls by computed numbers, which may meet what a compiler invents.
+    Reach,
+    /// Calls of programs that cannot be converted.
+    Missing,
+    /// Machines of either unit, programs that name theirs and programs that do not, and changes from one to the other.
+    Units,
 }
 
 impl Policy {
     /// All of them.
-    pub const ALL: [Policy; 11] = [
+    pub const ALL: [Policy; 15] = [
         Policy::Goto,
         Policy::DeepDo,
         Policy::Arguments,
@@ -60,6 +69,10 @@ impl Policy {
         Policy::Calls,
         Policy::Operator,
         Policy::Words,
+        Policy::Beside,
+        Policy::Reach,
+        Policy::Missing,
+        Policy::Units,
     ];
 }
 
@@ -111,6 +124,14 @@ pub struct Program {
     pub subs: Vec<Vec<Step>>,
     /// The writer's choices that belong to no step.
     pub salt: u64,
+    /// Whether its own machine is set to millimetres, and whether the target's is.
+    pub metric: [bool; 2],
+}
+
+/// A file of a program's library.
+pub struct File {
+    pub name: String,
+    pub text: String,
 }
 
 /// A step, and the writer's choices in it.
@@ -204,6 +225,30 @@ pub enum Kind {
     Talk(usize, Value),
     /// Words in one of their spellings, by number.
     Words(usize, Value),
+    /// Codes of the machine in a block that does something else, both by number.
+    Beside {
+        block: usize,
+        value: Value,
+        codes: Vec<usize>,
+    },
+    /// Variables by computed numbers, by number.
+    Cells(usize, Value),
+    /// Goes on at a number that nothing bounds, or that is bounded so that one of the arms follows.
+    Jump {
+        given: usize,
+        form: usize,
+        arms: Vec<Vec<Step>>,
+    },
+    /// Calls by a computed number: one of two subprograms, or whichever circumstances name.
+    Far {
+        subs: [usize; 2],
+        given: usize,
+        form: usize,
+    },
+    /// What comes is in millimetres, or in inches.
+    Unit(bool),
+    /// What no control has: its program cannot be converted.
+    Unknown,
 }
 
 /// A mode that holds moves.
@@ -251,15 +296,30 @@ pub fn fuzzed(bytes: &[u8]) -> Program {
 }
 
 impl Program {
-    /// The text of the program in its dialect.
-    pub fn text(&self) -> String {
+    /// The subprograms that anything calls, by number: the others show nothing.
+    fn called(&self) -> impl Iterator<Item = (usize, &Vec<Step>)> {
+        let called = |(at, _): &(usize, &Vec<Step>)| shrink::is_called(&self.main, &self.subs, *at);
+        self.subs.iter().enumerate().filter(called)
+    }
+
+    /// The files of the program and its subprograms in its dialect; the first one is run.
+    pub fn files(&self) -> Vec<File> {
+        let one = |text| vec![File { name: "random.nc".into(), text }];
         match self.dialect {
-            "fadal" => fadal::write(self),
+            "fadal" => one(fadal::write(self)),
             "cc100" => cc100::write(self),
-            _ => macro_b::write(self),
+            _ => one(macro_b::write(self)),
         }
     }
+
+    /// Its text, to be looked at: that of all files.
+    pub fn text(&self) -> String {
+        self.files().into_iter().map(|file| file.text).collect()
+    }
 }
+
+/// Codes that no control has.
+const UNKNOWN: &[&str] = &["G777", "M777"];
 
 /// A number with up to six decimals, without a point where it is whole.
 fn plain(number: f64) -> String {

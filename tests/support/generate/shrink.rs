@@ -48,12 +48,28 @@ fn variants(steps: &[Step]) -> Vec<Vec<Step>> {
     out
 }
 
+/// True where the main program or a subprogram that it calls calls one.
+pub fn is_called(main: &[Step], subs: &[Vec<Step>], wanted: usize) -> bool {
+    let callers = subs.iter().enumerate().take(wanted);
+    calls(main, wanted)
+        || callers.into_iter().any(|(at, steps)| calls(steps, wanted) && is_called(main, subs, at))
+}
+
+fn calls(steps: &[Step], wanted: usize) -> bool {
+    steps.iter().any(|step| match &step.kind {
+        Kind::Call { sub, .. } => *sub == wanted,
+        Kind::Far { subs, .. } => subs.contains(&wanted),
+        Kind::Modal { sub, body, .. } => *sub == wanted || calls(body, wanted),
+        kind => held(kind).iter().any(|body| calls(body, wanted)),
+    })
+}
+
 /// The steps that a step holds.
-pub fn held(kind: &Kind) -> Vec<&Vec<Step>> {
+fn held(kind: &Kind) -> Vec<&Vec<Step>> {
     match kind {
         Kind::If { then, otherwise, .. } => vec![then, otherwise],
         Kind::Repeat { body, .. } | Kind::Within { body, .. } | Kind::Modal { body, .. } => vec![body],
-        Kind::Switch { arms, .. } => arms.iter().collect(),
+        Kind::Switch { arms, .. } | Kind::Jump { arms, .. } => arms.iter().collect(),
         _ => Vec::new(),
     }
 }
@@ -62,7 +78,7 @@ fn held_mut(kind: &mut Kind) -> Vec<&mut Vec<Step>> {
     match kind {
         Kind::If { then, otherwise, .. } => vec![then, otherwise],
         Kind::Repeat { body, .. } | Kind::Within { body, .. } | Kind::Modal { body, .. } => vec![body],
-        Kind::Switch { arms, .. } => arms.iter_mut().collect(),
+        Kind::Switch { arms, .. } | Kind::Jump { arms, .. } => arms.iter_mut().collect(),
         _ => Vec::new(),
     }
 }
@@ -105,6 +121,18 @@ fn plainer(kind: &Kind) -> Vec<Kind> {
         }
         Kind::Words(which, value) => {
             out.extend(parts(value).into_iter().map(|value| Kind::Words(*which, value)));
+        }
+        Kind::Cells(which, value) => {
+            out.extend(parts(value).into_iter().map(|value| Kind::Cells(*which, value)));
+        }
+        Kind::Beside { block, value, codes } => {
+            for at in 0..codes.len() {
+                let mut fewer = codes.clone();
+                fewer.remove(at);
+                out.push(Kind::Beside { block: *block, value: value.clone(), codes: fewer });
+            }
+            let with = |value| Kind::Beside { block: *block, value, codes: codes.clone() };
+            out.extend(parts(value).into_iter().map(with));
         }
         Kind::Modal { sub, values, body } => {
             for at in 0..values.len() {

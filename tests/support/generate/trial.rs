@@ -1,30 +1,19 @@
 //! One program through the whole line: read, converted, verified on the emulated controls.
 
+mod machines;
+mod missing;
+
+use super::{File, Program};
+use machines::{machine, targets};
 use macroglot::control::trace::Happening;
 use macroglot::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use macroglot::diag::Code;
-use macroglot::dialect::{Control, Profile, registry};
+use macroglot::dialect::Control;
 use macroglot::library::{self, Input, Lock, Options, convert, judge};
-use macroglot::syntax::parse_file;
+use macroglot::syntax::{ParsedFile, parse_file};
 use macroglot::verify::{Effort, Outcome, Reason, Witness};
 use std::path::PathBuf;
-use std::sync::LazyLock;
 use std::time::{Duration, Instant};
-
-/// The machines of the project file at the root, and what it leaves open of the others.
-static CONTROLS: LazyLock<[Control; 4]> = LazyLock::new(|| {
-    let with = |text: &str| {
-        let profile = Profile::read(text).expect("the profile is right");
-        let entry = registry::find(&profile.dialect).expect("its dialect is known");
-        Control::new(entry, profile).expect("the profile fits")
-    };
-    [
-        with("dialect = \"fadal\"\nunits = \"inch\""),
-        with(include_str!("../../../machines/fanuc-0i.toml")),
-        with(include_str!("../../../machines/haas-vf.toml")),
-        with("dialect = \"cc100\"\nunits = \"metric\""),
-    ]
-});
 
 /// Enough for small programs; a nightly run makes up for it in number.
 pub const EFFORT: Effort = Effort {
@@ -61,28 +50,38 @@ pub enum Judgement {
 }
 
 /// Tries a program.
-pub fn run(dialect: &str, text: &str) -> Trial {
-    let control = CONTROLS.iter().find(|control| control.name() == dialect).expect("a dialect");
+pub fn run(program: &Program) -> Trial {
     let start = Instant::now();
+    let (files, source) = (program.files(), machine(program.dialect, program.metric[0]));
     let (mut faults, mut reasons) = (Vec::new(), Vec::new());
-    let parsed = parse_file(text.as_bytes(), control.entry().parse);
-    if parsed.print() != text.as_bytes() {
-        faults.push("bytes are lost".into());
-    }
-    for error in parsed.blocks.iter().flat_map(|block| &block.errors) {
-        let place = &text[error.span.start as usize..error.span.end as usize];
-        faults.push(format!("not read: {} '{place}' {}", error.code.number(), error.message));
-    }
-    let loaded = [LoadedFile { name: "random.nc", parsed: &parsed }];
-    let execute = control.entry().execute.expect("an emulated control");
-    let scenario = Scenario { steps: EFFORT.steps, events: 5000, ..Scenario::default() };
-    let alive = does_something(&execute(&Library::new(&loaded), ProgramRef::FIRST, control, &scenario));
+    let alive = is_read(&files, source, &mut faults);
     let mut judged = Vec::new();
-    for target in CONTROLS.iter().filter(|target| target.name() != dialect && target.entry().emit.is_some()) {
-        judged.push((target.entry().name, judgement(text, control, target, &mut faults, &mut reasons)));
+    for target in targets(program.dialect, program.metric[1]) {
+        judged.push((target.entry().name, judgement(&files, source, target, &mut faults, &mut reasons)));
     }
     let converted = judged.iter().any(|(_, judgement)| *judgement != Judgement::Refused);
     Trial { useful: alive && converted, judged, faults, reasons, took: start.elapsed() }
+}
+
+/// Whether the program does something where its machine runs it; what is not read of it is a fault.
+fn is_read(files: &[File], control: &Control, faults: &mut Vec<String>) -> bool {
+    let parsed: Vec<ParsedFile<'_>> =
+        files.iter().map(|file| parse_file(file.text.as_bytes(), control.entry().parse)).collect();
+    for (file, parsed) in files.iter().zip(&parsed) {
+        if parsed.print() != file.text.as_bytes() {
+            faults.push("bytes are lost".into());
+        }
+        for error in parsed.blocks.iter().flat_map(|block| &block.errors) {
+            let place = &file.text[error.span.start as usize..error.span.end as usize];
+            faults.push(format!("not read: {} '{place}' {}", error.code.number(), error.message));
+        }
+    }
+    let named = files.iter().zip(&parsed);
+    let loaded: Vec<LoadedFile<'_>> =
+        named.map(|(file, parsed)| LoadedFile { name: &file.name, parsed }).collect();
+    let execute = control.entry().execute.expect("an emulated control");
+    let scenario = Scenario { steps: EFFORT.steps, events: 5000, ..Scenario::default() };
+    does_something(&execute(&Library::new(&loaded), ProgramRef::FIRST, control, &scenario))
 }
 
 fn does_something(run: &Run) -> bool {
@@ -93,17 +92,18 @@ fn does_something(run: &Run) -> bool {
 }
 
 fn judgement(
-    text: &str,
+    files: &[File],
     source: &Control,
     target: &Control,
     faults: &mut Vec<String>,
     reasons: &mut Vec<Reason>,
 ) -> Judgement {
-    let inputs = [Input {
-        path: PathBuf::from("random.nc"),
-        name: "random.nc".into(),
-        bytes: text.as_bytes().to_vec(),
-    }];
+    let input = |file: &File| Input {
+        path: PathBuf::from(&file.name),
+        name: file.name.clone(),
+        bytes: file.text.clone().into_bytes(),
+    };
+    let inputs: Vec<Input> = files.iter().map(input).collect();
     let lock = Lock::new(source.name(), target.name());
     let mut made = convert(&inputs, source, target, lock, Options::default());
     let written = made.texts.iter().flatten().cloned().collect::<String>();
@@ -117,6 +117,8 @@ fn judgement(
     }
     let refused = made.programs.iter().any(|program| program.outcome == library::Outcome::Refused);
     let certificates = judge(&inputs, &mut made, source, target, EFFORT);
+    let silent = missing::silent(files, &made);
+    faults.extend(silent.into_iter().map(|fault| format!("to {}: {fault}\n{written}", target.name())));
     let mut found = Judgement::Refused;
     let judged = certificates.written.iter().chain(&certificates.withheld);
     for program in judged.flatten().flat_map(|certificate| &certificate.programs) {

@@ -5,31 +5,52 @@ mod figures;
 mod flow;
 mod offsets;
 mod own;
+mod reach;
 mod words;
 
-use super::{Binary, Kind, Program, Relation, Source, Step, Value, plain};
+use super::{Binary, File, Kind, Policy, Program, Relation, Source, Step, UNKNOWN, Value, plain};
 use std::fmt::Write;
 
-pub fn write(program: &Program) -> String {
+pub fn write(program: &Program) -> Vec<File> {
     let mut choices = Source::Seed(program.salt);
     let label = 10 + program.subs.len() as u32;
     let numbers = choices.one_in(2);
-    let mut writer =
-        Writer { out: String::new(), block: numbers.then_some(1), label, ends: Vec::new(), used: 0 };
+    // A part of a program shares what becomes of it; a cycle is a program of its own.
+    let cycles = program.policy == Policy::Missing;
+    let block = numbers.then_some(1);
+    let mut writer = Writer { out: String::new(), block, label, part: 0, cycles, ends: Vec::new(), used: 0 };
     writer.line("G90");
     writer.line("G53");
     writer.line("G0 Z0 T00");
     writer.line("G54");
     writer.line("G1 F800");
+    if program.policy == Policy::Reach {
+        ["VD=0", "VE=0", "VF=0", "VG=0"].iter().for_each(|line| writer.line(line));
+    }
     writer.steps(&program.main);
     writer.line("M30");
-    for (at, sub) in program.subs.iter().enumerate() {
-        writer.line(&format!("${}", 1 + at));
+    let mut files = Vec::new();
+    for (at, sub) in program.called() {
+        if cycles {
+            files.push(std::mem::take(&mut writer.out));
+            writer.block = block;
+        } else {
+            writer.line(&format!("${}", 1 + at));
+        }
+        writer.part = at + 1;
         writer.steps(sub);
-        writer.line("G99");
+        writer.line(if cycles { "M2" } else { "G99" });
     }
-    writer.out
+    files.push(writer.out);
+    let named = files.into_iter().enumerate().map(|(at, text)| {
+        let name = if at == 0 { "random.nc".into() } else { format!("cycle{}.nc", CYCLE + at - 1) };
+        File { name, text }
+    });
+    named.collect()
 }
+
+/// The first subprogram, where they are cycles; `G8` calls it before the number.
+const CYCLE: usize = 20;
 
 struct Writer {
     out: String,
@@ -37,6 +58,10 @@ struct Writer {
     block: Option<u32>,
     /// The next free label.
     label: u32,
+    /// What is written: the main program, or a subprogram, counted from 1.
+    part: usize,
+    /// Subprograms are cycles, in files of their own.
+    cycles: bool,
     /// Where the loops around end.
     ends: Vec<u32>,
     /// Variables in use for parts of a value.
@@ -169,8 +194,7 @@ impl Writer {
                 for (slot, value) in values {
                     self.assign(&name(*slot), value);
                 }
-                let again = if *times > 1 { format!(" L{}", times - 1) } else { String::new() };
-                self.line(&format!("G22 P{}{again}", 1 + sub));
+                self.call(*sub, *times);
             }
             Kind::Cycle { places, .. } => {
                 self.line("G81 V1=5 V2=-10");
@@ -195,11 +219,26 @@ impl Writer {
                 for (slot, value) in values {
                     self.assign(&name(*slot), value);
                 }
-                self.line(&format!("G22 P{}", 1 + sub));
+                self.call(*sub, 1);
             }
             Kind::Talk(which, value) => self.talk(*which, value),
             Kind::Words(which, value) => self.spelled(*which, value),
+            Kind::Beside { block, value, codes } => self.beside(*block, value, codes, &mut choices),
+            Kind::Cells(which, value) => self.cells(*which, value),
+            Kind::Jump { given, form, arms } => self.jump(*given, *form, arms),
+            Kind::Far { subs, given, form } => self.far(*subs, *given, *form),
+            // The unit is switched at the control.
+            Kind::Unit(metric) => self.line(if *metric { "(MILLIMETRES)" } else { "(INCHES)" }),
+            Kind::Unknown => self.line(choices.pick(UNKNOWN)),
         }
+    }
+
+    fn call(&mut self, sub: usize, times: u32) {
+        if self.cycles {
+            return self.line(&format!("G8{}", CYCLE + sub));
+        }
+        let again = if times > 1 { format!(" L{}", times - 1) } else { String::new() };
+        self.line(&format!("G22 P{}{again}", 1 + sub));
     }
 
     /// Axis words: all numbers, or all variables, for a block holds one kind.

@@ -1,8 +1,10 @@
 //! Draws abstract programs by policy.
 
+mod reach;
 mod values;
+mod weights;
 
-use super::shrink::held;
+use super::shrink::is_called;
 use super::{Binary, Frame, Kind, Offset, Policy, Program, Source, Step, Unary, Value};
 
 /// Variables that a program sets as it likes.
@@ -34,10 +36,10 @@ struct Draw<'s, 'b> {
 
 pub fn program(dialect: &'static str, policy: Policy, source: &mut Source<'_>) -> Program {
     let salt = source.below(1 << 16) as u64;
-    let few = if matches!(policy, Policy::Arguments | Policy::Calls) {
-        1 + source.below(3)
-    } else {
-        source.below(3)
+    let few = match policy {
+        Policy::Arguments | Policy::Calls => 1 + source.below(3),
+        Policy::Missing => 2 + source.below(2),
+        _ => source.below(3),
     };
     let mut draw = Draw {
         policy,
@@ -62,21 +64,20 @@ pub fn program(dialect: &'static str, policy: Policy, source: &mut Source<'_>) -
         subs.push(draw.steps(3));
     }
     // What nobody calls shows nothing.
-    let called = |sub: &usize| calls(&main, *sub) || subs.iter().any(|steps| calls(steps, *sub));
-    let lonely: Vec<usize> = (0..few).filter(|sub| !called(sub)).collect();
+    let lonely: Vec<usize> = (0..few).filter(|sub| !is_called(&main, &subs, *sub)).collect();
     for sub in lonely {
         let values = vec![(0, draw.number()), (1, draw.number())];
         main.push(draw.step(Kind::Call { sub, values, times: 1 }));
     }
-    Program { dialect, policy, main, subs, salt }
-}
-
-fn calls(steps: &[Step], wanted: usize) -> bool {
-    steps.iter().any(|step| match &step.kind {
-        Kind::Call { sub, .. } => *sub == wanted,
-        Kind::Modal { sub, body, .. } => *sub == wanted || calls(body, wanted),
-        kind => held(kind).iter().any(|body| calls(body, wanted)),
-    })
+    if policy == Policy::Missing {
+        draw.spoil(&mut subs);
+    }
+    // The machines of the project file at the root, unless it is units that are wanted.
+    let metric = match policy {
+        Policy::Units => [draw.source.one_in(2), draw.source.one_in(2)],
+        _ => [dialect == "cc100", false],
+    };
+    Program { dialect, policy, main, subs, salt, metric }
 }
 
 impl Draw<'_, '_> {
@@ -112,27 +113,7 @@ impl Draw<'_, '_> {
     }
 
     fn kind(&mut self) -> Kind {
-        // How often: set, cell, mode, move, arc, dwell, if, repeat, leave, switch, call, cycle, offset, machine, own,
-        // figure, frame, modal call, talk, words.
-        let weights: [usize; 20] = match self.policy {
-            Policy::Goto => [5, 1, 1, 5, 1, 0, 8, 1, 2, 3, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0],
-            Policy::DeepDo => [4, 2, 1, 4, 1, 0, 2, 9, 3, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0],
-            Policy::Arguments => [4, 0, 1, 4, 0, 0, 2, 1, 1, 1, 8, 0, 0, 0, 1, 0, 0, 0, 0, 0],
-            Policy::NearRounding => [9, 1, 1, 6, 1, 1, 4, 1, 1, 1, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0],
-            Policy::Vacancy => [6, 1, 1, 6, 1, 0, 5, 1, 1, 1, 3, 1, 1, 0, 1, 0, 0, 0, 0, 0],
-            Policy::Cycles => [3, 0, 2, 3, 0, 0, 1, 2, 0, 0, 2, 8, 1, 1, 1, 0, 1, 0, 0, 0],
-            Policy::Offsets => [3, 0, 2, 5, 1, 0, 1, 1, 0, 0, 1, 1, 9, 2, 1, 0, 1, 0, 0, 0],
-            Policy::Figures => [2, 0, 1, 2, 2, 0, 1, 1, 0, 0, 1, 1, 1, 1, 0, 8, 6, 0, 0, 1],
-            Policy::Calls => [3, 0, 1, 3, 0, 0, 2, 1, 1, 1, 7, 0, 0, 0, 0, 1, 1, 5, 0, 1],
-            Policy::Operator => [3, 0, 0, 3, 0, 2, 3, 1, 0, 0, 1, 0, 1, 2, 1, 0, 0, 0, 9, 1],
-            Policy::Words => [2, 0, 1, 2, 1, 1, 2, 1, 0, 1, 1, 1, 1, 2, 1, 1, 0, 0, 0, 9],
-        };
-        let mut drawn = self.source.below(weights.iter().sum());
-        let mut which = 0;
-        while drawn >= weights[which] {
-            drawn -= weights[which];
-            which += 1;
-        }
+        let which = weights::drawn(self.policy, self.source);
         match which {
             1 if !self.around.is_empty() => {
                 Kind::SetCell { counter: self.source.pick(&self.around.clone()), value: self.value(2) }
@@ -183,6 +164,11 @@ impl Draw<'_, '_> {
             17 if self.callable.0 < self.callable.1 => self.modal(),
             18 => Kind::Talk(self.source.below(20), self.value(1)),
             19 => Kind::Words(self.source.below(24), self.value(1)),
+            20 => self.beside(),
+            21 => Kind::Cells(self.source.below(16), self.value(1)),
+            22 => self.jump(),
+            23 if self.callable.0 < self.callable.1 => self.far(),
+            24 => Kind::Unit(self.source.one_in(2)),
             _ => Kind::Set { slot: self.source.below(SLOTS), value: self.value(3) },
         }
     }

@@ -4,11 +4,12 @@ mod figures;
 mod flow;
 mod offsets;
 mod own;
+mod reach;
 mod spelling;
 mod talk;
 mod words;
 
-use super::{Kind, Program, Source, Step, Unary, Value, pointed};
+use super::{Kind, Policy, Program, Source, Step, UNKNOWN, Unary, Value, pointed};
 use spelling::{name, text};
 use std::fmt::Write;
 
@@ -17,11 +18,15 @@ const LINE: usize = 63;
 
 pub fn write(program: &Program) -> String {
     let mut choices = Source::Seed(program.salt);
+    // Subroutines of the main program share what becomes of it.
     let split = choices.below(program.subs.len() + 1);
-    let mut writer = Writer { out: String::new(), label: 10, ends: Vec::new(), split, temporaries: 0 };
+    let split = if program.policy == Policy::Missing { 0 } else { split };
+    let mut writer =
+        Writer { out: String::new(), label: 10, part: 0, ends: Vec::new(), split, temporaries: 0 };
     writer.line("O1000 (MAIN");
     for (at, sub) in program.subs.iter().enumerate().take(split) {
         writer.line(&format!("L{}00", at + 1));
+        writer.part = at + 1;
         writer.steps(sub);
         if at + 1 == split || choices.one_in(2) {
             writer.line("M17");
@@ -39,11 +44,15 @@ pub fn write(program: &Program) -> String {
     writer.line("G0 G90 G17 G40 G49 G80 E1");
     writer.line("S800 M3");
     writer.line("G1 F300.");
+    writer.part = 0;
+    if program.policy == Policy::Reach {
+        (0..=program.subs.len()).for_each(|part| writer.line(&format!("#V{}=0", 86 + part)));
+    }
     writer.steps(&program.main);
     writer.line("M2");
-    for (at, sub) in program.subs.iter().enumerate().skip(split) {
+    for (at, sub) in program.called().filter(|(at, _)| *at >= split) {
         writer.line(&format!("O{}", 1001 + at));
-        writer.label = 10;
+        (writer.label, writer.part) = (10, at + 1);
         writer.steps(sub);
         writer.line("M99");
     }
@@ -54,6 +63,8 @@ struct Writer {
     out: String,
     /// The next free label.
     label: u32,
+    /// What is written: the main program, or a subprogram, counted from 1.
+    part: usize,
     /// Where the loops around end.
     ends: Vec<u32>,
     /// Subprograms below it are L subroutines, the others programs.
@@ -212,6 +223,13 @@ impl Writer {
             Kind::Modal { sub, values, body } => self.modal(*sub, values, body),
             Kind::Talk(which, value) => self.talk(*which, value, &mut choices),
             Kind::Words(which, value) => self.spelled(*which, value),
+            Kind::Beside { block, value, codes } => self.beside(*block, value, codes, &mut choices),
+            Kind::Cells(which, value) => self.cells(*which, value, &mut choices),
+            Kind::Jump { given, form, arms } => self.jump(*given, *form, arms),
+            Kind::Far { subs, given, form } => self.far(*subs, *given, *form),
+            // Checks the machine's unit.
+            Kind::Unit(metric) => self.line(if *metric { "G21" } else { "G20" }),
+            Kind::Unknown => self.line(choices.pick(UNKNOWN)),
         }
     }
 

@@ -51,7 +51,9 @@ impl Writer<'_> {
                 for (slot, value) in values {
                     self.set(self.name(*slot), value);
                 }
-                if self.haas && choices.one_in(3) && self.local.len() < 4 {
+                // A copy of what cannot be converted would stand in the caller.
+                let apart = self.program.policy == Policy::Missing;
+                if self.haas && !apart && choices.one_in(3) && self.local.len() < 4 {
                     let label = self.labels(1);
                     self.local.push((sub, label));
                     self.line(&format!("M97 P{label}{again}"));

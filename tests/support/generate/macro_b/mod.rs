@@ -1,15 +1,17 @@
 //! Spells programs as Custom Macro B: what two of the dialects share, and where they part.
 
+mod beside;
 mod calls;
 mod figures;
 mod flow;
 mod offsets;
 mod own;
+mod reach;
 mod spelling;
 mod talk;
 mod words;
 
-use super::{Kind, Program, Source, Step, Value, pointed};
+use super::{Kind, Policy, Program, Source, Step, UNKNOWN, Value, pointed};
 use std::fmt::Write;
 
 pub fn write(program: &Program) -> String {
@@ -21,24 +23,41 @@ pub fn write(program: &Program) -> String {
         out: String::new(),
         label: 10,
         loops: 0,
+        part: 0,
         ends: Vec::new(),
         local: Vec::new(),
         entries: Vec::new(),
         gap: if choices.one_in(2) { " " } else { "" },
         locals_count: choices.one_in(2),
     };
-    let units = choices.pick(&["G21 ", "G21 ", "G20 ", ""]);
+    let named: &[&str] = if program.policy == Policy::Units {
+        &["", "", "G20 ", "G21 "]
+    } else {
+        &["G21 ", "G21 ", "G20 ", ""]
+    };
+    let units = choices.pick(named);
     writer.line("O1000");
     writer.line(&format!("{units}G90 G17 G40 G49 G80 G94 G54"));
     writer.line("S800 M3");
     writer.line("G1 F300.");
+    if program.policy == Policy::Reach {
+        (0..=program.subs.len()).for_each(|part| writer.line(&format!("#{}=0", 110 + part)));
+    }
     writer.steps(&program.main);
     writer.line(choices.pick(&["M30", "M30", "M2"]));
     writer.local_subs();
-    for (at, sub) in program.subs.iter().enumerate() {
+    for (at, sub) in program.called() {
+        // Blocks behind the end of their callers stand for it.
+        let copied = haas && program.policy != Policy::Reach;
+        if copied && !writer.out.contains(&format!("P{}", writer.number(at))) {
+            continue;
+        }
         writer.line(&format!("O{}", writer.number(at)));
-        (writer.label, writer.loops) = (10, 0);
+        (writer.label, writer.loops, writer.part) = (10, 0, at + 1);
         writer.entries.clear();
+        if program.policy == Policy::Units && choices.one_in(4) {
+            writer.line(choices.pick(&["G20", "G21"]));
+        }
         writer.steps(sub);
         let last = if writer.goes_on(at) { format!("M99 P{}", writer.entry(at)) } else { "M99".into() };
         writer.line(&last);
@@ -55,6 +74,8 @@ struct Writer<'p> {
     label: u32,
     /// How many DO stand around.
     loops: u32,
+    /// Which program is written: the main one, or a subprogram, counted from 1.
+    part: usize,
     /// Where the loops around end.
     ends: Vec<u32>,
     /// Subprograms to be written behind the end of this program, and their numbers.
@@ -182,6 +203,12 @@ impl Writer<'_> {
             Kind::Modal { sub, values, body } => self.modal(*sub, values, body, &mut choices),
             Kind::Talk(which, value) => self.talk(*which, value, &mut choices),
             Kind::Words(which, value) => self.spelled(*which, value, &mut choices),
+            Kind::Beside { block, value, codes } => self.beside(*block, value, codes, &mut choices),
+            Kind::Cells(which, value) => self.cells(*which, value, &mut choices),
+            Kind::Jump { given, form, arms } => self.jump(*given, *form, arms, &mut choices),
+            Kind::Far { subs, given, form } => self.far(*subs, *given, *form),
+            Kind::Unit(metric) => self.line(if *metric { "G21" } else { "G20" }),
+            Kind::Unknown => self.line(choices.pick(UNKNOWN)),
         }
     }
 

@@ -11,6 +11,8 @@ impl Writer<'_> {
             9 if all_local => 11,
             6..=9 if all_local => slot + 1,
             6 | 7 => slot + 100,
+            // Variables that the other control may not have.
+            8 | 9 if self.program.policy == Policy::Reach && !self.haas => slot + 700,
             8 | 9 => slot + 500,
             // What circumstances give: some that power-off clears, some that it does not.
             10..=15 if slot.is_multiple_of(2) => slot + 130,

@@ -1,0 +1,34 @@
+//! The machines that random programs are run on and converted to.
+
+use macroglot::dialect::{Control, Profile, registry};
+use std::sync::LazyLock;
+
+/// The machines of the project file at the root, and what it leaves open of the others: set to inches, and to millimetres.
+static MACHINES: LazyLock<[Vec<Control>; 2]> = LazyLock::new(|| {
+    let with = |text: &str| {
+        let profile = Profile::read(text).expect("the profile is right");
+        let entry = registry::find(&profile.dialect).expect("its dialect is known");
+        Control::new(entry, profile).expect("the profile fits")
+    };
+    let fanuc = include_str!("../../../../machines/fanuc-0i.toml");
+    let haas = include_str!("../../../../machines/haas-vf.toml");
+    let (fadal, cc100) = ("dialect = \"fadal\"\nunits = \"inch\"", "dialect = \"cc100\"\nunits = \"inch\"");
+    let inch = [fadal, fanuc, haas, cc100];
+    let metric = inch.map(|text| {
+        assert!(text.contains("units = \"inch\""));
+        text.replace("units = \"inch\"", "units = \"metric\"")
+    });
+    [inch.map(with).into(), metric.map(|text| with(&text)).into()]
+});
+
+/// The machine of a dialect, set to millimetres or to inches.
+pub fn machine(dialect: &str, metric: bool) -> &'static Control {
+    let named = |control: &&Control| control.name() == dialect;
+    MACHINES[usize::from(metric)].iter().find(named).expect("a dialect")
+}
+
+/// Machines that conversions are written for, but for one dialect.
+pub fn targets(from: &str, metric: bool) -> impl Iterator<Item = &'static Control> {
+    let of = &MACHINES[usize::from(metric)];
+    of.iter().filter(move |target| target.name() != from && target.entry().emit.is_some())
+}
