@@ -3,7 +3,7 @@
 //! Nobody could tell in the work: nothing is cut. So such a change may stand before the move of its block or behind it.
 
 use crate::control::Run;
-use crate::control::trace::{Event, Place, Told};
+use crate::control::trace::{Event, Happening, Place, Told};
 use std::collections::BTreeSet;
 
 /// The order in which the events of a run are looked at.
@@ -31,11 +31,13 @@ impl<'r> Order<'r> {
             .filter(|run| run.first().is_some_and(|event| event.at == block))
         {
             let loose = |event: &&Event| event.told == Told::Loose;
-            let first = run.iter().take_while(|event| loose(event)).count();
-            let (before, rest) = run.split_at(first);
-            let (behind, moves): (Vec<_>, Vec<_>) = rest.iter().copied().partition(loose);
-            found |= first + behind.len() > 0;
-            let turned: Vec<&Event> = behind.into_iter().chain(moves).chain(before.iter().copied()).collect();
+            let idle =
+                |event: &&Event| matches!(event.what, Happening::Rapid { .. } | Happening::Dwell { .. });
+            let (before, rest) = run.split_at(run.iter().position(idle).unwrap_or(0));
+            let (after, kept): (Vec<&Event>, Vec<_>) = before.iter().copied().partition(loose);
+            let (ahead, moves): (Vec<&Event>, Vec<_>) = rest.iter().copied().partition(loose);
+            found |= after.len() + ahead.len() > 0;
+            let turned: Vec<&Event> = [kept, ahead, moves, after].concat();
             run.copy_from_slice(&turned);
         }
         found

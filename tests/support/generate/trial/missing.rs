@@ -31,9 +31,9 @@ pub fn silent(files: &[File], made: &Conversion) -> Vec<String> {
         }
         for (callee, _) in both().filter(|(_, callee)| callee.outcome == Outcome::Refused) {
             let Some(number) = callee.number else { continue };
-            // A modal call calls nothing until a move, and may come to none; it may tell of the others.
-            let lines = calls(part, number, &["M98P", "G65P"]);
-            if !lines.is_empty() && !says_so(report, &calls(part, number, &["M98P", "G65P", "G66P"])) {
+            // A modal call calls nothing until a move, and may come to none.
+            let lines = calls(part, number);
+            if !lines.is_empty() && !says_so(report, number, &lines) {
                 faults.push(format!("not said: {:?} calls the refused program {number}", part.number));
             }
         }
@@ -41,12 +41,14 @@ pub fn silent(files: &[File], made: &Conversion) -> Vec<String> {
     faults
 }
 
-/// True where a finding stands at one of these lines that tells of what is called.
-fn says_so(report: &ProgramReport, lines: &[Range<usize>]) -> bool {
+/// True where a finding stands at one of these lines that tells of what is called, or one at a move that calls it names
+/// it: it is said once a program.
+fn says_so(report: &ProgramReport, number: u32, lines: &[Range<usize>]) -> bool {
+    let name = format!("O{number} ");
     report.diagnostics.iter().any(|found| {
         let tells = matches!(found.code, Code::OutsideLibrary | Code::CalleeWithdrawn);
         let here = lines.iter().any(|line| line.contains(&(found.span.start as usize)));
-        tells && here && found.code.severity() != Severity::Note
+        tells && (here || found.message.contains(&name)) && found.code.severity() != Severity::Note
     })
 }
 
@@ -71,9 +73,9 @@ fn parts(file: usize, text: &str) -> Vec<Part<'_>> {
     starts.iter().zip(ends).map(part).collect()
 }
 
-/// The lines of a program in which it calls one of this number by such words.
-fn calls(part: &Part<'_>, number: u32, by: &[&str]) -> Vec<Range<usize>> {
-    let names: Vec<String> = by.iter().map(|by| format!("{by}{number}")).collect();
+/// The lines of a program in which it calls one of this number.
+fn calls(part: &Part<'_>, number: u32) -> Vec<Range<usize>> {
+    let names = [format!("M98P{number}"), format!("G65P{number}")];
     let repeated = format!("{number:04}");
     let called = |line: &str| {
         let line: String = line.chars().filter(|sign| *sign != ' ').collect();
