@@ -47,7 +47,7 @@ pub fn computed_calls(module: &Module) -> BTreeMap<(usize, BlockId), Callees> {
 /// The computed numbers that a block calls, and the statements that they stand in.
 fn numbers(block: &Block) -> Vec<(usize, &Expr)> {
     let of = |callee| match callee {
-        &Callee::Computed(ref number) => Some(number),
+        Callee::Computed(number) => Some(number),
         _ => None,
     };
     let stmts = block.stmts.iter().enumerate().filter_map(|(at, stmt)| match &stmt.kind {

@@ -33,11 +33,16 @@ impl<'r> Order<'r> {
             let loose = |event: &&Event| event.told == Told::Loose;
             let idle =
                 |event: &&Event| matches!(event.what, Happening::Rapid { .. } | Happening::Dwell { .. });
-            let (before, rest) = run.split_at(run.iter().position(idle).unwrap_or(0));
+            let (Some(first), Some(last)) = (run.iter().position(idle), run.iter().rposition(idle)) else {
+                continue;
+            };
+            // The end of a program may stand in its last block, behind all of that.
+            let (moves, behind) = run.split_at(last + 1);
+            let (before, moves) = moves.split_at(first);
             let (after, kept): (Vec<&Event>, Vec<_>) = before.iter().copied().partition(loose);
-            let (ahead, moves): (Vec<&Event>, Vec<_>) = rest.iter().copied().partition(loose);
+            let (ahead, rest): (Vec<&Event>, Vec<_>) = behind.iter().copied().partition(loose);
             found |= after.len() + ahead.len() > 0;
-            let turned: Vec<&Event> = [kept, ahead, moves, after].concat();
+            let turned: Vec<&Event> = [&kept, &ahead, moves, &after, &rest].map(<[_]>::to_vec).concat();
             run.copy_from_slice(&turned);
         }
         found
