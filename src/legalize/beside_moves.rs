@@ -8,6 +8,7 @@
 
 use super::census::Census;
 use super::modal_facts::ModalFacts;
+use super::pauses::pause_of;
 use super::{Context, Modal, replace_statements};
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
@@ -20,6 +21,8 @@ pub fn concerns(census: &Census) -> bool {
 /// Puts what acts before or behind the move of its block into blocks of its own.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
+    let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let pauses = stmts.any(|stmt| pause_of(&stmt.kind).is_some());
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         let before = match &stmt.kind {
             StmtKind::Nc(nc) if kinds(nc).next().is_some() => Some(state.clone()),
@@ -31,7 +34,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         if moves == Move::None {
             return out.push(stmt);
         }
-        let mut block = Block { nc, before: &before, moves, early: Vec::new(), late: Vec::new() };
+        let mut block = Block { nc, before: &before, pauses, moves, early: Vec::new(), late: Vec::new() };
         for fact in block.split(context) {
             context.rests_on_source(index, stmt.site.span, fact);
         }
@@ -119,6 +122,8 @@ fn belongs(item: &NcItem, code: &NcItem) -> bool {
 struct Block<'b> {
     nc: &'b mut Nc,
     before: &'b Modal,
+    /// True where the library has stops: the target may end at one what the source lets run.
+    pauses: bool,
     moves: Move,
     early: Vec<Vec<NcItem>>,
     late: Vec<Vec<NcItem>>,
@@ -139,10 +144,11 @@ impl Block<'_> {
                 facts.push(here.question);
             }
             // A tool in the changer does not turn: what starts waits for the change.
-            let late = here.late || (changes && context.source.acts(Auxiliary::Change).late);
+            let waits = changes && !kind.waits() && context.source.acts(Auxiliary::Change).late;
+            let late = here.late || waits;
             let same = there.known && there.late == late;
             // Of a builder's code nothing says which block it may stand in.
-            if same || (!here.known && (!tells || kind == Auxiliary::Other)) {
+            if same || (!waits && !here.known && (!tells || kind == Auxiliary::Other)) {
                 continue;
             }
             self.take(kind, starts, late);
@@ -171,10 +177,10 @@ impl Block<'_> {
         }
     }
 
-    /// True for an operation of a kind that changes what is in force.
+    /// True for an operation of a kind that may change what is in force.
     fn switches(&self, op: Op, wanted: Auxiliary) -> bool {
-        op.auxiliary() == Some(wanted)
-            && (self.before.op(op.group()) != Some(op) || self.nc.word(Role::Speed).is_some())
+        let other = self.pauses || self.before.op(op.group()) != Some(op);
+        op.auxiliary() == Some(wanted) && (other || self.nc.word(Role::Speed).is_some())
     }
 
     /// Moves a kind out of the block: a code each, in their order.
@@ -204,7 +210,10 @@ impl Block<'_> {
             if codes.len() <= most {
                 return;
             }
-            let first = codes.iter().find(|(kind, _)| !kind.waits() && *kind != Auxiliary::Speed);
+            // What starts waits for a change beside it.
+            let changes = codes.iter().any(|(kind, _)| *kind == Auxiliary::Change);
+            let goes = |kind: Auxiliary| !changes && !kind.waits() && kind != Auxiliary::Speed;
+            let first = codes.iter().find(|(kind, _)| goes(*kind));
             let late = first.is_none();
             // Of those that wait the one that acts last goes first: a stop comes behind a change.
             let last = || codes.iter().max_by_key(|(kind, _)| *kind);

@@ -18,7 +18,7 @@ pub struct Callees {
 
 /// The computed calls of a library, by program and block.
 pub fn computed_calls(module: &Module) -> BTreeMap<(usize, BlockId), Callees> {
-    let computes = |block: &Block| calls_of(block).any(|call| matches!(call.callee, Callee::Computed(_)));
+    let computes = |block: &Block| calls_of(block).any(|call| computed(&call.callee).is_some());
     let blocks = module.programs.iter().enumerate().flat_map(|(index, program)| {
         program.ids().zip(&program.blocks).map(move |(id, block)| (index, id, block))
     });
@@ -44,18 +44,21 @@ pub fn computed_calls(module: &Module) -> BTreeMap<(usize, BlockId), Callees> {
     found
 }
 
-/// The computed numbers that a block calls, and the statements that they stand in.
-fn numbers(block: &Block) -> Vec<(usize, &Expr)> {
-    let of = |callee| match callee {
+fn computed(callee: &Callee) -> Option<&Expr> {
+    match callee {
         Callee::Computed(number) => Some(number),
         _ => None,
-    };
+    }
+}
+
+/// The computed numbers that a block calls, and the statements that they stand in.
+fn numbers(block: &Block) -> Vec<(usize, &Expr)> {
     let stmts = block.stmts.iter().enumerate().filter_map(|(at, stmt)| match &stmt.kind {
-        StmtKind::ModalCall(call) => Some((at, of(&call.callee)?)),
+        StmtKind::ModalCall(call) => Some((at, computed(&call.callee)?)),
         _ => None,
     });
     let term = match &block.term.kind {
-        TermKind::Call { call, .. } => of(&call.callee).map(|number| (block.stmts.len(), number)),
+        TermKind::Call { call, .. } => computed(&call.callee).map(|number| (block.stmts.len(), number)),
         _ => None,
     };
     stmts.chain(term).collect()

@@ -54,6 +54,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 id,
                 state: facts.at(index, id),
                 restarted: [false; 2],
+                skipped: false,
                 started: started[index],
                 after: &after,
             };
@@ -62,6 +63,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let pause = pause_of(&stmt.kind);
                 place.state.step(&stmt);
                 place.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
+                place.skipped = stmt.site.skip.is_some();
                 if let Some((pause, optional)) = pause {
                     let before = place.stop(pause, optional, number + 1, stmt.site.span, context);
                     ended(before, stmt, &mut out);
@@ -70,7 +72,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
             }
             if let TermKind::End { .. } = block.term.kind {
-                place.restarted = [false; 2];
+                (place.restarted, place.skipped) = ([false; 2], false);
                 let span = block.term.site.span;
                 for op in place.stop(Pause::End, false, usize::MAX, span, context) {
                     let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
@@ -142,7 +144,7 @@ fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
 }
 
 /// The kind of stop that a statement is, and whether it may be switched off. A question stops like a message.
-fn pause_of(kind: &StmtKind) -> Option<(Pause, bool)> {
+pub(super) fn pause_of(kind: &StmtKind) -> Option<(Pause, bool)> {
     match kind {
         StmtKind::StopMessage { .. } | StmtKind::Input { .. } => Some((Pause::Message, false)),
         StmtKind::Nc(nc) if nc.has(Op::Stop) => Some((Pause::Stop, false)),
@@ -164,6 +166,8 @@ struct Place<'p> {
     state: Modal,
     /// What the block of a tool change starts behind it.
     restarted: [bool; 2],
+    /// True where a block skip may leave it out.
+    skipped: bool,
     /// Whether the program, or one that calls it or that it calls, starts it.
     started: [bool; 2],
     after: &'p After,
@@ -210,7 +214,8 @@ impl Place<'_> {
             if here.answer == Some(false) && there.answer != Some(false) && matters {
                 self.tell(pause, there, span, context);
             }
-            if here.answer == Some(true) {
+            // A stop that is passed over ends nothing.
+            if here.answer == Some(true) && !optional && !self.skipped {
                 self.state.start_in(op);
             }
         }

@@ -156,11 +156,11 @@ impl<'r> Pairs<'_, 'r> {
             if runs(0, a, theirs.get(j..).unwrap_or_default(), &self.runs) {
                 a.into_iter().for_each(|a| self.moved(0, a));
                 i += 1;
+            } else if a.is_some_and(|a| self.passes(0, a)) {
+                i += 1;
             } else if runs(1, b, ours.get(i..).unwrap_or_default(), &self.runs) {
                 b.into_iter().for_each(|b| self.moved(1, b));
                 j += 1;
-            } else if a.is_some_and(|a| self.passes(0, a)) {
-                i += 1;
             } else if b.is_some_and(|b| self.passes(1, b)) {
                 j += 1;
             } else {

@@ -2,6 +2,8 @@
 //!
 //! Nobody could tell in the work: nothing is cut. So such a change may stand before the move of its block or behind it.
 
+use super::observe::runs;
+use crate::canon::Running;
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Place, Told};
 use std::collections::BTreeSet;
@@ -21,16 +23,15 @@ impl<'r> Order<'r> {
         &self.0
     }
 
-    /// Puts the changes of a block that may stand elsewhere in their other place, wherever it ran. False where it has
-    /// none.
-    fn turn(&mut self, block: Place) -> bool {
-        let mut found = false;
-        for run in self
-            .0
-            .chunk_by_mut(|a, b| a.at == b.at)
-            .filter(|run| run.first().is_some_and(|event| event.at == block))
-        {
-            let loose = |event: &&Event| event.told == Told::Loose;
+    /// Puts the changes of some kinds that may stand elsewhere in their other place, wherever their block ran. False if
+    /// a kind has none there.
+    fn turn(&mut self, block: Place, kinds: &[Running]) -> bool {
+        let mut found = [false; 2];
+        let all = self.0.chunk_by_mut(|a, b| a.at == b.at);
+        for run in all.filter(|run| run.first().is_some_and(|event| event.at == block)) {
+            let loose = |event: &&Event| {
+                event.told == Told::Loose && runs(&event.what).is_some_and(|kind| kinds.contains(&kind))
+            };
             let idle =
                 |event: &&Event| matches!(event.what, Happening::Rapid { .. } | Happening::Dwell { .. });
             let (Some(first), Some(last)) = (run.iter().position(idle), run.iter().rposition(idle)) else {
@@ -41,13 +42,18 @@ impl<'r> Order<'r> {
             let (before, moves) = moves.split_at(first);
             let (after, kept): (Vec<&Event>, Vec<_>) = before.iter().copied().partition(loose);
             let (ahead, rest): (Vec<&Event>, Vec<_>) = behind.iter().copied().partition(loose);
-            found |= after.len() + ahead.len() > 0;
-            let turned: Vec<&Event> = [&kept, &ahead, moves, &after, &rest].map(<[_]>::to_vec).concat();
+            let turned = after.iter().chain(&ahead).filter_map(|event| runs(&event.what));
+            turned.for_each(|kind| found[kind as usize] = true);
+            let turned = [&kept, &ahead, moves, &after, &rest].map(<[_]>::to_vec).concat();
             run.copy_from_slice(&turned);
         }
-        found
+        kinds.iter().all(|kind| found[*kind as usize])
     }
 }
+
+/// What may be turned of one side at once.
+const KINDS: [&[Running]; 4] =
+    [&[], &[Running::Spindle], &[Running::Coolant], &[Running::Spindle, Running::Coolant]];
 
 /// Blocks that are looked at, at the most.
 const TURNS: usize = 40;
@@ -70,11 +76,13 @@ pub fn farthest<'r, T>(runs: [&'r Run; 2], mut compare: impl FnMut(&[Order<'r>; 
     let mut tried = BTreeSet::new();
     for _ in 0..TURNS {
         let Some(pairs) = best.pairs.filter(|_| tried.insert(best.blocks)) else { break };
-        let farther = [&[0][..], &[1], &[0, 1]].into_iter().find_map(|sides| {
+        let ways = KINDS.into_iter().flat_map(|ours| KINDS.map(|theirs| [ours, theirs]));
+        let farther = ways.filter(|ways| !ways.concat().is_empty()).find_map(|ways| {
             let mut other = orders.clone();
-            let mut turn = |side: usize| best.blocks[side].is_some_and(|block| other[side].turn(block));
-            if !sides.iter().all(|side| turn(*side)) {
-                return None;
+            for (side, kinds) in ways.into_iter().enumerate().filter(|(_, kinds)| !kinds.is_empty()) {
+                if !best.blocks[side].is_some_and(|block| other[side].turn(block, kinds)) {
+                    return None;
+                }
             }
             let found = compare(&other);
             found.pairs.is_none_or(|farther| farther > pairs).then_some((found, other))

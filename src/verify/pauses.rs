@@ -55,14 +55,27 @@ impl Runs {
         }
     }
 
-    /// True if a change says what is known to run on the other side already, and may have run here.
+    /// True if a change says what is known to run on the other side already, and may have run here. A cycle that stops
+    /// the spindle and lets it turn again does neither for one that stands.
     pub fn is_told(&self, other: &Self, act: &Act<'_>) -> bool {
         let (running, there) = match runs(&act.what) {
             Some(Running::Spindle) => (Running::Spindle, &other.spindle),
             Some(Running::Coolant) => (Running::Coolant, &other.coolant),
             None => return false,
         };
-        *act.what == *there && self.open[running as usize] && !other.open[running as usize]
+        let again = act.event.open[running as usize] && is_at_speed(&act.what, there);
+        (*act.what == *there || again) && self.open[running as usize] && !other.open[running as usize]
+    }
+}
+
+/// True for two spindles at one speed, whether they turn or stand.
+fn is_at_speed(a: &Happening, b: &Happening) -> bool {
+    use Happening::Spindle;
+    match (a, b) {
+        (Spindle { speed, surface, .. }, Spindle { speed: there, surface: other, .. }) => {
+            speed == there && surface == other
+        }
+        _ => false,
     }
 }
 

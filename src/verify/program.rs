@@ -157,7 +157,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
     fn circumstances(&self, scenario: &Scenario, run: &Run) -> Scenario {
         let Job { source, target, names, .. } = self.job;
         let mut out = on_target(scenario, names, (source, target), (self.called, &self.theirs));
-        out.inch = self.given.inch().or(out.inch);
+        // What is called is in the unit of its caller, on both sides.
+        let of_caller = self.given.inch().or(if self.called { scenario.inch } else { None });
+        out.inch = of_caller.or(out.inch);
         out.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
         if is_cut(run) {
             // Only what both did so far is compared.

@@ -243,3 +243,25 @@ fn a_tool_size_may_be_off_by_what_its_word_rounds() {
     assert_eq!(found("#1=10.003/2\nG10 L12 P3 R#1").witness, None);
     assert_eq!(found("#1=10.009/2\nG10 L12 P3 R#1").outcome, Outcome::Different);
 }
+
+/// The target has one coolant, and its end ends that; mist in place of flood shows nowhere.
+#[test]
+fn the_other_coolant_before_an_end_is_the_one_that_is_on() {
+    let head = "O1\nG21G90G94G54\nS800M3\nM8\nG1X5.F100.\n";
+    let found =
+        |last: &str| run("fanuc", &format!("{head}M7\nM30\n"), "haas", &format!("{head}{last}M30\n"), &[]);
+    assert_eq!(found("").outcome, Outcome::Undecided);
+    assert_eq!(found("X6.\n").outcome, Outcome::Different);
+}
+
+/// G86 stops the spindle and lets it turn again, which says nothing where the change may have stopped it.
+#[test]
+fn a_cycle_says_nothing_of_a_spindle_that_may_stand() {
+    let text = "O1\nG21G90G17G54\nS800M3\nG0X0.Y0.Z20.\nT2M6\nG99G86X4.Z-3.R2.F120.\nG80\n";
+    let found = |target: &str| {
+        let target = format!("{text}{target}M5\nM30\n");
+        run("haas", &format!("{text}M30\n"), "fanuc", &target, &[]).outcome
+    };
+    assert_ne!(found(""), Outcome::Different);
+    assert_eq!(found("M3\nG1X5.\n"), Outcome::Different);
+}
