@@ -4,7 +4,7 @@ use super::programs;
 use crate::control::LoadedFile;
 use crate::dialect::{Control, Profile, registry};
 use crate::syntax::parse_file;
-use crate::verify::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Why, verify};
+use crate::verify::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Spent, Why, verify};
 
 /// O2 rests on the mode that its caller is in.
 #[test]
@@ -247,7 +247,14 @@ fn a_cycle_is_called_by_its_code() {
         let programs = [("a.nc".to_owned(), 1000), ("cycle20.nc".to_owned(), 8000)].into();
         let names = Names { programs, ..Names::default() };
         let (assumptions, effort) = (Assumptions::new(), Effort::default());
-        let job = Job { source: &source, target: &target, names: &names, assumptions: &assumptions, effort };
+        let job = Job {
+            source: &source,
+            target: &target,
+            names: &names,
+            assumptions: &assumptions,
+            effort,
+            spent: &Spent::default(),
+        };
         verify(&job, &[]).programs.into_iter().map(|program| program.outcome == Outcome::Different).collect()
     };
     let judged: [Vec<bool>; 3] = [judged("G21\n", "-1.5"), judged("", "-1.5"), judged("G21\n", "-1.6")];
