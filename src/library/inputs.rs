@@ -88,7 +88,7 @@ pub fn gather(paths: &[PathBuf], endings: &[String]) -> Found<Input> {
     Found { programs, left_out, errors }
 }
 
-/// Finds every program under the paths: a file whatever its ending, in a folder what [`walk`] finds.
+/// Finds every program under the paths: a file whatever its ending, in a folder those whose ending programs have.
 pub fn sources(paths: &[PathBuf], endings: &[String]) -> Found<Source> {
     let mut sources = BTreeMap::new();
     let mut all = Found { programs: Vec::new(), left_out: Vec::new(), errors: Vec::new() };
