@@ -4,8 +4,9 @@
 //! or that grows with the square of the program, is not.
 
 use macroglot::diag::Severity;
-use macroglot::dialect::Control;
+use macroglot::dialect::{Control, registry};
 use macroglot::library::{Conversion, Input, Lock, Options, convert};
+use macroglot::syntax::parse_file;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -147,4 +148,20 @@ fn functions_by_emulation_and_computed_variables() {
     }
     let (made, _) = converted("fanuc", "haas", program + "M30\n");
     assert!(!refused(&made), "{:?}", codes(&made));
+}
+
+/// A line that no control takes is one finding, and stays as it was: its parts would fill the memory.
+#[test]
+fn lines_of_megabytes_are_kept_and_not_read() {
+    let units = ["X1Y1", "(a)", "+#2", "1", "A", " ", ";", "[", "\"", "G1X1.;", "\u{1}"];
+    for (unit, entry) in units.iter().flat_map(|unit| registry::all().iter().map(move |entry| (unit, entry)))
+    {
+        let program = format!("O1\nG0 X1.\n{}\nM30\n", unit.repeat((1 << 20) / unit.len()));
+        let parsed = parse_file(program.as_bytes(), entry.parse);
+        assert!(parsed.print() == program.as_bytes(), "{unit} of {}", entry.name);
+        let faults: Vec<_> = parsed.blocks.iter().flat_map(|block| &block.errors).collect();
+        let codes: Vec<_> = faults.iter().map(|fault| fault.code.number()).collect();
+        assert_eq!((codes, parsed.blocks.len()), (vec!["MG0150"], 4), "{unit} of {}", entry.name);
+        assert!(faults[0].message.contains("1048"), "{}", faults[0].message);
+    }
 }

@@ -4,7 +4,7 @@
 use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::{Control, registry};
 use macroglot::library::Input;
-use macroglot::report::{backplot, trace_json, trace_text};
+use macroglot::report::{TraceFormat, TraceWriter, backplot};
 use macroglot::syntax::parse_file;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -96,12 +96,12 @@ fn traces() -> Vec<(PathBuf, String)> {
             let scenario = Scenario { steps: 500, variable_events: true, ..Scenario::default() };
             let run = execute(&Library::new(&library), ProgramRef::FIRST, &control, &scenario);
             let mut text = Vec::new();
-            trace_text(&run, &inputs, &mut text).unwrap();
+            TraceWriter::new(TraceFormat::Text, &inputs, &mut text).end(&run).unwrap();
             assert!(!text.is_empty());
             let plot = backplot(&run.events, &inputs[0].name);
             assert!(plot.starts_with("<svg") && !plot.contains("NaN"), "{}", path.display());
             let mut lines = Vec::new();
-            trace_json(&run, &inputs, &mut lines).unwrap();
+            TraceWriter::new(TraceFormat::Json, &inputs, &mut lines).end(&run).unwrap();
             out.push((path, String::from_utf8(lines).unwrap()));
         }
     }

@@ -7,15 +7,19 @@
 extern crate alloc; // what pest derives names it
 
 mod inputs;
+#[path = "../measured/mod.rs"]
+mod measured;
 
 use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::Control;
 use macroglot::syntax::parse_file;
+use measured::Use;
 use pest::Parser;
+use std::ffi::OsStr;
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::ExitCode;
 
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
@@ -50,12 +54,10 @@ const CASES: &[(&str, &str, &[&str])] = &[
 const ROUNDS: usize = 3;
 /// How often lines are counted in a round: once is too short for the clock.
 const COUNTS: usize = 100;
-/// Says which case a process is to run.
-const CASE: &str = "MACROGLOT_CASE";
 
 fn main() -> ExitCode {
-    if let Ok(case) = std::env::var(CASE) {
-        return work(&case);
+    if let Some(case) = measured::case() {
+        return measured::tell(|| work(&case));
     }
     let folder = std::env::temp_dir().join(format!("macroglot-speed-{}", std::process::id()));
     let done = generate(&folder).and_then(|()| measure(&folder));
@@ -80,16 +82,6 @@ fn generate(folder: &Path) -> std::io::Result<()> {
         write(&format!("moving-{name}.nc"), inputs::moving(steps))?;
     }
     Ok(())
-}
-
-/// What a process used.
-#[derive(Clone, Copy, Debug, Default)]
-struct Use {
-    cpu: f64,
-    wall: f64,
-    peak: f64,
-    /// Blocks that were run, where it ran any.
-    steps: f64,
 }
 
 fn measure(folder: &Path) -> std::io::Result<()> {
@@ -141,38 +133,31 @@ fn measure(folder: &Path) -> std::io::Result<()> {
 
 /// Runs a case in a process of its own.
 fn run(name: &str, input: &Path, arguments: &[&str], threads: usize) -> std::io::Result<Use> {
-    let mut command = Command::new(std::env::current_exe()?);
-    command.env(CASE, name).env("RAYON_NUM_THREADS", threads.to_string());
-    match arguments {
-        [] => command.arg(input),
-        [first, rest @ ..] => command.arg(first).arg(input).args(rest),
+    let (input, out) = (input.as_os_str(), input.with_extension("out").into_os_string());
+    let mut all: Vec<&OsStr> = match arguments {
+        [] => vec![input],
+        [first, rest @ ..] => {
+            [OsStr::new(first), input].into_iter().chain(rest.iter().map(OsStr::new)).collect()
+        }
     };
     if name.starts_with("convert") {
-        command.args(["--no-verify", "--format", "json", "--out"]).arg(input.with_extension("out"));
+        all.extend(
+            ["--no-verify", "--format", "json", "--out"].map(OsStr::new).into_iter().chain([out.as_os_str()]),
+        );
     }
-    let output = command.stdout(Stdio::null()).output()?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let figures: Vec<f64> =
-        said.lines().last().unwrap_or_default().split(' ').filter_map(|f| f.parse().ok()).collect();
-    match figures.as_slice() {
-        &[cpu, wall, peak, steps] => Ok(Use { cpu, wall, peak, steps }),
-        _ => Err(std::io::Error::other(format!("{name} {}: {said}", input.display()))),
-    }
+    measured::run(name, &all, threads)
 }
 
-/// The work of a case, and then what it used, on standard error.
-fn work(case: &str) -> ExitCode {
-    let start = std::time::Instant::now();
-    let mut steps = 0;
-    let mut repeated = 1;
+/// The work of a case: how often it was repeated, and how many blocks it ran.
+fn work(case: &str) -> (usize, u64) {
     let file = || std::env::args_os().nth(1).map(PathBuf::from).and_then(|path| fs::read(path).ok());
     match case {
         "newlines" => {
             let bytes = file().unwrap_or_default();
-            repeated = COUNTS;
             for _ in 0..COUNTS {
                 black_box(memchr::memchr_iter(b'\n', black_box(&bytes)).count());
             }
+            return (COUNTS, 0);
         }
         "grammar alone" => {
             let bytes = file().unwrap_or_default();
@@ -180,13 +165,10 @@ fn work(case: &str) -> ExitCode {
                 drop(black_box(Grammar::parse(Rule::block, line)));
             }
         }
-        "run" => steps = emulate(&file().unwrap_or_default()).unwrap_or(0),
+        "run" => return (1, emulate(&file().unwrap_or_default()).unwrap_or(0)),
         _ => drop(macroglot::cli::main()),
     }
-    let (cpu, peak) = used().unwrap_or((f64::NAN, f64::NAN));
-    let per_count = |seconds: f64| seconds / repeated as f64;
-    eprintln!("{} {} {peak} {steps}", per_count(cpu), per_count(start.elapsed().as_secs_f64()));
-    ExitCode::SUCCESS
+    (1, 0)
 }
 
 /// Runs a program on the emulated control; how many blocks it ran.
@@ -196,17 +178,4 @@ fn emulate(bytes: &[u8]) -> Option<u64> {
     let file = LoadedFile { name: "main.nc", parsed: &parsed };
     let scenario = Scenario { steps: 10_000_000, events: 10_000_000, ..Scenario::default() };
     Some((control.entry().execute?)(&Library::new(&[file]), ProgramRef::FIRST, &control, &scenario).steps)
-}
-
-/// Processor seconds and peak bytes of this process, as Linux tells them.
-fn used() -> Option<(f64, f64)> {
-    // Nanoseconds on a core, each thread's own: the counts of the process are in hundredths of a second.
-    let mut nanoseconds = 0.0;
-    for task in fs::read_dir("/proc/self/task").ok()?.flatten() {
-        let stat = fs::read_to_string(task.path().join("schedstat")).ok()?;
-        nanoseconds += stat.split(' ').next()?.parse::<f64>().ok()?;
-    }
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some((nanoseconds / 1e9, peak.trim().trim_end_matches(" kB").trim().parse::<f64>().ok()? * 1024.0))
 }

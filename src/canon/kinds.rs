@@ -49,7 +49,7 @@ impl Op {
             ScaleOn | ScaleOff => Group::Scaling,
             MirrorOn | MirrorOff => Group::Mirror,
             CallModal | CallModalEach | CallModalOff => Group::ModalCall,
-            SpindleCw | SpindleCcw | SpindleStop => Group::Spindle,
+            SpindleCw | SpindleCcw | SpindleStop | SpindleOrient => Group::Spindle,
             Mist | Flood | CoolantOff => Group::Coolant,
             _ => Group::OneShot,
         }
@@ -76,6 +76,11 @@ impl Op {
                 | CycleFineBore
                 | CycleOther
         )
+    }
+
+    /// True for a tapping cycle.
+    pub const fn is_tap(self) -> bool {
+        matches!(self, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid | Op::CycleTapByLead)
     }
 
     /// True for what axis words beside it belong to: a place in a table, an origin, a centre or a factor, and no move.

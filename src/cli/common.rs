@@ -1,7 +1,7 @@
 //! What subcommands share: choosing controls, printing, complaining.
 
 use super::UNUSABLE;
-use super::streams::{complain, tell};
+use super::streams::{complain, complain_lines, remark};
 use crate::dialect::{Control, Profile, registry};
 use crate::library::{Detected, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like};
 use crate::verify::Effort;
@@ -56,7 +56,7 @@ pub fn control(name: &str, machine: Option<&Path>) -> Result<Control, u8> {
     Control::new(entry, profile).map_err(|faults| {
         let path = machine.map_or_else(|| entry.file.into(), |path| path.display().to_string());
         let text = machine.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
-        complain(crate::dialect::faults_as_text(&path, &text, &faults).trim_end())
+        complain_lines(crate::dialect::faults_as_text(&path, &text, &faults))
     })
 }
 
@@ -86,7 +86,7 @@ pub fn profile(path: &Path) -> Result<Option<Profile>, u8> {
     let text =
         std::fs::read_to_string(path).map_err(|error| complain(format!("{}: {error}", path.display())))?;
     let fault = |faults: Vec<_>| {
-        complain(crate::dialect::faults_as_text(&path.display().to_string(), &text, &faults).trim_end())
+        complain_lines(crate::dialect::faults_as_text(&path.display().to_string(), &text, &faults))
     };
     Profile::read(&text).map(Some).map_err(fault)
 }
@@ -126,7 +126,7 @@ pub fn doubt(name: &str, inputs: &[Input]) -> Option<String> {
         )
     });
     if let Some(told) = &told {
-        tell(&format!("macroglot: {told}\n"));
+        remark(told);
     }
     told
 }

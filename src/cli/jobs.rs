@@ -1,7 +1,7 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
 use super::common::{control, controls, dialect_of, doubt, names, own_profile, read_all};
-use super::streams::{complain, tell};
+use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
     Files, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, certificate_of, plan, slashed,
@@ -173,8 +173,7 @@ fn real(folder: &Path) -> PathBuf {
 
 /// Takes an output folder for this run.
 fn hold(folder: &Path) -> Result<Held, u8> {
-    let wait =
-        || tell(&format!("macroglot: another run writes to {}; waiting for its end\n", folder.display()));
+    let wait = || remark(format!("another run writes to {}; waiting for its end", folder.display()));
     let (held, recovered) = Held::take(folder, wait).map_err(complain)?;
     let what = match recovered {
         Recovered::Nothing => return Ok(held),
@@ -185,7 +184,7 @@ fn hold(folder: &Path) -> Result<Held, u8> {
             "an earlier run was interrupted before it wrote anything; its leavings are gone now"
         }
     };
-    tell(&format!("macroglot: {}: {what}\n", folder.display()));
+    remark(format!("{}: {what}", folder.display()));
     Ok(held)
 }
 

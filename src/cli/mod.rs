@@ -60,7 +60,10 @@ const INTERRUPTED: i32 = 130;
 
 /// Runs the command line.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(answer) => return ExitCode::from(streams::answer(&answer)),
+    };
     // Where no handler can be had, the next run removes what this one leaves.
     let _ = ctrlc::set_handler(|| {
         let _made = crate::library::abandon();

@@ -1,7 +1,7 @@
 //! What is told of conversions, and where: reports, drawings, standard output.
 
 use super::jobs::{Job, Out};
-use super::streams::{complain, is_closed, print, tell};
+use super::streams::{complain, print, tell};
 use crate::library::{
     Certificates, Change, Conversion, Files, Held, Kind, Lock, Outcome, ProgramReport, Told, Wanted,
     certificate_of, changes, publish, same_file, withheld_of, write_file,
@@ -174,11 +174,6 @@ pub fn summarize(jobs: &[Job], parts: &[Part<'_>]) -> Result<(), u8> {
     match (jobs, parts) {
         ([Job { out: None, .. }], [part]) => {
             if let Some(Some(text)) = part.conversion.texts.first() {
-                if is_closed() {
-                    return Err(complain(
-                        "standard output is closed: the program was not written. Say where it goes with --out DIR",
-                    ));
-                }
                 print(text)?;
             }
             tell(&summary);

@@ -5,6 +5,7 @@ use crate::dialect::registry;
 use crate::library::{Found, Input, InputError, LeftOut, Source, sources};
 use crate::report::{Sheet, left_out_text};
 use crate::syntax::{ParseTotals, Parser, parse_faults, parse_totals};
+use crate::text::json;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -87,7 +88,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     counts.left_out = left_out;
     counts.seconds = start.elapsed().as_secs_f64();
     match arguments.format {
-        Format::Json => streams::print(&(serde_json::to_string(&counts).unwrap_or_default() + "\n"))?,
+        Format::Json => streams::print(&(json(&counts) + "\n"))?,
         Format::Text => streams::print(&format!(
             "{}{} files, {} bytes, {} blocks: {} unparsed, {} with faults; {} of {} files lossless; {:.3} s\n",
             left_out_text(&counts.left_out, arguments.verbose),

@@ -1,16 +1,19 @@
 //! `macroglot run FILE`.
 
 use super::common::{control, dialect_of, own_profile, read};
-use super::streams::{complain, print_by, tell};
-use super::{FOUND, WELL};
+use super::streams::{be_open, complain, complain_lines, print_by, tell};
+use super::{FOUND, UNUSABLE, WELL};
 use crate::control::trace::Place;
 use crate::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::library::{Files, Input, write_file};
-use crate::report::{Sheet, backplot, trace_json, trace_text};
+use crate::report::{Sheet, TraceFormat, TraceWriter, backplot};
 use crate::syntax::{ParsedFile, parse_file};
+use crate::text::shown;
 use std::path::PathBuf;
+use std::sync::OnceLock;
+use std::sync::mpsc::sync_channel;
 
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -51,6 +54,18 @@ enum Format {
     Json,
 }
 
+impl From<Format> for TraceFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Text => Self::Text,
+            Format::Json => Self::Json,
+        }
+    }
+}
+
+/// How many pieces of a trace wait for being printed; the run waits while there are more.
+const WAITING: usize = 4;
+
 pub fn run(arguments: &Arguments) -> u8 {
     match work(arguments) {
         Ok(code) | Err(code) => code,
@@ -76,11 +91,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         return Err(complain(format!("{} is an input and would be overwritten", path.display())));
     }
     let scenario = scenario(arguments, &control)?;
-    let run = execute(&inputs, &control, &scenario)?;
-    print_by(|out| match arguments.trace {
-        Format::Text => trace_text(&run, &inputs, out),
-        Format::Json => trace_json(&run, &inputs, out),
-    })?;
+    let run = print_run(arguments, &inputs, &control, &scenario)?;
     if let Some(path) = &arguments.plot {
         let title = inputs.first().map_or_else(String::new, |input| input.name.clone());
         let bytes = backplot(&run.events, &title).into_bytes();
@@ -97,17 +108,46 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     Ok(FOUND)
 }
 
-fn execute(inputs: &[Input], control: &Control, scenario: &Scenario) -> Result<Run, u8> {
+/// Runs the program and prints its trace. Only a drawing needs all events at once; else the run comes back without those
+/// that were printed while it went on.
+fn print_run(
+    arguments: &Arguments,
+    inputs: &[Input],
+    control: &Control,
+    scenario: &Scenario,
+) -> Result<Run, u8> {
     let entry = control.entry();
     let Some(execute) = entry.execute else {
         return Err(complain(format!("there is no emulated control for {}", entry.name)));
     };
+    be_open()?;
     let parsed: Vec<ParsedFile<'_>> =
         inputs.iter().map(|input| parse_file(&input.bytes, entry.parse)).collect();
     let files: Vec<LoadedFile<'_>> = (inputs.iter().zip(&parsed))
         .map(|(input, parsed)| LoadedFile { name: &input.name, parsed })
         .collect();
-    Ok(execute(&Library::new(&files), ProgramRef::FIRST, control, scenario))
+    let library = Library::new(&files);
+    let format = arguments.trace.into();
+    if arguments.plot.is_some() {
+        let run = execute(&library, ProgramRef::FIRST, control, scenario);
+        print_by(|out| TraceWriter::new(format, inputs, out).end(&run))?;
+        return Ok(run);
+    }
+    let done = OnceLock::new();
+    std::thread::scope(|scope| {
+        let (listener, heard) = sync_channel(WAITING);
+        let printer = scope.spawn(|| {
+            print_by(|out| {
+                let mut trace = TraceWriter::new(format, inputs, out);
+                heard.into_iter().try_for_each(|heard| trace.heard(&heard))?;
+                done.get().map_or(Ok(()), |run| trace.end(run))
+            })
+        });
+        let _ = done.set(execute(&library.heard_by(&listener), ProgramRef::FIRST, control, scenario));
+        drop(listener);
+        printer.join().unwrap_or(Err(UNUSABLE))
+    })?;
+    done.into_inner().ok_or(UNUSABLE)
 }
 
 /// The scenario file with what the command line adds.
@@ -117,7 +157,8 @@ fn scenario(arguments: &Arguments, control: &Control) -> Result<Scenario, u8> {
         Some(path) => {
             let text = std::fs::read_to_string(path)
                 .map_err(|error| complain(format!("{}: {error}", path.display())))?;
-            toml::from_str(&text).map_err(|error| complain(format!("{}: {error}", path.display())))?
+            let said = |error| complain_lines(format!("{}: {error}", shown(&path.display().to_string())));
+            toml::from_str::<Scenario>(&text).map_err(said)?
         }
     };
     for set in &arguments.set {

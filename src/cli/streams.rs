@@ -3,8 +3,8 @@
 //! Standard output is data: what cannot be written there is an error, but for a reader that has gone away.
 //! Standard error is for people: what nobody reads there is none.
 
-use super::UNUSABLE;
-use crate::text::shown_lines;
+use super::{UNUSABLE, WELL};
+use crate::text::{shown, shown_lines};
 use std::io::{self, IsTerminal, Write};
 
 /// Prints data.
@@ -20,13 +20,34 @@ pub fn print(text: &str) -> Result<(), u8> {
 /// # Errors
 /// As of [`print`].
 pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), u8> {
+    be_open()?;
     let out = io::stdout();
     let is_terminal = out.is_terminal();
     let mut out = io::BufWriter::with_capacity(64 * 1024, Data { out: out.lock(), is_terminal });
-    match write(&mut out).and_then(|()| out.flush()) {
+    let printed = write(&mut out).and_then(|()| out.flush());
+    if printed.is_err() {
+        // What is still in the buffer would be tried again.
+        drop(out.into_parts());
+    }
+    judge(printed)
+}
+
+/// Prints what the command line answers by itself: help, or what is wrong with the arguments.
+///
+/// Yields the exit code.
+pub fn answer(answer: &clap::Error) -> u8 {
+    if answer.use_stderr() {
+        // If nobody listens there is nobody to say that to.
+        let _ = answer.print();
+        return UNUSABLE;
+    }
+    be_open().and_then(|()| judge(answer.print())).err().unwrap_or(WELL)
+}
+
+/// A reader that has gone away is no fault.
+fn judge(printed: io::Result<()>) -> Result<(), u8> {
+    match printed {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            // What is still in the buffer would be tried again.
-            drop(out.into_parts());
             Err(complain(format!("standard output cannot be written: {error}; what it has got is not whole")))
         }
         _ => Ok(()),
@@ -59,29 +80,49 @@ pub fn tell(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
+/// Says something of the run, in one line: a name with a line end in it forges none.
+pub fn remark(message: impl std::fmt::Display) {
+    tell(&format!("macroglot: {}\n", shown(&message.to_string())));
+}
+
 /// Says what is wrong with the usage or the input, and yields the exit code for it.
 pub fn complain(message: impl std::fmt::Display) -> u8 {
-    tell(&format!("macroglot: {}\n", shown_lines(&message.to_string())));
+    remark(message);
     UNUSABLE
 }
 
-/// True if a program that is printed goes nowhere: standard output was closed before the start.
+/// As [`complain`], of lines that macroglot or a library drew.
+pub fn complain_lines(drawn: impl std::fmt::Display) -> u8 {
+    tell(&format!("macroglot: {}\n", shown_lines(drawn.to_string().trim_end())));
+    UNUSABLE
+}
+
+/// Says so where nothing can be printed: standard output was closed before the start.
 ///
-/// The runtime puts the null device in the place of a closed stream, open both ways; a shell's `> /dev/null` is open for
-/// writing alone.
+/// # Errors
+/// The exit code for it.
+pub fn be_open() -> Result<(), u8> {
+    if was_closed() {
+        return Err(complain("standard output is closed: what would be printed there is lost"));
+    }
+    Ok(())
+}
+
+/// Whether standard output was closed when the process began.
+///
+/// `main` comes too late for that: the runtime puts the null device in the place of a closed stream, open both ways, and
+/// so do callers that want no output.
 #[cfg(target_os = "linux")]
-pub fn is_closed() -> bool {
-    use rustix::fs::{FileType, OFlags, fcntl_getfl, fstat, major, minor};
-    let out = io::stdout();
-    let is_null = fstat(&out).is_ok_and(|facts| {
-        let is_device = FileType::from_raw_mode(facts.st_mode) == FileType::CharacterDevice;
-        is_device && (major(facts.st_rdev), minor(facts.st_rdev)) == (1, 3)
-    });
-    is_null && fcntl_getfl(&out).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR)
+#[ctor::ctor]
+static CLOSED_AT_START: bool = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
+
+#[cfg(target_os = "linux")]
+fn was_closed() -> bool {
+    *CLOSED_AT_START
 }
 
 /// Other systems do not tell.
 #[cfg(not(target_os = "linux"))]
-pub fn is_closed() -> bool {
+fn was_closed() -> bool {
     false
 }

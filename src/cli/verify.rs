@@ -1,13 +1,12 @@
 //! `macroglot verify SOURCE TARGET`.
 
 use super::common::{Time, controls, dialect_of, effort, own_profile, read};
-use super::streams::{complain, print, tell};
+use super::streams::{complain, print, remark};
 use super::{FOUND, WELL};
 use crate::control::LoadedFile;
 use crate::dialect::Control;
 use crate::library::{Files, Input, Lock, Manifest, is_pending, write_file};
 use crate::syntax::{ParsedFile, parse_file};
-use crate::text::shown;
 use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, Spent, verify};
 use std::path::{Path, PathBuf};
 
@@ -86,7 +85,7 @@ fn tell_changed(target: &Path, theirs: &[Input]) -> Result<(), u8> {
     let manifest = Manifest::load(folder).map_err(complain)?;
     for name in manifest.changed(theirs.iter().map(|input| (input.name.as_str(), input.bytes.as_slice()))) {
         let what = "was changed since macroglot wrote it; its certificate is of the text before";
-        tell(&format!("macroglot: {}: {what}\n", shown(name)));
+        remark(format!("{name}: {what}"));
     }
     Ok(())
 }

@@ -15,6 +15,9 @@ pub struct Entry {
     pub work: Option<u32>,
     /// The offset of the tool length that is added.
     pub length: Option<u32>,
+    /// True if a return to the reference position may have cancelled it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub length_lost: bool,
     /// The offset of the cutter radius that is compensated to the left.
     pub cutter: Option<u32>,
     /// The feed, millimetres a minute or a turn.

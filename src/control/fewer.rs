@@ -3,10 +3,16 @@
 use super::scenario::Scenario;
 use std::cell::Cell;
 
+/// The digits of a scenario that keeps fewer: three fewer than a double has. A run that lacks none of these is the same
+/// with them.
+pub const FEWER_DIGITS: u32 = 13;
+
 /// Keeps so many significant decimal digits of a result.
 #[derive(Debug)]
 pub struct FewerDigits {
     digits: i32,
+    /// True where what needs more is only noted, and kept whole.
+    notes: bool,
     /// Draws to which side a result is off that needs more; none rounds it.
     seed: Option<u64>,
     drawn: Cell<u64>,
@@ -18,19 +24,23 @@ impl FewerDigits {
     /// So many of them.
     pub fn new(digits: u32) -> Self {
         // Between 1 and 17.
-        Self { digits: digits.clamp(1, 17) as i32, seed: None, drawn: Cell::new(0), lacked: Cell::new(false) }
+        let digits = digits.clamp(1, 17) as i32;
+        Self { digits, notes: false, seed: None, drawn: Cell::new(0), lacked: Cell::new(false) }
     }
 
-    /// As a scenario has it; none for all of the control's own.
-    pub fn of(scenario: &Scenario) -> Option<Self> {
-        scenario.digits.map(|digits| Self { seed: scenario.last_digits, ..Self::new(digits) })
+    /// As a scenario has it, or as the control itself, which keeps so many digits; none for all of a double's.
+    pub fn of(scenario: &Scenario, own: Option<u32>) -> Self {
+        match (scenario.digits, own) {
+            (Some(digits), _) => Self { seed: scenario.last_digits, ..Self::new(digits) },
+            (None, Some(own)) => Self::new(own),
+            (None, None) => Self { notes: true, ..Self::new(FEWER_DIGITS) },
+        }
     }
 
     /// What is kept of a result.
     pub fn keep(&self, value: f64) -> f64 {
         self.drawn.set(self.drawn.get().wrapping_add(1));
-        let is_short = value.fract() == 0.0 && value.abs() < 10f64.powi(self.digits);
-        if is_short || !value.is_finite() {
+        if (self.notes && self.lacked.get()) || self.is_short(value) || !value.is_finite() {
             return value;
         }
         // Through decimal text, so that every value kept is the nearest double to its digits.
@@ -40,9 +50,20 @@ impl FewerDigits {
             return value;
         }
         self.lacked.set(true);
+        if self.notes {
+            return value;
+        }
         let Some(seed) = self.seed else { return nearest };
         let off = 10f64.powi(-self.digits);
         if self.side(seed) { value + value * off } else { value - value * off }
+    }
+
+    /// True for the nearest double to a number of few digits, up to six of them behind the point: an exact quotient is
+    /// rounded once, as what is written is.
+    fn is_short(&self, value: f64) -> bool {
+        let most = 10f64.powi(self.digits.min(15));
+        let millionths = (value * 1e6).round();
+        (value.fract() == 0.0 && value.abs() < most) || (millionths.abs() < most && millionths / 1e6 == value)
     }
 
     /// True where a result needed more digits than are kept.
@@ -57,5 +78,29 @@ impl FewerDigits {
         bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((bits >> 31) ^ seed) & 1 == 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_needs_more_digits_is_noted_and_kept() {
+        for short in [0.0, 7.0, -0.5, 0.3, 123_456.789, 9_999_999_999.0, 1e-9, f64::INFINITY] {
+            let digits = FewerDigits::of(&Scenario::default(), None);
+            assert_eq!((digits.keep(short), digits.lacked()), (short, false));
+        }
+        for long in [0.1 + 0.2, 1.0 / 3.0, 0.8 - f64::EPSILON, 12_345_678.123_456_7] {
+            let digits = FewerDigits::of(&Scenario::default(), None);
+            assert_eq!((digits.keep(long), digits.lacked()), (long, true));
+        }
+    }
+
+    #[test]
+    fn a_number_of_few_digits_is_kept_by_fewer_digits() {
+        for (value, kept) in [(0.3, 0.3), (0.1 + 0.2, 0.3), (1.0 / 3.0, 0.333_333_333_333_3)] {
+            assert_eq!(FewerDigits::new(FEWER_DIGITS).keep(value), kept);
+        }
     }
 }

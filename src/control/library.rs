@@ -1,8 +1,10 @@
 //! The programs of several files, as calls find them.
 
+use super::trace::{Event, Program};
 use crate::syntax::{Block, ItemKind, ParsedFile, ProgramName};
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::mpsc::SyncSender;
 
 /// A file that was read.
 #[derive(Clone, Copy, Debug)]
@@ -20,12 +22,28 @@ pub struct Library<'f> {
     pub files: &'f [LoadedFile<'f>],
     /// Their programs.
     pub sections: Sections,
+    /// Who is told of a run's events while it goes on; else its [`super::Run`] has them all.
+    pub listener: Option<&'f SyncSender<Heard>>,
+}
+
+/// Events of a run that goes on, in their order; the run keeps them no longer.
+#[derive(Clone, Debug)]
+pub struct Heard {
+    /// What happened since this was told last.
+    pub events: Vec<Event>,
+    /// The programs that ran for the first time since then.
+    pub programs: Vec<Program>,
 }
 
 impl<'f> Library<'f> {
     /// Finds the programs of files.
     pub fn new(files: &'f [LoadedFile<'f>]) -> Self {
-        Self { files, sections: Sections::new(files) }
+        Self { files, sections: Sections::new(files), listener: None }
+    }
+
+    /// The same, with somebody who is told of events while a program runs. One who is gone is no fault.
+    pub fn heard_by(self, listener: &'f SyncSender<Heard>) -> Self {
+        Self { listener: Some(listener), ..self }
     }
 
     /// The cycle with this number, which is a file's first program.

@@ -25,6 +25,7 @@ mod macro_b;
 mod outcome;
 pub mod scenario;
 mod session;
+mod table;
 #[cfg(test)]
 #[allow(missing_docs)]
 pub(crate) mod testing;
@@ -32,9 +33,11 @@ pub mod trace;
 mod words;
 
 pub use entry::Entry;
-pub use library::{Library, LoadedFile, ProgramRef};
+pub use fewer::FEWER_DIGITS;
+pub use library::{Heard, Library, LoadedFile, ProgramRef};
 pub use outcome::{Branch, Branches, End, Run, Stop};
 pub use scenario::Scenario;
+pub use table::Table;
 pub use trace::Trace;
 
 use crate::dialect::Control;

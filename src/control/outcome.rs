@@ -21,7 +21,10 @@ pub struct Run {
     pub steps: u64,
     /// Which branching blocks went which way.
     pub branches: Branches,
-    /// True where the scenario left its arithmetic fewer digits than it needed.
+    /// True where its arithmetic needed more digits than the scenario or the control leaves it, or than [`FEWER_DIGITS`]
+    /// where both leave it all.
+    ///
+    /// [`FEWER_DIGITS`]: super::FEWER_DIGITS
     #[serde(skip)]
     pub lacked_digits: bool,
     /// The modes in force at its end, however it ended: [`super::machine::GIVEN`].

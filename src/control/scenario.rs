@@ -1,6 +1,7 @@
 //! The circumstances of a run: all that a program meets from outside.
 
 use super::entry::Entry;
+use super::table::Table;
 use crate::canon::{Op, Sys};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -31,11 +32,11 @@ pub struct Scenario {
     /// Machine position at the start.
     pub start: Axes,
     /// Work offsets, by common number: 1 to 6, 101 and up.
-    pub work_offsets: BTreeMap<u32, Axes>,
+    pub work_offsets: Table<Axes>,
     /// Shift of all work offsets.
     pub external_shift: Axes,
     /// The tool table: offset values by number.
-    pub tools: BTreeMap<u32, Tool>,
+    pub tools: Table<Tool>,
     /// The tool in the spindle at the start.
     pub tool: u32,
     /// The first and second reference position, machine coordinates.
@@ -128,9 +129,9 @@ impl Default for Scenario {
             modes: Vec::new(),
             entry: Entry::default(),
             start: [0.0; AXES],
-            work_offsets: BTreeMap::new(),
+            work_offsets: Table::default(),
             external_shift: [0.0; AXES],
-            tools: BTreeMap::new(),
+            tools: Table::default(),
             tool: 0,
             references: [[0.0; AXES]; 2],
             probes: Vec::new(),

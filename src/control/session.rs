@@ -1,7 +1,7 @@
 //! A run in the making: what an interpreter keeps besides its own variables.
 
 use super::fewer::FewerDigits;
-use super::library::{Library, LoadedFile, ProgramRef, Sections};
+use super::library::{Heard, Library, LoadedFile, ProgramRef, Sections};
 use super::machine::{GIVEN, Machine};
 use super::outcome::{Branches, End, Run, Stop};
 use super::scenario::Scenario;
@@ -13,9 +13,10 @@ use crate::dialect::Control;
 use crate::syntax::{Block, ItemKind, ProgramName};
 use crate::text::Span;
 use std::collections::{BTreeMap, HashMap};
+use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
-/// How many blocks pass between two looks at the clock.
+/// How many blocks pass between two looks at the clock, and before a listener is told of them.
 const CLOCK_EVERY: u64 = 1024;
 
 /// Why a run comes to its end.
@@ -59,12 +60,15 @@ pub struct Session<'r, 'f> {
     pub trace: Trace,
     /// The ways taken so far.
     pub branches: Branches,
-    digits: Option<FewerDigits>,
+    digits: FewerDigits,
     programs: Vec<Program>,
     numbers: HashMap<usize, u32>,
     answered: usize,
     steps: u64,
     deadline: Option<Instant>,
+    listener: Option<&'r SyncSender<Heard>>,
+    /// How many programs the listener knows.
+    heard: usize,
 }
 
 impl<'r, 'f> Session<'r, 'f> {
@@ -83,12 +87,14 @@ impl<'r, 'f> Session<'r, 'f> {
             machine,
             trace,
             branches: Branches::default(),
-            digits: FewerDigits::of(scenario),
+            digits: FewerDigits::of(scenario, None),
             programs: Vec::new(),
             numbers: HashMap::new(),
             answered: 0,
             steps: 0,
             deadline,
+            listener: library.listener,
+            heard: 0,
         }
     }
 
@@ -124,7 +130,8 @@ impl<'r, 'f> Session<'r, 'f> {
         let file = found.map_or(0, |section| section.file);
         let number = self.programs.len() as u32;
         let modes = self.modes();
-        self.programs.push(Program { file, name, modes });
+        let lost_length = self.machine.lost_length();
+        self.programs.push(Program { file, name, modes, lost_length });
         self.numbers.insert(section, number);
         number
     }
@@ -152,8 +159,21 @@ impl<'r, 'f> Session<'r, 'f> {
             return Err(Halt::Steps);
         }
         self.steps += 1;
-        let late = self.steps.is_multiple_of(CLOCK_EVERY)
-            && self.deadline.is_some_and(|deadline| Instant::now() > deadline);
+        if self.steps.is_multiple_of(CLOCK_EVERY) { self.now_and_then() } else { Ok(()) }
+    }
+
+    /// What is done between blocks from time to time: looks at the clock, and tells the listener.
+    fn now_and_then(&mut self) -> Flow<()> {
+        let now = Instant::now();
+        let late = self.deadline.is_some_and(|deadline| now > deadline);
+        if let Some(listener) = self.listener {
+            let programs = self.programs.get(self.heard..).unwrap_or_default().to_vec();
+            self.heard = self.programs.len();
+            // One who is gone hears nothing more; the run goes on.
+            let _ = listener.send(Heard { events: self.trace.take(), programs });
+            // A reader who takes his time takes none of the run's.
+            self.deadline = self.deadline.and_then(|deadline| deadline.checked_add(now.elapsed()));
+        }
         if late { Err(Halt::Time) } else { Ok(()) }
     }
 
@@ -190,7 +210,7 @@ impl<'r, 'f> Session<'r, 'f> {
 
     /// A result of arithmetic, with the digits that the scenario leaves it.
     pub fn kept(&self, value: f64) -> f64 {
-        self.digits.as_ref().map_or(value, |digits| digits.keep(value))
+        self.digits.keep(value)
     }
 
     /// The least increments that computed words are rounded to where the scenario has it so and no source says whether
@@ -273,7 +293,7 @@ impl<'r, 'f> Session<'r, 'f> {
             end,
             steps: self.steps,
             branches: self.branches,
-            lacked_digits: self.digits.is_some_and(|digits| digits.lacked()),
+            lacked_digits: self.digits.lacked(),
             modes,
             left,
         }

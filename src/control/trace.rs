@@ -48,6 +48,8 @@ pub enum Told {
     Implied,
     /// What the program found in force when it started.
     Found,
+    /// A spindle that a drilling cycle stops, turns round, or lets turn again.
+    Cycle,
 }
 
 /// A place of a library: a program and bytes of its file.
@@ -79,6 +81,9 @@ pub struct Program {
     /// What was in force when it was come to first: [`crate::control::machine::GIVEN`].
     #[serde(skip)]
     pub modes: Vec<Op>,
+    /// The offset of a tool length that was in force then, if a return or a machine move may have cancelled it.
+    #[serde(skip)]
+    pub lost_length: Option<u32>,
 }
 
 /// Something that a run computed.
@@ -104,8 +109,10 @@ const MOST_NUMBERS: usize = 4096;
 /// The events of a run in the making.
 #[derive(Debug)]
 pub struct Trace {
-    /// The events so far.
+    /// The events so far, but those that were taken out.
     pub events: Vec<Event>,
+    /// How many were taken out.
+    taken: usize,
     /// The block that events belong to.
     pub at: Place,
     /// How far positions may be off by rounding, from now on.
@@ -132,6 +139,7 @@ impl Trace {
     pub fn new(limit: usize, confirmed: &[String]) -> Self {
         Self {
             events: Vec::new(),
+            taken: 0,
             at: Place::default(),
             rounded: 0.0,
             open: [false; 2],
@@ -153,7 +161,7 @@ impl Trace {
             _ => 0,
         };
         match self.room.checked_sub(text) {
-            Some(room) if self.events.len() < self.limit => {
+            Some(room) if self.count() < self.limit => {
                 self.room = room;
                 self.events.push(self.event(what));
             }
@@ -168,6 +176,19 @@ impl Trace {
         }
     }
 
+    /// How many events there were so far.
+    fn count(&self) -> usize {
+        self.taken + self.events.len()
+    }
+
+    /// Takes the events out, but the last one: it may still be told of, and says where the run is.
+    pub fn take(&mut self) -> Vec<Event> {
+        let last = self.events.pop();
+        let events = std::mem::replace(&mut self.events, Vec::from_iter(last));
+        self.taken += events.len();
+        events
+    }
+
     /// True when an event found no room: the run must end.
     pub fn is_full(&self) -> bool {
         self.full
@@ -176,7 +197,8 @@ impl Trace {
     /// Records a code whose number was computed.
     pub fn computed_code(&mut self, letter: char, number: f64) {
         if self.computed_codes.len() < MOST_CODES {
-            self.computed_codes.entry((letter, number.to_bits(), self.at)).or_insert(self.events.len());
+            let before = self.count();
+            self.computed_codes.entry((letter, number.to_bits(), self.at)).or_insert(before);
         }
     }
 
@@ -193,7 +215,8 @@ impl Trace {
     /// Records the number of a variable that was computed.
     pub fn computed_number(&mut self, number: u32) {
         if self.computed_numbers.len() < MOST_NUMBERS {
-            self.computed_numbers.entry((number, self.at)).or_insert(self.events.len());
+            let before = self.count();
+            self.computed_numbers.entry((number, self.at)).or_insert(before);
         }
     }
 
@@ -210,7 +233,8 @@ impl Trace {
     /// Records the arguments of a function; of one with a single one, the second is 0.
     pub fn argument(&mut self, function: Func, a: f64, b: f64) {
         if self.arguments.len() < MOST_NUMBERS {
-            self.arguments.entry((function, a.to_bits(), b.to_bits(), self.at)).or_insert(self.events.len());
+            let before = self.count();
+            self.arguments.entry((function, a.to_bits(), b.to_bits(), self.at)).or_insert(before);
         }
     }
 

@@ -179,10 +179,16 @@ Jump to the block of the DO, or build the loop from jumps."
 
 Remove the G67 if no modal call of a calling program is meant."
 
-    "0150" TooComplex Error "block is too long or nests too deeply to be read"
-"Brackets nest deeper, or the statement is longer, than any control takes. The block is kept as it stands and not read further.
+    "0136" AlarmIfRun Review "an alarm if this statement runs"
+"The statement divides by the constant 0, or gives a function a constant that it has no value for. The control stops with
+an alarm where it runs; a condition before it decides whether it does.
 
-Divide the statement into steps with variables between them."
+Make sure that the condition never holds, or that the alarm is meant."
+
+    "0150" TooComplex Error "block is too long or nests too deeply to be read"
+"Brackets nest deeper, or the statement or the line is longer, than any control takes. A line is read up to 262144 characters. The block is kept as it stands and not read further.
+
+Divide the statement into steps with variables between them; give each block a line of its own."
 
     "0151" MixedLine Error "NC words and a macro statement on one line"
 "On this control a line holds either NC words or a macro statement behind its `#`, never both.

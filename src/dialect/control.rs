@@ -26,7 +26,8 @@ pub struct Control {
     pub(super) codes: HashMap<CodeHead, Vec<(usize, Vec<Beside>)>>,
     pub(super) targets: HashMap<Op, Vec<usize>>,
     pub(super) words: HashMap<(char, bool), usize>,
-    pub(super) system: HashMap<String, Vec<(usize, u32)>>,
+    /// Rows of the system variables of each name, with the first and the last number of each.
+    pub(super) system: HashMap<String, Vec<(usize, u32, u32)>>,
     pub(super) states: HashMap<Sys, Vec<usize>>,
     /// The codes that call programs, by letter and number.
     pub(super) aliases: Vec<(char, f64, Alias)>,
@@ -54,11 +55,11 @@ impl Control {
         let words = (dialect.words.iter().enumerate())
             .filter_map(|(at, row)| Some((address(&row.letter)?, at)))
             .collect();
-        let mut system: HashMap<String, Vec<(usize, u32)>> = HashMap::new();
+        let mut system: HashMap<String, Vec<(usize, u32, u32)>> = HashMap::new();
         let mut states: HashMap<Sys, Vec<usize>> = HashMap::new();
         for (at, row) in dialect.system.iter().enumerate() {
-            let last = row.last().unwrap_or(u32::MAX);
-            system.entry(row.name.clone()).or_default().push((at, last));
+            let (first, last) = (row.first.unwrap_or(0), row.last().unwrap_or(u32::MAX));
+            system.entry(row.name.clone()).or_default().push((at, first, last));
             states.entry(row.state).or_default().push(at);
         }
         let aliases = aliases(&dialect, &settings);

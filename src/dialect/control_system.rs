@@ -6,8 +6,9 @@ use crate::canon::Sys;
 impl Control {
     /// What a system variable is, with the subscripts that its number stands for.
     pub fn read_system(&self, name: &str, number: Option<u32>) -> Option<(Sys, Vec<u32>, &SystemVariable)> {
-        let rows = self.system.get(name)?.iter().filter(|(_, last)| number.is_none_or(|n| n <= *last));
-        rows.filter_map(|(at, _)| self.dialect.system.get(*at)).find_map(|row| {
+        let holds = |first: u32, last: u32| number.is_none_or(|n| (first..=last).contains(&n));
+        let rows = self.system.get(name)?.iter().filter(|(_, first, last)| holds(*first, *last));
+        rows.filter_map(|(at, ..)| self.dialect.system.get(*at)).find_map(|row| {
             let subscripts = match number {
                 Some(number) => row.subscripts_of(number)?,
                 None if row.first.is_none() => [row.fixed.as_slice(), &row.after].concat(),

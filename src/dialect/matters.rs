@@ -36,7 +36,6 @@ pub const ALL: &[(&str, &str)] = &[
     ("machine:rotation.incremental", "the centre of a rotation counts from the tool in incremental mode"),
     ("machine:start.in.subprogram", "a new start ends the calls that are open"),
     ("machine:sub.area.end.again", "a second end of the subroutines ends the program"),
-    ("machine:sub.end.outside", "the end of a subroutine outside of one says nothing"),
     ("machine:test.of.code", "a test of a code asks what is in force in its group"),
     ("machine:tool.zero", "the tool in the spindle stays active when tool 0 takes its length away"),
     ("machine:word.without.meaning", "a word that the control has no meaning for says nothing"),

@@ -3,7 +3,7 @@
 
 use super::{Origin, Row};
 use crate::diag::{Code, Diagnostic};
-use crate::text::{LineIndex, Span};
+use crate::text::{LineIndex, Span, shown};
 use serde::de::{DeserializeOwned, Deserializer, Visitor};
 use std::ops::Range;
 use std::sync::Arc;
@@ -213,10 +213,9 @@ pub fn faults_as_text(file: &str, text: &str, faults: &[Diagnostic]) -> String {
     let mut out = String::new();
     for fault in faults {
         let (line, column) = lines.place(fault.span.start);
-        out += &format!("{file}:{line}:{column}: {}: {}", fault.code.number(), fault.message);
-        if let Some(help) = &fault.help {
-            out += &format!(" ({help})");
-        }
+        let help = fault.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
+        let said = format!("{file}:{line}:{column}: {}: {}{help}", fault.code.number(), fault.message);
+        out += &shown(&said);
         out.push('\n');
     }
     out

@@ -133,7 +133,7 @@ pub fn convert(
             super::draft::fill(&mut module, &holes);
             let mut next =
                 make(module, found.clone(), source, target, lock.clone(), options.level, Modal::unknown());
-            super::draft::keep_errors(&made.found, &mut next.found);
+            super::draft::keep_findings(&made.found, &mut next.found);
             made = next;
         }
         refused_calls::report(&made.links, &mut made.found);
@@ -265,7 +265,8 @@ pub(super) fn make(
     let programs = std::mem::take(&mut module.programs);
     let emitted = programs.into_par_iter().enumerate().map(|(at, program)| {
         let broken = breaches(&program, at);
-        if broken.is_empty() { Ok(emit(&program, write.as_ref(), target)) } else { Err(broken) }
+        let findings = origins.get(at).and_then(|origin| found.get(*origin)).map_or(&[][..], Vec::as_slice);
+        if broken.is_empty() { Ok(emit(&program, write.as_ref(), target, findings)) } else { Err(broken) }
     });
     let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
     let broken: Vec<String> =
@@ -299,8 +300,14 @@ fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
     all.extend(more.into_iter().filter(|finding| !is_told(finding)));
 }
 
-/// Emits a program, and reads the text back: what the target's own grammar refuses is never written.
-fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Result<Emitted, Vec<Diagnostic>> {
+/// Emits a program, and reads the text back: what the target's own grammar refuses is never written, but for what
+/// `findings` tell of the source, which is an alarm there too.
+fn emit(
+    program: &Program,
+    write: Option<&Writer<'_>>,
+    target: &Control,
+    findings: &[Diagnostic],
+) -> Result<Emitted, Vec<Diagnostic>> {
     let Some(write) = write else {
         let what = format!("programs cannot be written for {}", target.dialect().title);
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
@@ -312,21 +319,30 @@ fn emit(program: &Program, write: Option<&Writer<'_>>, target: &Control) -> Resu
     let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), entry.parse, entry.is_sound)
         .into_iter()
         .filter(|fault| fault.code.severity() == Severity::Error)
-        .map(|fault| {
+        .filter_map(|fault| {
             let at = fault.span.start as usize;
             let source = emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
             let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
             let line = emitted.text[line..].lines().next().unwrap_or_default();
             let (code, what) = match fault.code {
+                Code::DivisionByZero | Code::FunctionDomain if alarms_in(findings, source) => return None,
                 // Constants that were computed out of the domain: so would they be on the machine.
                 Code::DivisionByZero | Code::FunctionDomain => (fault.code, "this would become"),
                 _ => (Code::Internal, "the target would not read"),
             };
             let what = format!("{what} '{line}': {}", fault.message);
-            Diagnostic::new(code, source.unwrap_or(program.site.span), what)
+            Some(Diagnostic::new(code, source.unwrap_or(program.site.span), what))
         })
         .collect();
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
+}
+
+/// True where the source has an alarm behind a condition in this block.
+fn alarms_in(findings: &[Diagnostic], block: Option<Span>) -> bool {
+    let inside = |block: Span, span: Span| block.start <= span.start && span.end <= block.end;
+    findings.iter().any(|finding| {
+        finding.code == Code::AlarmIfRun && block.is_some_and(|block| inside(block, finding.span))
+    })
 }
 
 pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {

@@ -79,12 +79,14 @@ fn fill_one(program: &mut Program, hole: Span, code: &str) {
     }
 }
 
-/// The errors that made the holes stay errors of the draft. What else legalization finds in a draft alone comes of
-/// the holes: that a program names no unit, whose call that names it became an alarm.
-pub fn keep_errors(before: &[Vec<Diagnostic>], after: &mut [Vec<Diagnostic>]) {
+/// What was found without the holes stays told: the errors that made them, and every condition of what a hole changed or
+/// took away. What legalization finds in a draft alone comes of the holes: that a program names no unit, whose call that
+/// names it became an alarm.
+pub fn keep_findings(before: &[Vec<Diagnostic>], after: &mut [Vec<Diagnostic>]) {
     for (before, after) in before.iter().zip(after) {
         let legalizes = |d: &Diagnostic| d.code.number().starts_with("MG04");
-        after.retain(|d| d.severity() == Severity::Error || !legalizes(d) || before.contains(d));
-        after.extend(before.iter().filter(|d| d.severity() == Severity::Error).cloned());
+        let is_new = |d: &Diagnostic| !before.contains(d);
+        after.retain(|d| is_new(d) && (d.severity() == Severity::Error || !legalizes(d)));
+        after.extend_from_slice(before);
     }
 }

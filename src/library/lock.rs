@@ -1,6 +1,7 @@
 //! `macroglot.lock`: which register holds which variable, which number a program
 //! got. Later runs honour it, so that a library stays one library; a reviewer can read it.
 
+use super::outputs::read_text;
 use crate::ir::analysis::Numbers;
 use crate::legalize::{Locked, Registers};
 use serde::{Deserialize, Serialize};
@@ -130,7 +131,7 @@ impl Lock {
 
     /// The lock at `path`; an empty one where there is none.
     pub fn load(path: &Path, from: &str, to: &str) -> Result<Self, LockError> {
-        let text = match std::fs::read_to_string(path) {
+        let text = match read_text(path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::new(from, to)),
             Err(error) => return Err(LockError::Unreadable(path.to_owned(), error.to_string())),

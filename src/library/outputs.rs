@@ -3,6 +3,7 @@
 use super::{Files, Input, Lock, Manifest, OutputError};
 use std::collections::BTreeMap;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Checks that every name has a place of its own under `folder`, none of them an
@@ -11,7 +12,6 @@ use std::path::{Path, PathBuf};
 pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathBuf>, OutputError> {
     let mut taken: BTreeMap<String, &str> = BTreeMap::new();
     let mut places = Vec::with_capacity(names.len());
-    let real = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let sources = Files::of(inputs.iter().map(|input| input.path.as_path()));
     for own in [Lock::NAME, Manifest::NAME] {
         taken.insert(own.into(), own);
@@ -42,12 +42,27 @@ pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathB
             }
         }
     }
-    let base = real(folder);
-    // A link inside the output folder may lead out of it.
-    match places.iter().find(|place| place.exists() && !real(place).starts_with(&base)) {
+    match places.iter().find(|place| leads_out(folder, place)) {
         Some(place) => Err(OutputError::Outside(place.display().to_string())),
         None => Ok(places),
     }
+}
+
+/// True if a place in a folder is not there in truth: a link on the way may lead out of it.
+pub(super) fn leads_out(folder: &Path, place: &Path) -> bool {
+    let there =
+        place.ancestors().take_while(|above| *above != folder).find_map(|above| fs::canonicalize(above).ok());
+    there.is_some_and(|there| fs::canonicalize(folder).is_ok_and(|base| !there.starts_with(base)))
+}
+
+/// What stands in a file of an output folder. A pipe in its place would never come to an end.
+pub(super) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    if fs::metadata(path)?.is_file() { fs::read(path) } else { Err(io::Error::other("it is no file")) }
+}
+
+/// The same, as text.
+pub(super) fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read_file(path)?).map_err(|_| io::ErrorKind::InvalidData.into())
 }
 
 /// What a certificate's name has behind that of its program's file.

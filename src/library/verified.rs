@@ -77,7 +77,7 @@ pub fn judge(
         programs: lock.programs.clone(),
     };
     let all = from.programs();
-    let reports = programs_of(conversion, &all);
+    let reports = programs_of(conversion, all);
     let assumed = |at: &usize| assumptions(&conversion.programs[*at]);
     let assumptions = reports.iter().map(|(program, at)| (*program, assumed(at))).collect();
     let job = Job {
@@ -88,7 +88,7 @@ pub fn judge(
         effort,
         spent: &Spent::default(),
     };
-    let wanted = wanted(conversion, &all, inputs.len());
+    let wanted = wanted(conversion, all, inputs.len());
     let mut verified: Vec<Option<Certificate>> = wanted
         .par_iter()
         .map(|wanted| {

@@ -3,6 +3,7 @@
 use super::{Part, Place, Totals, grade, words};
 use crate::diag::Diagnostic;
 use crate::library::ProgramReport;
+use crate::text::acts;
 use std::fmt::Write;
 
 const HEAD: &str = r#"<!doctype html>
@@ -87,7 +88,7 @@ pub(super) fn escaped(text: &str) -> String {
             '&' => out.push_str("&amp;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            sign if sign.is_control() && sign != '\t' => out.push('\u{fffd}'),
+            sign if acts(sign) && sign != '\t' => out.extend(sign.escape_default()),
             sign => out.push(sign),
         }
     }
@@ -100,6 +101,6 @@ mod tests {
 
     #[test]
     fn nothing_of_a_program_is_read_as_html() {
-        assert_eq!(escaped("(<script>'x\"&\0)"), "(&lt;script&gt;&#39;x&quot;&amp;\u{fffd})");
+        assert_eq!(escaped("(<script>'x\"&\0)"), "(&lt;script&gt;&#39;x&quot;&amp;\\u{0})");
     }
 }

@@ -7,7 +7,7 @@
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
 use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
-use crate::text::LineIndex;
+use crate::text::{LineIndex, write_json_pretty};
 use crate::verify;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
@@ -69,7 +69,7 @@ pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     let left_out = parts.iter().flat_map(|part| part.left_out).collect();
     let folders = parts.iter().map(|part| part.folder).filter(|told| !told.is_empty()).collect();
     let report = Report { programs: parts, totals: Totals::of(parts), notes, folders, left_out };
-    serde_json::to_writer_pretty(&mut out, &report)?;
+    write_json_pretty(&report, &mut out)?;
     out.write_all(b"\n")?;
     out.flush()
 }

@@ -2,6 +2,7 @@
 
 use super::{Part, Place, Totals, grade, words};
 use crate::diag::Diagnostic;
+use crate::text::{acts, shown};
 use std::fmt::Write;
 
 /// The conversions as Markdown text: totals, then a section a program.
@@ -32,7 +33,7 @@ fn item(out: &mut String, finding: &Diagnostic, place: Place<'_>) {
         let _ = writeln!(out, "  {}", escaped(help));
     }
     // Indented code needs no fence, which a program's text could close.
-    let _ = writeln!(out, "\n      {}", String::from_utf8_lossy(text).replace(char::is_control, " "));
+    let _ = writeln!(out, "\n      {}", shown(&String::from_utf8_lossy(text).replace('\t', " ")));
 }
 
 /// Text whose signs Markdown and HTML would read, with each of them taken literally.
@@ -43,7 +44,7 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '&' => out.push_str("&amp;"),
             '\\' | '`' | '*' | '_' | '[' | ']' | '#' | '|' | '~' | '!' => out.extend(['\\', sign]),
-            sign if sign.is_control() => out.push(' '),
+            sign if acts(sign) => out.extend(sign.escape_default()),
             sign => out.push(sign),
         }
     }
@@ -57,6 +58,6 @@ mod tests {
     #[test]
     fn signs_of_programs_stay_signs() {
         assert_eq!(escaped("#1=[#2*3]"), r"\#1=\[\#2\*3\]");
-        assert_eq!(escaped("<b>&\n"), "&lt;b>&amp; ");
+        assert_eq!(escaped("<b>&\n"), r"&lt;b>&amp;\n");
     }
 }

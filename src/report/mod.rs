@@ -18,7 +18,7 @@ pub use plot::backplot;
 pub use sarif::conversion as sarif;
 pub use text::{Sheet, explain, left_out_text, summary};
 pub use totals::Totals;
-pub use trace::{trace_json, trace_text};
+pub use trace::{TraceFormat, TraceWriter};
 
 use crate::diag::Severity;
 use crate::library::Outcome;

@@ -2,7 +2,10 @@
 
 use super::Part;
 use crate::diag::{ALL, Severity};
+use crate::text::json_pretty;
 use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
 
 /// The conversions as SARIF text.
 pub fn conversion(parts: &[Part<'_>]) -> String {
@@ -31,7 +34,7 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
             "results": results,
         }],
     });
-    serde_json::to_string_pretty(&log).unwrap_or_default() + "\n"
+    json_pretty(&log) + "\n"
 }
 
 fn results(part: &Part<'_>) -> Vec<Value> {
@@ -47,7 +50,7 @@ fn results(part: &Part<'_>) -> Vec<Value> {
             "level": level(d.severity()),
             "message": { "text": &*d.message },
             "locations": [{ "physicalLocation": {
-                "artifactLocation": { "uri": part.inputs[file].path.to_string_lossy().replace('\\', "/") },
+                "artifactLocation": { "uri": uri(&part.inputs[file].path) },
                 "region": {
                     "startLine": line, "startColumn": column,
                     "endLine": end_line, "endColumn": end_column,
@@ -58,10 +61,36 @@ fn results(part: &Part<'_>) -> Vec<Value> {
     results.collect()
 }
 
+/// A path as a relative reference: what has a meaning there, or none, is written as its bytes.
+fn uri(path: &Path) -> String {
+    let path = path.to_string_lossy().replace(std::path::MAIN_SEPARATOR, "/");
+    let mut out = String::with_capacity(path.len());
+    for byte in path.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' => out.push(char::from(byte)),
+            b'/' | b'-' | b'.' | b'_' | b'~' => out.push(char::from(byte)),
+            // Writing to memory cannot fail.
+            _ => drop(write!(out, "%{byte:02X}")),
+        }
+    }
+    out
+}
+
 fn level(severity: Severity) -> &'static str {
     match severity {
         Severity::Error => "error",
         Severity::Review => "warning",
         Severity::Note => "note",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_a_reference() {
+        assert_eq!(uri(Path::new("in/O1 (a)\n#2%.nc")), "in/O1%20%28a%29%0A%232%25.nc");
+        assert_eq!(uri(Path::new("in/ä.nc")), "in/%C3%A4.nc");
     }
 }

@@ -1,18 +1,30 @@
 //! The trace of a run, for people and for programs. `docs/trace.md` describes both.
 
-use crate::control::Run;
-use crate::control::trace::{AXIS_NAMES, Event, Happening, Place, Position};
+use crate::control::trace::{AXIS_NAMES, Event, Happening, Position, Program};
+use crate::control::{Heard, Run};
 use crate::library::Input;
-use crate::text::{LineIndex, shown};
+use crate::text::{LineIndex, shown, write_json};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Finds lines of places.
-struct Lines<'a> {
-    run: &'a Run,
+/// How a trace is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TraceFormat {
+    /// A table, and the final variables after it.
+    Text,
+    /// One event a line, then a line with the result.
+    Json,
+}
+
+/// Prints a trace, piece by piece: a long run need not be kept to be printed.
+pub struct TraceWriter<'a, W> {
+    format: TraceFormat,
     inputs: &'a [Input],
     indexes: Vec<LineIndex>,
+    /// The programs that ran so far.
+    programs: Vec<Program>,
+    out: W,
 }
 
 /// An event as a line of JSON.
@@ -37,58 +49,70 @@ struct Result<'a> {
     variables: &'a std::collections::BTreeMap<String, f64>,
 }
 
-impl<'a> Lines<'a> {
-    fn new(run: &'a Run, inputs: &'a [Input]) -> Self {
+impl<'a, W: Write> TraceWriter<'a, W> {
+    /// Nothing is printed yet.
+    pub fn new(format: TraceFormat, inputs: &'a [Input], out: W) -> Self {
         let indexes = inputs.iter().map(|input| LineIndex::new(&input.bytes)).collect();
-        Self { run, inputs, indexes }
+        Self { format, inputs, indexes, programs: Vec::new(), out }
     }
 
-    /// Program, file, line and column of a place.
-    fn place(&self, at: Place) -> (&'a str, &'a str, u32, u32) {
-        let Some(program) = self.run.programs.get(at.program as usize) else { return ("", "", 0, 0) };
-        let file = self.inputs.get(program.file).map_or("", |input| input.name.as_str());
-        let (line, column) =
-            self.indexes.get(program.file).map_or((0, 0), |index| index.place(at.span.start));
-        (&program.name, file, line, column)
+    /// Prints what was heard of a run while it goes on.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn heard(&mut self, heard: &Heard) -> io::Result<()> {
+        self.programs.extend_from_slice(&heard.programs);
+        heard.events.iter().try_for_each(|event| self.event(event))
     }
-}
 
-/// Writes one event a line, then a line with the result.
-///
-/// # Errors
-/// Those of `out`.
-pub fn trace_json(run: &Run, inputs: &[Input], mut out: impl Write) -> io::Result<()> {
-    let lines = Lines::new(run, inputs);
-    for Event { at, what, .. } in &run.events {
-        let (program, file, line, column) = lines.place(*at);
-        let block = [at.span.start, at.span.end];
-        let line = Line { what, program, file, line, column, block };
-        serde_json::to_writer(&mut out, &line)?;
-        writeln!(out)?;
+    /// Prints the rest of a run, and its result.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn end(mut self, run: &Run) -> io::Result<()> {
+        self.programs.clone_from(&run.programs);
+        run.events.iter().try_for_each(|event| self.event(event))?;
+        match self.format {
+            TraceFormat::Text => self.variables(run),
+            TraceFormat::Json => {
+                let result =
+                    Result { event: "result", end: &run.end, steps: run.steps, variables: &run.variables };
+                write_json(&result, &mut self.out)?;
+                writeln!(self.out)
+            }
+        }
     }
-    let result = Result { event: "result", end: &run.end, steps: run.steps, variables: &run.variables };
-    serde_json::to_writer(&mut out, &result)?;
-    writeln!(out)
-}
 
-/// Writes the trace as a table, and the final variables after it.
-///
-/// # Errors
-/// Those of `out`.
-pub fn trace_text(run: &Run, inputs: &[Input], mut out: impl Write) -> io::Result<()> {
-    let lines = Lines::new(run, inputs);
-    for Event { at, what, .. } in &run.events {
-        let (program, _, line, _) = lines.place(*at);
-        let place = format!("{}:{line}", shown(program));
-        writeln!(out, "{place:>12}  {}", shown(describe(what, run).trim_end()))?;
+    fn event(&mut self, Event { at, what, .. }: &Event) -> io::Result<()> {
+        let found = self.programs.get(at.program as usize);
+        let program = found.map_or("", |program| &program.name);
+        let file = found.map(|program| program.file);
+        let place = |file: usize| Some(self.indexes.get(file)?.place(at.span.start));
+        let (line, column) = file.and_then(place).unwrap_or((0, 0));
+        match self.format {
+            TraceFormat::Text => {
+                let place = format!("{}:{line}", shown(program));
+                let what = describe(what, &self.programs);
+                writeln!(self.out, "{place:>12}  {}", shown(what.trim_end()))
+            }
+            TraceFormat::Json => {
+                let file = file.and_then(|file| self.inputs.get(file)).map_or("", |input| &input.name);
+                let block = [at.span.start, at.span.end];
+                write_json(&Line { what, program, file, line, column, block }, &mut self.out)?;
+                writeln!(self.out)
+            }
+        }
     }
-    if !run.variables.is_empty() {
-        writeln!(out)?;
+
+    fn variables(&mut self, run: &Run) -> io::Result<()> {
+        if !run.variables.is_empty() {
+            writeln!(self.out)?;
+        }
+        for (name, value) in &run.variables {
+            writeln!(self.out, "{name:>12} = {value}")?;
+        }
+        writeln!(self.out, "\n{} blocks", run.steps)
     }
-    for (name, value) in &run.variables {
-        writeln!(out, "{name:>12} = {value}")?;
-    }
-    writeln!(out, "\n{} blocks", run.steps)
 }
 
 /// Axes that changed, or all three where none did.
@@ -110,7 +134,7 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
-fn describe(what: &Happening, run: &Run) -> String {
+fn describe(what: &Happening, programs: &[Program]) -> String {
     use Happening::*;
     match what {
         Rapid { from, to } => format!("rapid  {}", axes(from, to)),
@@ -160,7 +184,7 @@ fn describe(what: &Happening, run: &Run) -> String {
         Other { operation, code: None } => format!("{operation}"),
         End { by } => format!("{by}"),
         Enter { program, .. } => {
-            let name = run.programs.get(*program as usize).map_or("", |program| program.name.as_str());
+            let name = programs.get(*program as usize).map_or("", |program| program.name.as_str());
             format!("call    {name}")
         }
         Leave => "return".into(),

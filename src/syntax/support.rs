@@ -67,6 +67,17 @@ pub(super) fn unparsed(line: Span, error: SyntaxError) -> Block {
     }
 }
 
+/// The longest line that is read, in bytes: far above what any control takes, and low enough that the parts of one line
+/// never fill the memory.
+pub const LONGEST_LINE: usize = 256 * 1024;
+
+/// A line that is too long to be read, as a block that keeps its text.
+pub(super) fn too_long(line: Span) -> Option<Block> {
+    let message =
+        || format!("the line has {} characters, more than any control takes; it is not read", line.len());
+    (line.len() > LONGEST_LINE).then(|| unparsed(line, fault(Code::TooComplex, line, message())))
+}
+
 /// An error, from its parts.
 pub(super) fn fault(code: Code, span: Span, message: impl Into<String>) -> SyntaxError {
     SyntaxError { code, span, message: message.into() }

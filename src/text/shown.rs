@@ -32,7 +32,7 @@ fn replaced(text: &str, stays: impl Fn(char, Option<char>) -> bool) -> Cow<'_, s
 }
 
 /// True for what acts on a terminal in place of being drawn: controls, line separators, marks of direction.
-fn acts(c: char) -> bool {
+pub fn acts(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }

@@ -4,10 +4,10 @@
 //! source breaks one is not held against it; what the target alone does otherwise is. Nothing else of a conversion is
 //! known here.
 
-use super::callers::program_at;
 use super::compare::Difference;
-use super::names::{Names, Side};
+use super::names::Names;
 use super::program::Job;
+use super::side::Side;
 use crate::assume::{Assumption, Predicate};
 use crate::control::trace::{Computed, Event, Happening};
 use crate::control::{End, ProgramRef, Run};
@@ -65,7 +65,7 @@ impl Tried<'_> {
 
 /// Tries what the programs suppose that a run of the source came through.
 pub fn tried<'j>(job: &Job<'j>, run: &Run, other: &Run) -> Vec<Tried<'j>> {
-    let entered: BTreeSet<ProgramRef> = super::callers::programs_of(job.source, run).into_iter().collect();
+    let entered: BTreeSet<ProgramRef> = job.source.links().entered(run).collect();
     let all = entered.into_iter().filter_map(|program| Some((program, job.assumptions.get(&program)?)));
     let tried = all.flat_map(|(program, all)| {
         let there = job.names.program(job.source, program, job.target);
@@ -83,8 +83,7 @@ pub fn tried<'j>(job: &Job<'j>, run: &Run, other: &Run) -> Vec<Tried<'j>> {
 
 /// The facts that programs take to be as the tables have them, of those that a run came through.
 pub fn facts(job: &Job<'_>, run: &Run) -> BTreeSet<Arc<str>> {
-    let entered = super::callers::programs_of(job.source, run).into_iter();
-    let all = entered.filter_map(|program| job.assumptions.get(&program)).flatten();
+    let all = job.source.links().entered(run).filter_map(|program| job.assumptions.get(&program)).flatten();
     all.filter_map(|assumption| assumption.predicate.fact()).collect()
 }
 
@@ -185,7 +184,7 @@ fn computed<'r, T: Copy>(
     };
     all.iter().copied().filter(move |one| {
         let here = places.is_none_or(|places| places.iter().any(|place| holds(one.at.span, place)));
-        here && program_at(side, run, one.at.program) == Some(program)
+        here && side.links().at(run, one.at.program) == Some(program)
     })
 }
 
@@ -237,7 +236,7 @@ fn nesting(run: &Run, counts: [bool; 2], most: u32) -> Held {
 /// Whether the number of the alarm that a program ended a run with is small enough.
 fn alarm(run: &Run, (side, program): (&Side<'_>, ProgramRef), most: f64) -> Held {
     match &run.end {
-        End::Alarm { at, stop } if program_at(side, run, at.program) == Some(program) => {
+        End::Alarm { at, stop } if side.links().at(run, at.program) == Some(program) => {
             match stop.program_number {
                 Some(number) if number > most => Held::Broken {
                     before: run.events.len().saturating_sub(1),

@@ -1,10 +1,10 @@
 //! The branches of a program, and which ways they went.
 
 use super::constants::impossible;
-use super::names::Side;
+use super::side::Side;
 use crate::control::{ProgramRef, Run};
 use crate::syntax::{ItemKind, Target, for_each_item};
-use crate::text::{LineIndex, Span};
+use crate::text::Span;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,6 +28,8 @@ type Place = (usize, Span);
 #[derive(Clone)]
 pub struct Coverage {
     branches: BTreeMap<Place, (bool, BTreeSet<i64>)>,
+    /// The bytes of the longest branch.
+    longest: u32,
     /// All ways that were seen anywhere, those of called programs too.
     seen: BTreeSet<(usize, Span, i64)>,
     /// Ways that constants make impossible.
@@ -56,7 +58,9 @@ impl Coverage {
                 impossible(side, *program, as_run).into_iter().map(|(span, way)| ((program.file, span), way)),
             );
         }
-        Self { branches, seen: BTreeSet::new(), impossible: never }
+        let longest =
+            branches.keys().map(|(_, span): &Place| span.end.saturating_sub(span.start)).max().unwrap_or(0);
+        Self { branches, longest, seen: BTreeSet::new(), impossible: never }
     }
 
     /// Notes where a run went. True where that was new.
@@ -73,14 +77,20 @@ impl Coverage {
             for way in ways {
                 self.seen.insert((program.file, span, *way));
             }
-            let touches = |(file, other): &Place| {
-                *file == program.file && other.start < span.end && span.start < other.end
-            };
-            for (_, (_, seen)) in self.branches.iter_mut().filter(|(at, _)| touches(at)) {
+            for seen in self.touched(program.file, span) {
                 seen.extend(ways);
             }
         }
         self.seen.len() > before
+    }
+
+    /// The ways seen of the branches that share bytes with a place: those that begin before its end, and no farther
+    /// before its start than the longest is long.
+    fn touched(&mut self, file: usize, span: Span) -> impl Iterator<Item = &mut BTreeSet<i64>> {
+        let first = span.start.saturating_sub(self.longest).min(span.end);
+        let near = (file, Span::new(first, 0))..(file, Span::new(span.end, 0));
+        let near = self.branches.range_mut(near).filter(move |((_, other), _)| span.start < other.end);
+        near.map(|(_, (_, seen))| seen)
     }
 
     /// Takes in the ways that were gone in a text whose places stood elsewhere before it was edited. True
@@ -123,7 +133,7 @@ impl Coverage {
     pub fn not_reached(&self, side: &Side<'_>) -> Vec<NotReached> {
         let report = |((file, span), way): (Place, &'static str)| {
             let source = side.files.get(file).map_or(&[][..], |file| file.parsed.source);
-            let (line, column) = LineIndex::new(source).place(span.start);
+            let (line, column) = side.line_of(file, span.start);
             let text = source.get(span.range()).map(String::from_utf8_lossy).unwrap_or_default();
             NotReached { line, column, text: text.into_owned(), way }
         };

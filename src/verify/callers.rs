@@ -8,12 +8,12 @@
 use super::assumed::{excuse, tried};
 use super::compare::{Tolerance, compare, is_cut};
 use super::given::Given;
-use super::inputs::{calls, inputs};
+use super::inputs::inputs;
 use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
 use super::stops::stops_by_itself;
-use super::{Certificate, Outcome, ProgramCertificate, Side};
-use crate::control::{ProgramRef, Run, Scenario, trace};
+use super::{Certificate, Outcome, ProgramCertificate};
+use crate::control::{ProgramRef, Run, Scenario};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,26 +86,25 @@ impl Through {
 pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tolerance) -> Through {
     let mut found = Through::default();
     let mut gone = BTreeSet::new();
-    let all = job.source.programs();
-    let is_root = roots(job, &all);
+    let links = job.source.links();
+    let all = links.programs();
     let has_target = |caller: &ProgramRef| job.names.program(job.source, *caller, job.target).is_some();
     for caller in all.iter().filter(|caller| **caller != program && !has_target(caller)) {
-        let mut blocks = job.source.text(*caller).iter();
-        if blocks.any(|block| calls(job.source, &block.items).any(|called| called == program)) {
+        if links.callees(*caller).contains(&program) {
             found.absent.insert(name(job, *caller));
         }
     }
-    let callers = || all.iter().filter(|caller| **caller != program && is_root(caller));
+    let callers = || all.iter().filter(|caller| **caller != program && is_root(job, caller));
     let runs = (RUNS / callers().count().max(1)).max(FEWEST);
     for caller in callers() {
         let Some(there) = job.names.program(job.source, *caller, job.target) else {
-            if scenarios(job, *caller, FEWEST).any(|(_, run)| enters(job, &run, program)) {
+            if scenarios(job, *caller, FEWEST).any(|(_, run)| links.enters(&run, program)) {
                 found.absent.insert(name(job, *caller));
             }
             continue;
         };
         for (at, (scenario, run)) in scenarios(job, *caller, runs).enumerate() {
-            if !enters(job, &run, program) {
+            if !links.enters(&run, program) {
                 // One that never comes through it in its first runs is none of its callers.
                 if at >= FEWEST && !found.callers.contains(&name(job, *caller)) {
                     break;
@@ -158,7 +157,7 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
     };
     let named = |program: &ProgramCertificate| number(program.program.as_deref().unwrap_or_default());
     let names: BTreeSet<String> = all.iter().flat_map(|c| &c.programs).map(named).collect();
-    let mut shown = Vec::new();
+    let mut shown = BTreeMap::new();
     for program in all.iter().flat_map(|certificate| &certificate.programs) {
         let moment = program.witness.as_ref().filter(|_| program.outcome == Outcome::Different);
         let Some((witness, moment)) = moment.and_then(|witness| Some((witness, witness.source.as_ref()?)))
@@ -172,12 +171,12 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
         if moment.program.is_empty() || another {
             continue;
         }
-        shown.push(((moment.file.clone(), number(&moment.program)), (witness.clone(), program.run_alone)));
+        let place = (moment.file.clone(), number(&moment.program));
+        shown.entry(place).or_insert_with(|| (witness.clone(), program.run_alone));
     }
     for certificate in &mut all {
         for program in certificate.programs.iter_mut().filter(|p| p.outcome != Outcome::Different) {
-            let here = place(program);
-            if let Some((_, (witness, run_alone))) = shown.iter().find(|(there, _)| *there == here) {
+            if let Some((witness, run_alone)) = shown.get(&place(program)) {
                 program.outcome = Outcome::Different;
                 (program.witness, program.run_alone) = (Some(witness.clone()), *run_alone);
             }
@@ -187,15 +186,19 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
 }
 
 /// Whether a program is one that no other enters, as far as a few runs show.
-pub(super) fn roots(job: &Job<'_>, all: &[ProgramRef]) -> impl Fn(&ProgramRef) -> bool + use<> {
-    let mut entered = BTreeSet::new();
-    for caller in all {
-        let called =
-            |run: &Run| all.iter().copied().filter(|other| enters(job, run, *other)).collect::<Vec<_>>();
-        let runs = scenarios(job, *caller, LOOKS).flat_map(|(_, run)| called(&run));
-        entered.extend(runs.filter(|other| other != caller));
-    }
-    move |program| !entered.contains(program)
+pub(super) fn is_root(job: &Job<'_>, program: &ProgramRef) -> bool {
+    let entered = job.source.entered.get_or_init(|| {
+        let all = job.source.links().programs().iter();
+        all.flat_map(|caller| {
+            let mut entered = BTreeSet::new();
+            let runs = scenarios(job, *caller, LOOKS);
+            runs.for_each(|(_, run)| entered.extend(job.source.links().entries(&run).into_keys()));
+            entered.remove(caller);
+            entered
+        })
+        .collect()
+    });
+    !entered.contains(program)
 }
 
 /// Circumstances of a program, and its runs in them.
@@ -212,55 +215,17 @@ pub(super) fn scenarios_in<'j>(
     job: &'j Job<'_>,
     program: ProgramRef,
     runs: usize,
-    given: Option<&Given>,
+    given: Option<&'j Given>,
 ) -> impl Iterator<Item = (Scenario, Run)> + 'j {
     let inputs = inputs(job.source, program);
-    let mut proposals: Vec<Scenario> = Vec::new();
-    let mut proposed = Proposals::new(&inputs, job.effort);
-    while proposals.len() < runs
-        && let Some(mut scenario) = proposed.next()
-    {
-        scenario.inch = unit(job.source, job.target).or(inputs.inch);
+    let inch = unit(job.source, job.target).or(inputs.inch);
+    let mut proposals = Proposals::new(&inputs, job.effort);
+    std::iter::from_fn(move || proposals.next()).take(runs).map(move |mut scenario| {
+        scenario.inch = inch;
         given.into_iter().for_each(|given| given.start(&mut scenario));
-        proposals.push(scenario);
-    }
-    proposals.into_iter().map(move |scenario| {
         let run = (job.source.execute)(&job.source.library, program, job.source.control, &scenario);
         (scenario, run)
     })
-}
-
-/// True where a run came through a program.
-fn enters(job: &Job<'_>, run: &Run, program: ProgramRef) -> bool {
-    entry(job, run, program).is_some()
-}
-
-/// A program as a run came to it first.
-pub(super) fn entry<'r>(job: &Job<'_>, run: &'r Run, program: ProgramRef) -> Option<&'r trace::Program> {
-    let name = job.source.name(program).map_or_else(String::new, called);
-    run.programs.iter().find(|other| other.file == program.file && other.name == name)
-}
-
-/// The programs that a run came through.
-pub(super) fn programs_of(side: &Side<'_>, run: &Run) -> Vec<ProgramRef> {
-    (0..run.programs.len()).filter_map(|at| program_at(side, run, at as u32)).collect()
-}
-
-/// The program that a number of a run's places stands for.
-pub(super) fn program_at(side: &Side<'_>, run: &Run, number: u32) -> Option<ProgramRef> {
-    let of = run.programs.get(number as usize)?;
-    let is = |program: &ProgramRef| {
-        program.file == of.file && side.name(*program).map_or(String::new(), called) == of.name
-    };
-    side.programs().into_iter().find(is)
-}
-
-/// A program's name as runs have it.
-fn called(name: &ProgramName) -> String {
-    match name {
-        ProgramName::Number(number) => format!("O{number}"),
-        ProgramName::Name(name) => name.clone(),
-    }
 }
 
 /// True where something happened in a block, or none is asked for.

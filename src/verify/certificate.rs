@@ -4,7 +4,8 @@ use super::{Effort, NotReached, Outcome, Side};
 use crate::control::trace::Event;
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::dialect::Control;
-use crate::text::LineIndex;
+use crate::text::json_pretty;
+use memchr::{memchr, memrchr};
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -238,7 +239,7 @@ impl Certificate {
 
     /// As JSON text.
     pub fn print(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        json_pretty(self) + "\n"
     }
 }
 
@@ -270,10 +271,12 @@ impl Moment {
             let event = serde_json::to_value(&event.what).unwrap_or_default();
             return Self { file: String::new(), program, line: 0, block: String::new(), event };
         };
-        let source = file.parsed.source;
-        let (line, _) = LineIndex::new(source).place(event.at.span.start);
-        let block =
-            source.split(|byte| *byte == b'\n').nth(line.saturating_sub(1) as usize).unwrap_or_default();
+        let (place, source) = (event.at.span.start, file.parsed.source);
+        let (line, _) = ran.map_or((1, 1), |ran| side.line_of(ran.file, place));
+        let (before, behind) = source.split_at_checked(place as usize).unwrap_or((source, &[]));
+        let start = memrchr(b'\n', before).map_or(0, |at| at + 1);
+        let end = memchr(b'\n', behind).map_or(source.len(), |at| before.len() + at);
+        let block = source.get(start..end).unwrap_or_default();
         Self {
             file: file.name.to_owned(),
             program,

@@ -4,16 +4,18 @@ use super::differ::{ANOTHER_FEED, differ};
 use super::left::left_differs;
 use super::letters;
 use super::loose::{Found, farthest};
-use super::names::{Names, Side, class_of};
+use super::names::Names;
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::pauses::{Runs, may_do_so, may_turn};
+use super::pauses::{Runs, ends_cycle, may_do_so, may_turn};
+use super::side::Side;
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
 };
-use crate::control::trace::{Event, Happening, Position};
+use super::variables::variables_differ;
+use crate::control::trace::{Event, Happening, Position, Told};
 use crate::control::{End, Run};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// How far numbers may lie apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +42,12 @@ impl Tolerance {
 
     /// How far apart what the words of two events rounded may have put them.
     pub(super) fn between(&self, source: f64, target: f64) -> f64 {
-        ARITHMETIC + if self.both { source + target } else { source.max(target) }
+        ARITHMETIC + self.of_both(source, target)
+    }
+
+    /// How far apart two values may lie that are off by so much.
+    fn of_both(&self, source: f64, target: f64) -> f64 {
+        if self.both { source + target } else { source.max(target) }
     }
 }
 
@@ -75,6 +82,15 @@ pub struct Difference<'r> {
     pub target: Option<&'r Event>,
     /// What differs.
     pub what: String,
+    /// True for a variable that is just as far off as a place that was read.
+    pub by_place: bool,
+}
+
+impl<'r> Difference<'r> {
+    /// A difference of two events; none for a side that does nothing more, or for what is seen at the end.
+    pub fn new(source: Option<&'r Event>, target: Option<&'r Event>, what: String) -> Self {
+        Self { source, target, what, by_place: false }
+    }
 }
 
 /// Compares what an observer could tell of two runs, and the variables that outlive them.
@@ -106,10 +122,14 @@ pub fn compare<'r>(
         return found;
     }
     let left = left_differs(source, target, tolerance, &mut found.substituted);
-    found.difference = end_differs(&source.1.end, &target.1.end)
-        .or_else(|| variables_differ(source, target, names))
-        .or(left)
-        .map(|what| Difference { source: None, target: None, what });
+    let seen = |what| Difference::new(None, None, what);
+    let end = end_differs(&source.1.end, &target.1.end).map(seen);
+    let variable = end.or_else(|| variables_differ(source, target, names));
+    // What a place may have put off says less than anything else.
+    found.difference = match (variable, left.map(seen)) {
+        (Some(variable), Some(left)) if variable.by_place => Some(left),
+        (variable, left) => variable.or(left),
+    };
     found
 }
 
@@ -148,24 +168,31 @@ impl<'r> Pairs<'_, 'r> {
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
-            let runs = |side: usize, act: Option<&Act<'r>>, others: &[Act<'r>], runs: &[Runs; 2]| {
-                act.is_some_and(|act| {
-                    may_do_so(act, others, side == 1) || runs[side].is_told(&runs[1 - side], act)
+            let runs = |side: usize, acts: &[Act<'r>], others: &[Act<'r>], runs: &[Runs; 2]| {
+                // What a cycle does to a spindle that may stand on one side has no counterpart on the other.
+                let may_stand = runs.iter().any(Runs::may_stand);
+                let alone = others.first().is_none_or(|other| other.told != Told::Cycle);
+                acts.first().is_some_and(|act| {
+                    (act.told == Told::Cycle && may_stand && alone)
+                        || may_do_so(act, others, side == 1)
+                        || runs[side].is_told(&runs[1 - side], act)
+                        || runs[side].lets_go(acts)
                 })
             };
-            if runs(0, a, theirs.get(j..).unwrap_or_default(), &self.runs) {
+            let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
+            if runs(0, here, there, &self.runs) {
                 a.into_iter().for_each(|a| self.moved(0, a));
                 i += 1;
             } else if a.is_some_and(|a| self.passes(0, a)) {
                 i += 1;
-            } else if runs(1, b, ours.get(i..).unwrap_or_default(), &self.runs) {
+            } else if runs(1, there, here, &self.runs) {
                 b.into_iter().for_each(|b| self.moved(1, b));
                 j += 1;
             } else if b.is_some_and(|b| self.passes(1, b)) {
                 j += 1;
             } else {
                 let (source, target) = (a.map(|a| a.event), b.map(|b| b.event));
-                let difference = Difference { source, target, what };
+                let difference = Difference::new(source, target, what);
                 match (a, b) {
                     (Some(a), Some(b)) if self.drifts(a, b) => {}
                     (Some(a), Some(b)) if self.differ(a, b, self.tolerance.rounded).is_none() => {
@@ -249,7 +276,7 @@ impl<'r> Pairs<'_, 'r> {
         let stands = stands_for(self.target, &source.what, &target.what);
         let (a, b) = (&source.what, &target.what);
         let on = self.runs[0].goes_on(a) && self.runs[1].goes_on(b);
-        if on && may_turn(source, target) {
+        if (on || ends_cycle(source, target)) && may_turn(source, target) {
             let text = "no source says whether the spindle still turns after a tool change or a stop";
             self.found.substituted.insert(text.to_owned());
             return None;
@@ -299,69 +326,6 @@ fn end_differs(source: &End, target: &End) -> Option<String> {
     let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
     (!same).then(|| "one of them ends with an alarm, the other does not".to_owned())
 }
-/// Compares the final values of variables that both sides keep from program to program.
-fn variables_differ(source: (&Side<'_>, &Run), target: (&Side<'_>, &Run), names: &Names) -> Option<String> {
-    if matches!(source.1.end, End::Alarm { .. }) {
-        return None;
-    }
-    let shared = |name: &str| class_of(source.0.control, name).is_some_and(|class| class.class != "local");
-    let mut all: BTreeSet<String> = names.variables.keys().cloned().collect();
-    all.extend(source.1.variables.keys().chain(target.1.variables.keys()).cloned());
-    for name in all.iter().filter(|name| shared(name)) {
-        let Some(there) = names.variable(name, source.0.control, target.0.control) else { continue };
-        let value = |side: &Side<'_>, run: &Run, name: &str| {
-            let nullable = class_of(side.control, name).is_some_and(|class| class.nullable);
-            run.variables.get(name).copied().or((!nullable).then_some(0.0))
-        };
-        let (a, b) = (value(source.0, source.1, name), value(target.0, target.1, &there));
-        // What a control without vacancy never wrote is vacant on one that has it, and reads as 0 there.
-        let never = |a: Option<f64>, b: Option<f64>| b.is_none() && a == Some(0.0);
-        let is_nullable = class_of(source.0.control, name).is_some_and(|class| class.nullable);
-        let same = match (a, b) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-6 * a.abs().max(b.abs()).max(1.0),
-            (None, None) => true,
-            _ => !is_nullable && never(a, b),
-        };
-        if !same {
-            let show = |value: Option<f64>| value.map_or_else(|| "vacant".into(), |value| value.to_string());
-            return Some(format!("{name} is {} at the end, {there} is {}", show(a), show(b)));
-        }
-    }
-    None
-}
-
-/// A register that the target wrote and that the source has no variable for, nor the conversion a use: it may hold what
-/// something else of the shop keeps there. `began` is what registers held at the start.
-pub fn writes_elsewhere(
-    source: &Side<'_>,
-    (target, run): (&Side<'_>, &Run),
-    began: &BTreeMap<String, f64>,
-    names: &Names,
-) -> Option<String> {
-    if is_cut(run) {
-        return None;
-    }
-    let all: BTreeSet<&String> = run.variables.keys().chain(began.keys()).collect();
-    let (from, to) = (source.control, target.control);
-    let is_scratch = |name: &str| {
-        let prefixes = to.classes().iter().map(|row| row.name.as_str());
-        prefixes.into_iter().any(|prefix| {
-            let number = name.strip_prefix(prefix).and_then(|number| number.parse::<u32>().ok());
-            number.is_some_and(|number| names.scratch.contains(&number))
-        })
-    };
-    let found = all.into_iter().find(|name| {
-        let nullable = class_of(to, name).is_some_and(|class| class.nullable);
-        let value = |all: &BTreeMap<String, f64>| all.get(*name).copied().or((!nullable).then_some(0.0));
-        value(began) != value(&run.variables)
-            && class_of(to, name).is_some_and(|class| class.class != "local")
-            && !is_scratch(name)
-            && !names.is_named(name, to)
-            && names.of_source(name, from, to).is_none()
-    })?;
-    Some(format!("the target writes {found}, which holds no variable of the source"))
-}
-
 /// Texts that count as the same and are written differently.
 fn texts(source: &Happening, target: &Happening) -> Option<(String, String)> {
     let show = |what: &Happening| match what {

@@ -7,7 +7,8 @@
 
 mod known;
 
-use super::names::{Side, class_of};
+use super::names::class_of;
+use super::side::Side;
 use crate::canon::{Func, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::Control;

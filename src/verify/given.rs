@@ -1,7 +1,6 @@
 //! What a called program finds in force at its start.
 
-use super::callers::{LOOKS, entry, roots, scenarios_in};
-use super::inputs::calls;
+use super::callers::{LOOKS, is_root, scenarios_in};
 use super::program::Job;
 use crate::canon::{Group, Op};
 use crate::control::{ProgramRef, Scenario};
@@ -16,6 +15,8 @@ pub struct Given {
     /// What is in force at its start whoever calls it: of each group of [`crate::control::machine::GIVEN`] at the most
     /// one.
     pub modes: Vec<Op>,
+    /// The offset of a tool length in force that all of them come in with, if a return may have cancelled it.
+    lost_length: Option<u32>,
     /// The units that they come in, true for inch.
     units: BTreeSet<bool>,
     /// True once anything is known of it.
@@ -26,10 +27,11 @@ pub struct Given {
 
 impl Given {
     /// Takes in what another run gives.
-    fn add(&mut self, modes: &[Op]) {
+    fn add(&mut self, modes: &[Op], lost_length: Option<u32>) {
         if !std::mem::replace(&mut self.any, true) {
-            self.modes = modes.to_vec();
+            (self.modes, self.lost_length) = (modes.to_vec(), lost_length);
         }
+        self.lost_length = self.lost_length.filter(|number| lost_length == Some(*number));
         self.modes.retain(|op| modes.contains(op));
         self.units.extend(modes.iter().filter(|op| op.group() == Group::Units).map(|op| *op == Op::Inch));
     }
@@ -57,6 +59,12 @@ impl Given {
         Self { modes: units.collect(), ..self.clone() }
     }
 
+    /// The same where moves are straight cuts.
+    pub fn in_straight_cut(&self) -> Self {
+        let others = self.modes.iter().copied().filter(|op| op.group() != Group::Motion);
+        Self { modes: others.chain([Op::Linear]).collect(), ..self.clone() }
+    }
+
     /// The modes that are not those of power-on, the unit left out.
     pub fn unlike_power_on(&self) -> Vec<Op> {
         let usual = [Op::Rapid, Op::Absolute, Op::PlaneXy, Op::FeedPerMinute];
@@ -68,6 +76,9 @@ impl Given {
     pub fn start(&self, scenario: &mut Scenario) {
         scenario.inch = self.inch().or(scenario.inch);
         scenario.modes = self.unlike_power_on();
+        if let Some(number) = self.lost_length {
+            (scenario.entry.length, scenario.entry.length_lost) = (Some(number), true);
+        }
     }
 }
 
@@ -76,51 +87,38 @@ impl Given {
 /// Programs that none calls give first; then, in what they are given themselves, those that these enter give to what
 /// was not come to yet. One that no run comes to begins in what was in force where the runs of its callers ended.
 pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
-    let all = job.source.programs();
-    let callees = |program| {
-        let blocks = job.source.text(program).iter();
-        let to = blocks.flat_map(|block| calls(job.source, &block.items));
-        to.filter(|to| *to != program).collect::<BTreeSet<_>>()
-    };
-    let callees: BTreeMap<ProgramRef, BTreeSet<ProgramRef>> =
-        all.iter().map(|program| (*program, callees(*program))).collect();
-    let called: BTreeSet<ProgramRef> = callees.values().flatten().copied().collect();
-    let is_root = roots(job, &all);
+    let links = job.source.links();
+    let roots = || links.programs().iter().copied().filter(|program| is_root(job, program));
     let mut found: BTreeMap<ProgramRef, Given> = BTreeMap::new();
     let mut ended: BTreeMap<ProgramRef, Given> = BTreeMap::new();
     let mut gone: BTreeSet<ProgramRef> = BTreeSet::new();
-    let mut callers: Vec<ProgramRef> =
-        all.iter().filter(|program| is_root(program) && !called.contains(program)).copied().collect();
+    let mut callers: Vec<ProgramRef> = roots().filter(|program| !links.is_called(*program)).collect();
     loop {
         let mut came: BTreeMap<ProgramRef, Given> = BTreeMap::new();
         for caller in &callers {
-            let shown = gives(job, &all, *caller, &callees[caller], found.get(caller));
-            for (to, modes) in shown.met {
+            let shown = gives(job, *caller, found.get(caller));
+            for (to, modes, lost_length) in shown.met {
                 if !found.contains_key(&to) {
-                    came.entry(to).or_default().add(&modes);
+                    came.entry(to).or_default().add(&modes, lost_length);
                 }
             }
             for to in shown.missed {
                 let given =
                     ended.entry(to).or_insert_with(|| Given { never_come_to: true, ..Given::default() });
-                shown.ends.iter().for_each(|modes| given.add(modes));
+                shown.ends.iter().for_each(|modes| given.add(modes, None));
             }
         }
         gone.extend(callers);
+        callers = came.keys().filter(|program| !gone.contains(program)).copied().collect();
         found.extend(came);
-        let next = |found: &BTreeMap<ProgramRef, Given>| -> Vec<ProgramRef> {
-            found.keys().filter(|program| !gone.contains(program)).copied().collect()
-        };
-        callers = next(&found);
         if callers.is_empty() {
             ended.retain(|program, _| !found.contains_key(program) && !gone.contains(program));
+            callers = ended.keys().copied().collect();
             found.append(&mut ended);
-            callers = next(&found);
         }
         if callers.is_empty() {
             // They call each other in a circle, or a number that is no call has been taken for one.
-            callers =
-                all.iter().filter(|program| !gone.contains(*program) && is_root(program)).copied().collect();
+            callers = roots().filter(|program| !gone.contains(program)).collect();
         }
         if callers.is_empty() {
             return found;
@@ -131,8 +129,8 @@ pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
 /// What the runs of a caller show of what it calls.
 #[derive(Default)]
 struct Shown {
-    /// The programs that they come to, and what is in force there.
-    met: Vec<(ProgramRef, Vec<Op>)>,
+    /// The programs that they come to, what is in force there, and the offset of a length that may be lost.
+    met: Vec<(ProgramRef, Vec<Op>, Option<u32>)>,
     /// Those that its text calls and no run comes to.
     missed: BTreeSet<ProgramRef>,
     /// What is in force where they end.
@@ -140,23 +138,17 @@ struct Shown {
 }
 
 /// Runs a caller, more often where some that its text calls are not come to.
-fn gives(
-    job: &Job<'_>,
-    all: &[ProgramRef],
-    caller: ProgramRef,
-    callees: &BTreeSet<ProgramRef>,
-    given: Option<&Given>,
-) -> Shown {
-    let mut shown = Shown { missed: callees.clone(), ..Shown::default() };
+fn gives(job: &Job<'_>, caller: ProgramRef, given: Option<&Given>) -> Shown {
+    let links = job.source.links();
+    let callees = links.callees(caller).iter().copied().filter(|callee| *callee != caller);
+    let mut shown = Shown { missed: callees.collect(), ..Shown::default() };
     for (at, (_, run)) in scenarios_in(job, caller, MORE_LOOKS, given).enumerate() {
         if at >= LOOKS && shown.missed.is_empty() {
             break;
         }
-        for to in all.iter().filter(|program| **program != caller) {
-            if let Some(entered) = entry(job, &run, *to) {
-                shown.missed.remove(to);
-                shown.met.push((*to, entered.modes.clone()));
-            }
+        for (to, ran) in links.entries(&run).into_iter().filter(|(to, _)| *to != caller) {
+            shown.missed.remove(&to);
+            shown.met.push((to, ran.modes.clone(), ran.lost_length));
         }
         shown.ends.push(run.modes);
     }

@@ -6,7 +6,7 @@ mod solve;
 
 pub use both::inputs_of_both;
 
-use super::names::Side;
+use super::side::Side;
 use crate::canon::{Op, Sys};
 use crate::control::ProgramRef;
 use crate::syntax::{ExprKind, Index, Item, ItemKind, Label, VarRef};
@@ -63,13 +63,6 @@ pub struct Input {
     pub theirs: bool,
 }
 
-/// True where another program of the library calls it: then that one has set what it takes.
-pub fn is_called(side: &Side<'_>, program: ProgramRef) -> bool {
-    let others = side.programs().into_iter().filter(|other| *other != program);
-    let mut blocks = others.flat_map(|other| side.text(other));
-    blocks.any(|block| calls(side, &block.items).any(|called| called == program))
-}
-
 /// Reads a program.
 pub fn inputs(side: &Side<'_>, program: ProgramRef) -> Inputs {
     inputs_by(side, program, &labels(side, program).into_iter().take(LABELS).collect::<Vec<_>>())
@@ -91,41 +84,19 @@ fn labels(side: &Side<'_>, program: ProgramRef) -> BTreeSet<u32> {
 /// Reads a program whose computed jumps are sent to these labels.
 fn inputs_by(side: &Side<'_>, program: ProgramRef, order: &[u32]) -> Inputs {
     let mut reader = Reader::new(side.control);
-    for (at, one) in called_from(side, program).into_iter().enumerate() {
+    for (at, one) in side.links().called_from(program, |_| true).into_iter().enumerate() {
         reader.own = at == 0;
         reader.labels =
             if at == 0 { order.to_vec() } else { labels(side, one).into_iter().take(LABELS).collect() };
         side.text(one).iter().for_each(|block| reader.items(&block.items, at == 0));
     }
-    let rotary = ['A', 'B', 'C'].map(|letter| moves(side, letter));
-    Inputs { rotary, many_tools: has_many_tools(side), ..reader.finish() }
+    Inputs { rotary: side.links().rotary(), many_tools: has_many_tools(side), ..reader.finish() }
 }
 
 /// True if a table of tool offsets has more rows than two digits count.
 fn has_many_tools(side: &Side<'_>) -> bool {
     let rows = side.control.dialect().system.iter().filter(|row| row.state.is_tool_offset());
     rows.filter_map(|row| row.subscripts.first()).any(|subscript| subscript.count > 99)
-}
-
-/// A program and those that it calls, and that these call.
-pub(super) fn called_from(side: &Side<'_>, program: ProgramRef) -> Vec<ProgramRef> {
-    let mut all = vec![program];
-    let mut at = 0;
-    while let Some(&one) = all.get(at) {
-        for block in side.text(one) {
-            let new: Vec<ProgramRef> = calls(side, &block.items).filter(|to| !all.contains(to)).collect();
-            all.extend(new);
-        }
-        at += 1;
-    }
-    all
-}
-
-/// True where a program of the library has a word of this axis.
-fn moves(side: &Side<'_>, letter: char) -> bool {
-    let blocks = side.files.iter().flat_map(|file| &file.parsed.blocks);
-    let mut items = blocks.flat_map(|block| &block.items);
-    items.any(|item| matches!(&item.kind, ItemKind::Word(word) if word.letter == letter))
 }
 
 /// The programs that a block may call: those whose numbers stand in its P words, and cycles that a code of theirs calls.

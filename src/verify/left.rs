@@ -6,14 +6,14 @@
 //! each control to say, and no source does: where they differ, that is told and not judged.
 
 use super::compare::Tolerance;
-use super::names::Side;
 use super::observe::returns;
+use super::side::Side;
 use super::substitutes::lacks;
 use crate::canon::{Group, Op};
-use crate::control::Run;
 use crate::control::machine::Left;
 use crate::control::scenario::{AXES, Axes, Tool};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::control::{Run, Table};
+use std::collections::BTreeSet;
 
 /// What two programs leave otherwise; what only a next program could tell goes to `substituted`.
 pub fn left_differs(
@@ -48,9 +48,10 @@ pub(super) fn seen_differs(ours: &Left, theirs: &Left, tolerance: Tolerance) -> 
     if places(&ours.position, &theirs.position) {
         return Some("the machine stands elsewhere at the end".into());
     }
-    let offset = first_apart(&ours.work_offsets, &theirs.work_offsets, places);
-    // What the source keeps in the register of the local shift ends as that does: it shows in the shift at a return.
-    let offset = offset.filter(|number| *number != 0 || !ours.external_is_local);
+    // The shift of all offsets is number 0. What the source keeps in the register of the local shift ends as that does:
+    // it shows in the shift at a return.
+    let external = (!ours.external_is_local && places(&ours.external, &theirs.external)).then_some(0);
+    let offset = external.or_else(|| first_apart(&ours.work_offsets, &theirs.work_offsets, places));
     let sizes = |tool: &Tool| [tool.length, tool.length_wear, tool.radius, tool.radius_wear];
     let tools = |a: &Tool, b: &Tool| sizes(a).iter().zip(sizes(b)).any(|(a, b)| apart(*a, b));
     let offset = offset.map(|number| format!("work offset {number}"));
@@ -61,10 +62,13 @@ pub(super) fn seen_differs(ours: &Left, theirs: &Left, tolerance: Tolerance) -> 
 
 /// The first row that two tables hold otherwise; one that is not there holds zeros.
 fn first_apart<T: Default>(
-    ours: &BTreeMap<u32, T>,
-    theirs: &BTreeMap<u32, T>,
+    ours: &Table<T>,
+    theirs: &Table<T>,
     apart: impl Fn(&T, &T) -> bool,
 ) -> Option<u32> {
+    if ours.is_shared_with(theirs) {
+        return None;
+    }
     let none = T::default();
     let mut all = ours.keys().chain(theirs.keys()).copied();
     all.find(|number| apart(ours.get(number).unwrap_or(&none), theirs.get(number).unwrap_or(&none)))
@@ -109,7 +113,11 @@ fn state_differs(
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;
     // Where the target cannot do without a work offset, the events say so.
     let uncancelled = ours.work == 0 && lacks(target, Op::ShiftCancel);
-    if !uncancelled && (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis])) {
+    // Whether a length that may be lost is back shows where it counts, and there nobody has to be asked if it is off.
+    let ((length, is_lost), (there, is_lost_there)) = (ours.length, theirs.length);
+    let may_be_off = (is_lost || is_lost_there) && (length == 0.0 || there == 0.0);
+    let is_apart = apart(length, there) && !may_be_off;
+    if !uncancelled && (is_apart || (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis]))) {
         return Some("with another shift of coordinates".into());
     }
     let turn = |left: &Left| left.rotation.map_or(0.0, |turn| turn.degrees);

@@ -23,6 +23,12 @@ impl<'r> Order<'r> {
         &self.0
     }
 
+    /// The block of the first change that may stand elsewhere, from where a block ran first.
+    fn loose_from(&self, block: Place) -> Option<Place> {
+        let from = self.0.iter().position(|event| event.at == block)?;
+        self.0[from..].iter().find(|event| event.told == Told::Loose).map(|event| event.at)
+    }
+
     /// Puts the changes of some kinds that may stand elsewhere in their other place, wherever their block ran. False if
     /// a kind has none there.
     fn turn(&mut self, block: Place, kinds: &[Running]) -> bool {
@@ -68,8 +74,8 @@ pub struct Found<T> {
     pub blocks: [Option<Place>; 2],
 }
 
-/// Compares two runs; where they differ at a block with a change that may stand elsewhere, on one side or on both, it is
-/// looked for there, and left there if the runs then go farther together.
+/// Compares two runs; where they differ at or before a block with a change that may stand elsewhere, on one side or on
+/// both, it is looked for there, and left there if the runs then go farther together.
 pub fn farthest<'r, T>(runs: [&'r Run; 2], mut compare: impl FnMut(&[Order<'r>; 2]) -> Found<T>) -> T {
     let mut orders = runs.map(Order::of);
     let mut best = compare(&orders);
@@ -80,7 +86,9 @@ pub fn farthest<'r, T>(runs: [&'r Run; 2], mut compare: impl FnMut(&[Order<'r>; 
         let farther = ways.filter(|ways| !ways.concat().is_empty()).find_map(|ways| {
             let mut other = orders.clone();
             for (side, kinds) in ways.into_iter().enumerate().filter(|(_, kinds)| !kinds.is_empty()) {
-                if !best.blocks[side].is_some_and(|block| other[side].turn(block, kinds)) {
+                // What a block leaves waiting may meet what the next one turns.
+                let next = other[side].loose_from(best.blocks[side]?)?;
+                if !other[side].turn(next, kinds) {
                     return None;
                 }
             }

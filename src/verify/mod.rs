@@ -24,6 +24,7 @@ mod given;
 mod inputs;
 mod left;
 mod letters;
+mod links;
 mod loose;
 mod names;
 mod observe;
@@ -34,12 +35,14 @@ mod questions;
 mod random;
 mod rounding;
 mod scenarios;
+mod side;
 mod starts;
 mod stops;
 mod substitutes;
 #[cfg(test)]
 mod tests;
 mod texts;
+mod variables;
 
 pub use assumed::Assumptions;
 pub use branches::NotReached;
@@ -48,8 +51,9 @@ pub use certificate::{
     Assumed, Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness, sha256,
 };
 pub use clock::Spent;
-pub use names::{Names, Side};
+pub use names::Names;
 pub use program::{Job, verify};
+pub use side::Side;
 
 /// What a verification amounts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]

@@ -1,72 +1,10 @@
-//! The two sides, and what is called what on each.
+//! What is called what on the two sides.
 
-use super::given::Given;
-use crate::control::{Execute, Library, LoadedFile, ProgramRef};
+use super::side::Side;
+use crate::control::ProgramRef;
 use crate::dialect::{Control, VariableClass};
-use crate::syntax::{Block, ProgramName};
+use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::OnceLock;
-
-/// One side of a comparison: a library and the control that runs it.
-pub struct Side<'a> {
-    /// The control.
-    pub control: &'a Control,
-    /// Its interpreter.
-    pub execute: Execute,
-    /// The files.
-    pub files: &'a [LoadedFile<'a>],
-    /// Their programs.
-    pub library: Library<'a>,
-    /// What callers give its programs, where anybody asked.
-    pub(super) given: OnceLock<BTreeMap<ProgramRef, Given>>,
-    /// Of the target: the programs that those of the source became, where anybody asked.
-    pub(super) became: OnceLock<BTreeSet<ProgramRef>>,
-}
-
-impl<'a> Side<'a> {
-    /// A library on a control.
-    pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
-        Self {
-            control,
-            execute,
-            files,
-            library: Library::new(files),
-            given: OnceLock::new(),
-            became: OnceLock::new(),
-        }
-    }
-
-    /// Its programs, in the order of files and places.
-    pub fn programs(&self) -> Vec<ProgramRef> {
-        let of = |file| {
-            let all = (0..).map(move |program| ProgramRef { file, program });
-            all.take_while(|program| self.library.sections.place(*program).is_some())
-        };
-        (0..self.files.len()).flat_map(of).collect()
-    }
-
-    /// The name of a program, as written; none for one without.
-    pub fn name(&self, program: ProgramRef) -> Option<&ProgramName> {
-        self.library.sections.all().get(self.library.sections.place(program)?)?.name.as_ref()
-    }
-
-    /// The program with this number.
-    pub fn numbered(&self, number: u32) -> Option<ProgramRef> {
-        self.library.sections.program(self.library.sections.numbered(number)?)
-    }
-
-    /// The blocks of a program.
-    pub fn text(&self, program: ProgramRef) -> &[Block] {
-        let file = self.files.get(program.file);
-        file.and_then(|file| file.parsed.blocks.get(self.blocks(program))).unwrap_or_default()
-    }
-
-    /// The blocks of a program, as a range of its file's.
-    pub fn blocks(&self, program: ProgramRef) -> std::ops::Range<usize> {
-        let section = self.library.sections.place(program).and_then(|at| self.library.sections.all().get(at));
-        section.map_or(0..0, |section| section.blocks.clone())
-    }
-}
 
 /// What a conversion named: registers and program numbers of the target, by their names on the source.
 ///
@@ -96,10 +34,18 @@ pub(super) fn class_of<'c>(control: &'c Control, variable: &str) -> Option<&'c V
     }
 }
 
+/// The number of a variable as its whole name has it: 12 for `V12`, and none for `V012`, which is no name.
+pub(super) fn numbered(name: &str, letter: &str) -> Option<u32> {
+    let digits = name.strip_prefix(letter)?;
+    let is_plain =
+        digits.bytes().all(|sign| sign.is_ascii_digit()) && (digits == "0" || !digits.starts_with('0'));
+    digits.parse().ok().filter(|_| is_plain)
+}
+
 impl Names {
     /// The name on the target of a variable of the source; none where it has no place there.
     pub(super) fn variable(&self, name: &str, source: &Control, target: &Control) -> Option<String> {
-        let prefix = target.classes().iter().find(|row| row.class != "letter")?.name.clone();
+        let prefix = &target.classes().iter().find(|row| row.class != "letter")?.name;
         if let Some(number) = self.variables.get(name) {
             return Some(format!("{prefix}{number}"));
         }
@@ -111,8 +57,7 @@ impl Names {
             return Some(format!("{prefix}{}", base.checked_add(number)?));
         }
         let (from, to) = (class_of(source, name)?, class_of(target, name)?);
-        let mut others = self.variables.values().chain(&self.scratch);
-        let taken = others.any(|number| name == format!("{prefix}{number}"));
+        let taken = numbered(name, prefix).is_some_and(|own| self.holds(own) || self.scratch.contains(&own));
         ((from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
     }
 
@@ -134,42 +79,35 @@ impl Names {
 
     /// True for a register of the target that holds what the conversion named: an argument, or whether something is vacant.
     pub(super) fn is_named(&self, register: &str, target: &Control) -> bool {
-        let is =
-            |number: &u32| target.classes().iter().any(|row| register == format!("{}{number}", row.name));
-        self.variables.values().any(is)
+        let mut numbers = target.classes().iter().filter_map(|row| numbered(register, &row.name));
+        numbers.any(|own| self.holds(own))
+    }
+
+    /// True for the number of a register that holds a variable of the source.
+    fn holds(&self, register: u32) -> bool {
+        self.variables.values().any(|number| *number == register)
     }
 
     /// The program of the target that a program of the source became.
     pub(super) fn program(&self, source: &Side<'_>, of: ProgramRef, target: &Side<'_>) -> Option<ProgramRef> {
         // The file of the same name; of two single files the other one, whatever its name.
         let name = source.files.get(of.file)?.name;
-        let same = target.files.iter().position(|file| file.name == name);
         let single = (source.files.len() == 1 && target.files.len() == 1).then_some(0);
-        let file = same.or(single);
-        let all = target.programs();
-        let here = |program: &&ProgramRef| Some(program.file) == file;
-        let Some(name) = source.name(of) else {
-            // A program without a name is known by its file.
+        let file = target.links().file(name).or(single);
+        let here = |name: Option<&ProgramName>| file.map_or(&[][..], |file| target.links().named(file, name));
+        let Some(word) = source.name(of) else {
+            // A program without a name is known by its file; of several the one at the same place among them.
             let number = self.programs.get(name).map(|number| ProgramName::Number(*number));
-            let is = |program: &&ProgramRef| target.name(**program) == number.as_ref();
-            // Of several the one at the same place among them.
-            let mut before = source.programs().into_iter().filter(|program| program.file == of.file);
-            let nth = before
-                .by_ref()
-                .take_while(|program| *program != of)
-                .filter(|p| source.name(*p).is_none())
-                .count();
-            let mut found = all.iter().filter(here);
-            return found.clone().filter(is).nth(nth).or_else(|| found.nth(nth)).copied();
+            let nth = source.links().named(of.file, None).iter().position(|program| *program == of)?;
+            let at_its_place = || Some(ProgramRef { file: file?, program: nth }).filter(|p| target.has(*p));
+            return here(number.as_ref()).get(nth).copied().or_else(at_its_place);
         };
-        let wanted = match (self.programs.get(&name.to_string()), name) {
+        let wanted = match (self.programs.get(&word.to_string()), word) {
             (Some(number), _) | (None, ProgramName::Number(number)) => ProgramName::Number(*number),
             (None, name) => name.clone(),
         };
-        let is = |program: &&ProgramRef| target.name(**program) == Some(&wanted);
-        let found = all.iter().filter(here).find(is).or_else(|| all.iter().find(is)).copied();
+        let found = here(Some(&wanted)).first().copied().or_else(|| target.called(&wanted));
         // A program whose number both sides leave out of the file is alone in it.
-        let alone = || all.iter().filter(here).find(|program| target.name(**program).is_none()).copied();
-        found.or_else(alone)
+        found.or_else(|| here(None).first().copied())
     }
 }

@@ -2,8 +2,8 @@
 
 use super::compare::is_cut;
 use super::loose::Order;
-use super::names::Side as Library;
 use super::paths::apart;
+use super::side::Side as Library;
 use crate::canon::{Group, Op, Running, Sys};
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Side, Spindle, Told};
@@ -102,10 +102,12 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
     let events = order.events();
     for (at, event) in events.iter().copied().enumerate().filter(|(_, event)| is_observable(&event.what)) {
         if let Some(kind) = setting(&event.what) {
-            // What the program says before a stop is told, whatever the stop does then.
+            // What the program says before a stop is told, whatever the stop does then; a speed alone says nothing of a
+            // spindle that may stand.
             let implied = event.told == Told::Implied;
             let stays = |before: &Event| {
-                let said = implied || before.told != Told::Found;
+                let is_open = running(kind).is_some_and(|running| before.open[running as usize]);
+                let said = (implied || before.told != Told::Found) && !is_open;
                 said && (implied || is_end(&event.what)) && !is_end(&before.what)
             };
             seen.waiting.retain(|(other, before)| *other != kind || stays(before));
@@ -146,7 +148,9 @@ struct Observer<'o, 'r> {
 impl<'r> Observer<'_, 'r> {
     /// Lets the settings that count now take their places, if they changed.
     fn settle(&mut self, counts: impl Fn(Setting, &Event) -> bool) {
-        self.waiting.sort_by_key(|(kind, _)| *kind);
+        // What a stop ends by itself comes after all that the program said before it, on both sides.
+        let by_itself = |event: &Event| event.told == Told::Implied && is_end(&event.what);
+        self.waiting.sort_by_key(|(kind, event)| (by_itself(event), *kind));
         let all = std::mem::take(&mut self.waiting).into_iter();
         let (now, later): (Vec<_>, Vec<_>) = all.partition(|(kind, event)| counts(*kind, event));
         self.waiting = later;

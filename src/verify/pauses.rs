@@ -26,6 +26,8 @@ impl Runs {
     /// Takes an act.
     pub fn take(&mut self, act: &Act<'_>) {
         match &*act.what {
+            // A cycle leaves the spindle as it finds it.
+            Happening::Spindle { .. } if act.told == Told::Cycle => {}
             what @ Happening::Spindle { .. } => self.spindle = what.clone(),
             what @ Happening::Coolant { .. } => self.coolant = what.clone(),
             _ => {}
@@ -55,27 +57,32 @@ impl Runs {
         }
     }
 
-    /// True if a change says what is known to run on the other side already, and may have run here. A cycle that stops
-    /// the spindle and lets it turn again does neither for one that stands.
+    /// True if nobody knows whether the spindle turns.
+    pub fn may_stand(&self) -> bool {
+        self.open[Running::Spindle as usize]
+    }
+
+    /// True if the next act lets go of a spindle that is held at an angle, and the program ends then: it stands either way.
+    pub fn lets_go(&self, acts: &[Act<'_>]) -> bool {
+        let is_held = matches!(self.spindle, Happening::Spindle { direction: Spindle::Oriented, .. });
+        let stops =
+            |act: &Act<'_>| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. });
+        let ends = |acts: &[Act<'_>]| {
+            acts.iter()
+                .find(|act| runs(&act.what).is_none())
+                .is_some_and(|act| matches!(*act.what, Happening::End { .. }))
+        };
+        is_held && acts.split_first().is_some_and(|(act, rest)| stops(act) && ends(rest))
+    }
+
+    /// True if a change says what is known to run on the other side already, and may have run here.
     pub fn is_told(&self, other: &Self, act: &Act<'_>) -> bool {
         let (running, there) = match runs(&act.what) {
             Some(Running::Spindle) => (Running::Spindle, &other.spindle),
             Some(Running::Coolant) => (Running::Coolant, &other.coolant),
             None => return false,
         };
-        let again = act.event.open[running as usize] && is_at_speed(&act.what, there);
-        (*act.what == *there || again) && self.open[running as usize] && !other.open[running as usize]
-    }
-}
-
-/// True for two spindles at one speed, whether they turn or stand.
-fn is_at_speed(a: &Happening, b: &Happening) -> bool {
-    use Happening::Spindle;
-    match (a, b) {
-        (Spindle { speed, surface, .. }, Spindle { speed: there, surface: other, .. }) => {
-            speed == there && surface == other
-        }
-        _ => false,
+        *act.what == *there && self.open[running as usize] && !other.open[running as usize]
     }
 }
 
@@ -93,6 +100,13 @@ pub fn may_turn(source: &Act<'_>, target: &Act<'_>) -> bool {
     let open = [source, target].map(|act| act.event.open[Running::Spindle as usize]);
     let apart = direction != other || open[0] != open[1];
     open.contains(&true) && apart && speed == there && surface == surface_there
+}
+
+/// True if cycles leave the spindle as they found it on both sides, on one of which it stands.
+pub fn ends_cycle(source: &Act<'_>, target: &Act<'_>) -> bool {
+    let stands = |act: &Act<'_>| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. });
+    let both = [source, target];
+    both.iter().all(|act| act.told == Told::Cycle) && both.into_iter().any(stands)
 }
 
 /// True if a stop changes something that the next stop of the other side may change too, as nobody knows; `target` for

@@ -11,20 +11,22 @@ mod weigh;
 
 use super::assumed::{Assumptions, excuse, facts, tried};
 use super::branches::{Coverage, NotReached};
-use super::callers::{Shown, implicate, programs_of, through};
-use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness, sha256};
+use super::callers::{Shown, implicate, through};
+use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness};
 use super::clock::{Clock, Spent};
-use super::compare::{Difference, Tolerance, compare, is_cut, writes_elsewhere};
+use super::compare::{Difference, Tolerance, compare, is_cut};
 use super::given::{Given, given};
-use super::inputs::is_called;
-use super::names::{Names, Side};
+use super::names::Names;
 use super::questions::unconfirmed;
 use super::scenarios::{asked, on_target};
+use super::side::Side;
+use super::variables::writes_elsewhere;
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
 use crate::control::trace::Happening;
 use crate::control::{End, ProgramRef, Run, Scenario};
 pub(super) use explore::of_target;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use weigh::{Pair, ROUNDS};
 
@@ -49,8 +51,8 @@ const NAMED: usize = 3;
 
 /// Verifies programs of the source; all of them where none is named.
 pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
-    let all = if programs.is_empty() { job.source.programs() } else { programs.to_vec() };
-    let found = all.into_iter().map(|program| Verifier::new(job, program).run()).collect();
+    let all = if programs.is_empty() { job.source.links().programs().to_vec() } else { programs.to_vec() };
+    let found = all.into_par_iter().map(|program| Verifier::new(job, program).run()).collect();
     let mut certificate = Certificate::new(job.source.control, job.target.control, job.effort, found);
     implicate(std::slice::from_mut(&mut certificate).iter_mut());
     certificate
@@ -64,6 +66,8 @@ struct Verifier<'v, 'j> {
     called: bool,
     /// What all its callers give it.
     given: Given,
+    /// What is in force at the start on the target, where that is not the same as on the source.
+    target_modes: Option<Vec<Op>>,
     coverage: Coverage,
     /// The branches of the conversion, those of programs that the source has not among them.
     target_coverage: Coverage,
@@ -102,15 +106,17 @@ struct Verifier<'v, 'j> {
 
 impl<'v, 'j> Verifier<'v, 'j> {
     fn new(job: &'v Job<'j>, program: ProgramRef) -> Self {
-        let called = is_called(job.source, program);
-        let given = || job.source.given.get_or_init(|| given(job)).get(&program).cloned();
+        let called = job.source.links().is_called(program);
+        // Worked out for all programs at once, so before the time of this one begins.
+        let given = called.then(|| job.source.given.get_or_init(|| given(job)).get(&program).cloned());
         let Effort { program_seconds, library_seconds, .. } = job.effort;
         Self {
             job,
             clock: job.spent.clock(program_seconds, library_seconds),
             program,
             called,
-            given: if called { given().unwrap_or_default() } else { Given::default() },
+            given: given.flatten().unwrap_or_default(),
+            target_modes: None,
             coverage: Coverage::new(job.source, &[program], false),
             target_coverage: Coverage::new(job.target, &of_target(job, program), true),
             theirs: BTreeMap::new(),
@@ -160,6 +166,9 @@ impl<'v, 'j> Verifier<'v, 'j> {
         // What is called is in the unit of its caller, on both sides.
         let of_caller = self.given.inch().or(if self.called { scenario.inch } else { None });
         out.inch = of_caller.or(out.inch);
+        if let Some(modes) = &self.target_modes {
+            out.modes.clone_from(modes);
+        }
         out.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
         if is_cut(run) {
             // Only what both did so far is compared.
@@ -178,7 +187,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let Job { source, target, names, .. } = self.job;
         let circumstances = self.circumstances(scenario, run);
         let other = (target.execute)(&target.library, there, target.control, &circumstances);
-        self.entered.extend(programs_of(source, run));
+        self.entered.extend(source.links().entered(run));
         let assumed = facts(self.job, run);
         let new_there = self.target_coverage.add(&other);
         for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
@@ -217,7 +226,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         }
         let difference = hair.filter(|_| !hangs).or(found.difference).or_else(|| {
             let what = writes_elsewhere(source, (target, &other), &circumstances.variables, names)?;
-            Some(Difference { source: None, target: None, what })
+            Some(Difference::new(None, None, what))
         });
         let tried = tried(self.job, run, &other);
         let excuse = difference.as_ref().and_then(|d| excuse(&tried, run, &other, d));
@@ -287,10 +296,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
             .flat_map(|(why, texts)| texts.into_iter().map(move |text| Reason { why, text }));
         ProgramCertificate {
             source: source_file.map_or_else(String::new, |file| file.name.to_owned()),
-            source_sha256: source_file.map_or_else(String::new, |file| sha256(file.parsed.source)),
+            source_sha256: self.job.source.sha256(self.program.file).to_owned(),
             program: self.job.source.name(self.program).map(ToString::to_string),
             target: target_file.map(|file| file.name.to_owned()),
-            target_sha256: target_file.map(|file| sha256(file.parsed.source)),
+            target_sha256: there.map(|there| self.job.target.sha256(there.file).to_owned()),
             outcome,
             reasons: reasons.collect(),
             given: self.given.modes.iter().map(Op::to_string).collect(),

@@ -5,15 +5,16 @@ use super::names::class_of;
 use super::random::Random;
 use super::{Effort, Names, Side};
 use crate::canon::Sys;
-use crate::control::scenario::{AXES, Axes, Probe, StateValue, Tool};
+use crate::control::scenario::{Axes, Probe, StateValue, Tool};
 use crate::control::trace::Happening;
 use crate::control::{Run, Scenario};
 use crate::dialect::{Control, Units};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// Proposes scenarios, the telling ones first.
-pub struct Proposals<'i> {
-    inputs: &'i Inputs,
+pub struct Proposals {
+    inputs: Inputs,
     random: Random,
     effort: Effort,
     count: usize,
@@ -49,9 +50,9 @@ const SAME_ANSWERS: u32 = 4;
 /// Every switch that skips blocks.
 const ALL_SKIPS: u32 = 0x3fe;
 
-impl<'i> Proposals<'i> {
+impl Proposals {
     /// Proposals for a program.
-    pub fn new(inputs: &'i Inputs, effort: Effort) -> Self {
+    pub fn new(inputs: &Inputs, effort: Effort) -> Self {
         // Each variable's first value, then each one's second: what there is no time for tells least.
         let mut ranked = Vec::new();
         for (at, input) in inputs.variables.iter().enumerate() {
@@ -69,6 +70,7 @@ impl<'i> Proposals<'i> {
         let pairs = inputs.pairs.iter().flat_map(apart).collect();
         let answers = if inputs.asks { inputs.numbers.iter().rev().copied().collect() } else { Vec::new() };
         let (random, theirs, skips) = (Random::new(effort.seed), BTreeMap::new(), skips(inputs));
+        let inputs = inputs.clone();
         Self { inputs, random, effort, count: 0, singles, pairs, answers, theirs, skips, again }
     }
 
@@ -129,7 +131,7 @@ impl<'i> Proposals<'i> {
                 (_, 5) => Some(-ordinal * 2.0 - 0.25),
                 (_, 6) => Some(101.0 + ordinal * 7.3),
                 (_, 7) => Some(ordinal * 1.375 + 0.123),
-                _ => self.draw(input),
+                _ => draw(&mut self.random, &self.inputs.numbers, input),
             };
             // A variable that is never vacant holds something: what a program finds at first is 0.
             if let Some(value) = value.or((!input.nullable).then_some(0.0)) {
@@ -143,21 +145,6 @@ impl<'i> Proposals<'i> {
             scenario.answers.iter_mut().take(SAME_ANSWERS as usize).for_each(|first| *first = answer);
         }
         Some(scenario)
-    }
-
-    fn draw(&mut self, input: &Input) -> Option<f64> {
-        let value = match self.random.below(8) {
-            0 if input.nullable => return None,
-            0 | 1 => self.random.between(-50, 50),
-            2 => self.random.below(10) as f64,
-            3 => self.random.pick(&self.inputs.numbers).copied().unwrap_or(0.0),
-            4 => self.random.between(0, 10),
-            _ => {
-                let near = self.random.pick(&input.values).copied();
-                near.unwrap_or_else(|| self.random.below(6) as f64)
-            }
-        };
-        Some(value)
     }
 
     /// A machine around start values.
@@ -216,7 +203,7 @@ impl<'i> Proposals<'i> {
         }
         if count % 5 == 3 {
             let near = self.random.pick(&self.inputs.numbers).copied().unwrap_or(0.0).abs();
-            for (number, tool) in &mut scenario.tools {
+            for (number, tool) in scenario.tools.iter_mut() {
                 // Smaller than the number that a condition names, or larger, in millimetres or inches.
                 let share = if count % 10 == 8 { 25.4 / 4.0 } else { 1.0 / 50.0 };
                 let size = near * f64::from(*number) * share;
@@ -268,6 +255,22 @@ impl<'i> Proposals<'i> {
     }
 }
 
+/// A value of a variable, where any will do.
+fn draw(random: &mut Random, numbers: &[f64], input: &Input) -> Option<f64> {
+    let value = match random.below(8) {
+        0 if input.nullable => return None,
+        0 | 1 => random.between(-50, 50),
+        2 => random.below(10) as f64,
+        3 => random.pick(numbers).copied().unwrap_or(0.0),
+        4 => random.between(0, 10),
+        _ => {
+            let near = random.pick(&input.values).copied();
+            near.unwrap_or_else(|| random.below(6) as f64)
+        }
+    };
+    Some(value)
+}
+
 /// The settings of the switches that skip blocks: none, all, and where there are several each by itself.
 fn skips(inputs: &Inputs) -> Vec<u32> {
     let each = inputs.skips.iter().map(|switch| 1_u32.checked_shl(u32::from(*switch)).unwrap_or(0));
@@ -289,19 +292,20 @@ fn steps(count: f64) -> f64 {
 /// A machine whose every number is its own, so that no two offsets can be mistaken for each other. Where it stands and by
 /// how much offsets shift it are words in either unit, so that a place which is read back can be said.
 fn machine(random: &mut Random) -> Scenario {
+    let mut scenario = MACHINE.clone();
+    scenario.start = far(-79.0 - 8.0 * random.between(0, 5), -26.0);
+    scenario.tool = 1 + random.below(9) as u32;
+    scenario
+}
+
+/// What is the same in each of them: runs share its tables.
+static MACHINE: LazyLock<Scenario> = LazyLock::new(|| {
     // A program that returns is one that others call, and a main one that returns would never end.
     let mut scenario = Scenario { called: true, ..Scenario::default() };
-    let axes = |base: f64, step: f64| -> Axes {
-        let mut out = [0.0; AXES];
-        for (axis, value) in out.iter_mut().take(6).enumerate() {
-            *value = steps(base + step * (axis as f64 + 1.0));
-        }
-        out
-    };
     // Work offsets far below the reference position, as on real machines.
     for number in (1..=6).chain(101..=148) {
         let n = f64::from(number);
-        scenario.work_offsets.insert(number, axes(-2400.0 - 29.0 * n, -137.0 - n));
+        scenario.work_offsets.insert(number, far(-2400.0 - 29.0 * n, -137.0 - n));
     }
     for number in 1..=99 {
         let n = f64::from(number);
@@ -313,10 +317,13 @@ fn machine(random: &mut Random) -> Scenario {
         };
         scenario.tools.insert(number, tool);
     }
-    scenario.references[1] = axes(-394.0, -91.0);
-    scenario.start = axes(-79.0 - 8.0 * random.between(0, 5), -26.0);
-    scenario.tool = 1 + random.below(9) as u32;
+    scenario.references[1] = far(-394.0, -91.0);
     scenario
+});
+
+/// A place whose every coordinate is another.
+fn far(base: f64, step: f64) -> Axes {
+    std::array::from_fn(|axis| if axis < 6 { steps(base + step * (axis as f64 + 1.0)) } else { 0.0 })
 }
 
 /// Both machines are set to the unit of the one that states any: what a program does not say itself is for

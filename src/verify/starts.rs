@@ -3,9 +3,8 @@
 //! A program that leaves something out runs in what it finds. So both sides are run from states in which that shows:
 //! each row here is one thing that may be otherwise than after power-on.
 
-use super::inputs::called_from;
-use super::names::Side;
 use super::program::{Job, of_target};
+use super::side::Side;
 use crate::canon::{Group, Op};
 use crate::control::entry::{Drilling, Entry};
 use crate::control::{ProgramRef, Scenario};
@@ -176,7 +175,7 @@ impl Start {
 
 /// The states that a program and its conversion are to be started in; the unit is left out.
 pub fn starts(job: &Job<'_>, program: ProgramRef) -> Vec<&'static Start> {
-    let source = named(job.source, &called_from(job.source, program));
+    let source = named(job.source, &job.source.links().called_from(program, |_| true));
     let target = named(job.target, &of_target(job, program));
     let all: Option<BTreeSet<Op>> =
         source.zip(target).map(|(ours, theirs)| ours.union(&theirs).copied().collect());

@@ -4,8 +4,8 @@
 //! verifier could blame on the conversion, and none that it could pass over in silence either. A program that
 //! needs it is undecided, and the certificate names what a person must accept.
 
-use super::names::Side;
 use super::observe::is_mode;
+use super::side::Side;
 use crate::canon::Op;
 use crate::control::trace::Happening;
 use std::collections::BTreeMap;

@@ -6,8 +6,10 @@ mod callers;
 mod codes;
 mod edited;
 mod ends;
+mod links;
 mod nesting;
 mod random;
+mod running;
 mod skips;
 
 use super::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Spent, Why, verify};

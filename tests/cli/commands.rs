@@ -1,8 +1,9 @@
 //! The commands beside `convert`.
 
 use super::{CLEAN, REFUSED, Shop, repository};
-use std::io::Read;
+use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
 #[test]
 fn parse_counts_blocks_and_says_what_is_lost() {
@@ -89,4 +90,45 @@ fn a_reader_that_goes_away_is_no_fault() {
     let mut err = String::new();
     child.stderr.take().unwrap().read_to_string(&mut err).unwrap();
     assert_eq!((child.wait().unwrap().code(), err.as_str()), (Some(0), ""));
+}
+
+/// What is printed piece by piece is what is printed at once: a drawing needs the whole trace.
+#[test]
+fn a_long_trace_is_printed_whole() {
+    let calls =
+        "O1\nG21 G90\nM98 P2 L2500\nM98 P3 L2500\nM30\nO2\nG0 X1.\nG0 X2.\nM99\nO3\nG0 Y1.\nG0 Y2.\nM99\n";
+    let shop = Shop::with(&[("a.nc", calls)]);
+    for trace in ["text", "json"] {
+        let pieces = shop.run(&format!("run a.nc --dialect fanuc --trace {trace}"));
+        let whole = shop.run(&format!("run a.nc --dialect fanuc --trace {trace} --plot a.svg"));
+        assert_eq!((pieces.code, whole.code), (0, 0), "{}", pieces.err);
+        assert!(pieces.out.lines().count() > 10_000, "{}", pieces.out.lines().count());
+        assert!(pieces.out == whole.out, "{trace}");
+    }
+}
+
+/// A run without end, of which the reader has seen one, fill no memory.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_long_trace_is_not_kept() {
+    let shop = Shop::with(&[("a.nc", "O1\nG21 G90\nN1 G0 X1.\nG0 X2.\nGOTO 1\n")]);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_macroglot"))
+        .args(["run", "a.nc", "--dialect", "fanuc"])
+        .current_dir(shop.path(""))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let first = lines.next().unwrap().unwrap();
+    // It would be in the middle of its run, or done and full.
+    std::thread::sleep(Duration::from_secs(2));
+    let facts = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+    let count = 1 + lines.count();
+    let code = child.wait().unwrap().code();
+    assert!(first.contains("O1:3  rapid   X1"), "{first}");
+    let peak = facts.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+    let peak: u64 = peak.trim().trim_end_matches(" kB").parse().unwrap();
+    assert!(peak < 100_000, "{peak} kB");
+    assert!(code == Some(1) && count > 20_000, "{code:?}, {count} lines");
 }

@@ -2,15 +2,19 @@
 #![allow(missing_docs)]
 
 mod commands;
+#[path = "../support/files.rs"]
+mod files;
 mod help;
 mod inputs;
 mod outputs;
 mod profiles;
 mod project;
 mod reports;
+mod shown;
 mod stale;
 
 use assert_cmd::Command;
+use files::Files;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -57,11 +61,8 @@ impl Shop {
     }
 
     /// All files, with their bytes.
-    pub fn files(&self) -> Vec<(String, Vec<u8>)> {
-        let mut files = Vec::new();
-        collect(self.0.path(), self.0.path(), &mut files);
-        files.sort();
-        files
+    pub fn files(&self) -> Files {
+        files::files(self.0.path())
     }
 
     /// Runs a command whose words stand between blanks.
@@ -94,23 +95,11 @@ impl Shop {
     }
 }
 
-pub fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
-    files.iter().map(|(name, _)| name.as_str()).collect()
+pub fn names(files: &Files) -> Vec<&str> {
+    files.keys().map(String::as_str).collect()
 }
 
 /// A path of the repository, for a command line.
 pub fn repository(path: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path).display().to_string()
-}
-
-fn collect(root: &Path, folder: &Path, files: &mut Vec<(String, Vec<u8>)>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            collect(root, &path, files);
-        } else {
-            let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
-            files.push((name, std::fs::read(&path).unwrap()));
-        }
-    }
 }

@@ -57,6 +57,21 @@ fn a_draft_is_not_blamed_for_its_holes() {
     assert!(run.err.contains("MG0401") && !run.err.contains("MG0405"), "{}", run.err);
 }
 
+/// What the program asks to be looked at stays told: here after a cycle that is not given, and after which no work offset
+/// is sure. The alarm in its place makes that sure in the draft alone.
+#[test]
+fn a_draft_keeps_its_conditions() {
+    let shop = Shop::with(&[("a.nc", "N1 G90\nN2 G53\nN3 G820\nN4 G0 X1 T01\nN5 M30\n")]);
+    let told = |draft: &str| {
+        let line = format!("convert a.nc --from cc100 --to haas --no-verify --format json --out out {draft}");
+        let json: serde_json::Value = serde_json::from_str(&shop.run(&line).out).unwrap();
+        json["programs"][0]["diagnostics"].clone()
+    };
+    let plain = told("");
+    assert!(plain.to_string().contains("which work offset is in force"), "{plain}");
+    assert_eq!(told("--draft"), plain);
+}
+
 /// One alarm stands for all that a block that has no equivalent would have become.
 #[test]
 fn a_hole_has_one_alarm() {
@@ -159,4 +174,57 @@ fn a_lock_of_another_kind_is_not_overwritten() {
     shop.fails(&format!("convert in {TO} --out out"), &["version 99"]);
     shop.write("out/macroglot.lock", b"<<<<<<< ours\n");
     shop.fails(&format!("convert in {TO} --out out"), &["macroglot.lock"]);
+}
+
+/// A folder in the output folder may be a link, to a place where nothing of that name is yet.
+#[cfg(unix)]
+#[test]
+fn a_linked_folder_leads_out_too() {
+    let shop = Shop::with(&[("in/sub/a.nc", CLEAN), ("out/x", ""), ("else/y", "")]);
+    std::os::unix::fs::symlink(shop.path("else"), shop.path("out/sub")).unwrap();
+    shop.fails(&format!("convert in {TO} --out out"), &["outside the output folder"]);
+    // A report goes where it is asked for, by a link too.
+    std::fs::remove_file(shop.path("out/sub")).unwrap();
+    std::os::unix::fs::symlink(shop.path("else"), shop.path("out/told")).unwrap();
+    let run = shop.run(&format!("convert in {TO} --out out --report out/told/r.json"));
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert!(shop.read("else/r.json").starts_with('{'));
+}
+
+/// What lies in an output folder may come from elsewhere, the journal of a run too.
+#[cfg(unix)]
+#[test]
+fn a_forged_journal_changes_nothing_elsewhere() {
+    let forged = [
+        ("journal", r#"{"place":"../else/keep","new":".macroglot/new-0"}"#),
+        ("journal", r#"{"place":"PLACE/else/keep","new":".macroglot/new-0"}"#),
+        ("journal", r#"{"place":"PLACE/else/keep","new":"PLACE/other"}"#),
+        ("journal", r#"{"place":"../else/keep"}"#),
+        ("journal", r#"{"place":"x","old":"x","aside":"../else/new"}"#),
+        ("journal", r#"{"place":"told/keep","new":".macroglot/new-0"}"#),
+        ("journal", r#"{"place":"x","new":"../other"}"#),
+        ("back", r#"{"place":"../else/keep","old":".macroglot/new-0"}"#),
+        ("back", r#"{"place":"PLACE/else/keep"}"#),
+        ("back", r#"{"place":"told/keep","old":".macroglot/new-0"}"#),
+        ("back", r#"{"place":"x","aside":"../else/keep"}"#),
+    ];
+    for (name, step) in forged {
+        let shop = Shop::with(&[("a.nc", CLEAN), ("out/x", "X"), ("else/keep", "KEEP"), ("other", "OTHER")]);
+        std::os::unix::fs::symlink(shop.path("else"), shop.path("out/told")).unwrap();
+        shop.write("out/.macroglot/new-0", b"BAD");
+        let step = step.replace("PLACE", &shop.path("").display().to_string());
+        shop.write(&format!("out/.macroglot/{name}"), format!(r#"{{"steps":[{step}]}}"#).as_bytes());
+        shop.fails(&format!("convert a.nc {TO} --out out"), &["as no run of macroglot does"]);
+        let kept = ["else/keep", "other", "out/x"].map(|path| shop.read(path));
+        assert_eq!(kept, ["KEEP", "OTHER", "X"], "{name} {step}");
+        assert!(!shop.path("else/new").exists(), "{name} {step}");
+    }
+    // An old text beside a name elsewhere is not put there, and this folder is brought back.
+    let shop = Shop::with(&[("a.nc", CLEAN), ("else/keep", "KEEP"), ("out/.macroglot/old-0", "BAD")]);
+    let step = r#"{"place":"PLACE/else/keep","new":"PLACE/else/.macroglot-1-0","old":".macroglot/old-0"}"#;
+    let step = step.replace("PLACE", &shop.path("").display().to_string());
+    shop.write("out/.macroglot/back", format!(r#"{{"steps":[{step}]}}"#).as_bytes());
+    assert_eq!(shop.run(&format!("convert a.nc {TO} --out out")).code, 0);
+    assert_eq!(shop.read("else/keep"), "KEEP");
+    assert!(!shop.path("out/.macroglot").exists());
 }

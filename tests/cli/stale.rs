@@ -199,3 +199,32 @@ fn names_forge_nothing() {
     let run = shop.run(&format!("convert in {TO} --out out"));
     assert!(!run.out.contains('\u{1b}') && !run.err.contains('\u{1b}'), "{}", run.err);
 }
+
+/// What was changed by hand is kept under no name that the run itself writes to.
+#[test]
+fn a_kept_file_is_not_written_over() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN)]);
+    let line = format!("convert in/a.nc in/a.nc.kept {TO} --out out");
+    assert_eq!(shop.run(&format!("convert in/a.nc {TO} --out out")).code, 0);
+    shop.write("out/a.nc", b"(BY HAND)");
+    shop.write("in/a.nc.kept", CLEAN.replace("O1234", "O1235").as_bytes());
+    let run = shop.run(&line);
+    assert!(run.out.contains("kept       a.nc as a.nc.kept-2"), "{}{}", run.out, run.err);
+    assert_eq!(shop.read("out/a.nc.kept-2"), "(BY HAND)");
+    assert!(shop.read("out/a.nc.kept").contains("O1235"));
+}
+
+/// A pipe in the place of a file is said, not waited for.
+#[test]
+#[cfg(unix)]
+fn a_pipe_in_the_output_folder_is_no_file() {
+    for name in ["macroglot.lock", "macroglot.manifest", "a.nc", "a.nc.certificate.json"] {
+        let shop = Shop::with(&[("a.nc", CLEAN)]);
+        std::fs::create_dir(shop.path("out")).unwrap();
+        let made = std::process::Command::new("mkfifo").arg(shop.path("out").join(name)).status();
+        assert!(made.unwrap().success());
+        let run = shop.run(&format!("convert a.nc {TO} --out out"));
+        assert_eq!(run.code, 2, "{name}: {}", run.err);
+        assert!(run.err.contains(name) && run.err.contains("it is no file"), "{name}: {}", run.err);
+    }
+}

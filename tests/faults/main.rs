@@ -6,17 +6,16 @@
 #![allow(missing_docs)]
 
 mod alone;
+#[path = "../support/files.rs"]
+mod files;
 mod library;
 mod points;
 mod streams;
 
 use assert_cmd::Command;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+pub use files::Files;
+use std::path::PathBuf;
 use tempfile::TempDir;
-
-/// Files by their names.
-pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// A folder of its own.
 pub struct Shop(TempDir);
@@ -45,9 +44,7 @@ impl Shop {
     }
 
     pub fn files(&self) -> Files {
-        let mut files = Files::new();
-        collect(self.0.path(), self.0.path(), &mut files);
-        files
+        files::files(self.0.path())
     }
 
     pub fn command(&self, line: &str) -> Command {
@@ -62,18 +59,6 @@ impl Shop {
         let output = self.command(line).env("MACROGLOT_FAULT", fault).output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         Run { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
-    }
-}
-
-fn collect(root: &Path, folder: &Path, files: &mut Files) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            collect(root, &path, files);
-        } else {
-            let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
-            files.insert(name, std::fs::read(&path).unwrap());
-        }
     }
 }
 

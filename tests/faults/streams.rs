@@ -34,6 +34,9 @@ const COMMANDS: &[&str] = &[
     "explain",
     "explain MG0301",
     "completions bash",
+    "--help",
+    "convert --help",
+    "--version",
 ];
 
 #[test]
@@ -67,18 +70,28 @@ fn a_reader_that_is_gone_is_none() {
     }
 }
 
-/// A program that is printed to nowhere is lost.
+/// What is printed to nowhere is lost.
 #[test]
 fn a_closed_standard_output_is_an_error() {
-    let macroglot = env!("CARGO_BIN_EXE_macroglot");
-    let script = |redirected: &str| format!("'{macroglot}' convert a.nc --from fanuc --to haas {redirected}");
-    let code = |redirected: &str| {
+    for line in COMMANDS {
         let shop = shop(CLEAN);
         let mut shell = Command::new("sh");
-        shell.args(["-c", &script(redirected)]).current_dir(shop.path(""));
-        shell.output().unwrap().status.code()
-    };
-    assert_eq!(code(">&-"), Some(2));
-    assert_eq!(code(">/dev/null"), Some(0));
-    assert_eq!(code("--out out >&- 2>&-"), Some(0), "the summary is for whoever reads it");
+        shell.args(["-c", &format!("exec '{}' {line} >&-", env!("CARGO_BIN_EXE_macroglot"))]);
+        let run = shell.current_dir(shop.path("")).output().unwrap();
+        let told = String::from_utf8_lossy(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{line}: {told}");
+        assert!(told.contains("standard output is closed"), "{line}: {told}");
+    }
+}
+
+/// The null device is a choice, however it was opened: many callers open it both ways.
+#[test]
+fn what_is_thrown_away_on_purpose_is_none() {
+    for line in COMMANDS {
+        for both_ways in [false, true] {
+            let null = File::options().write(true).read(both_ways).open("/dev/null").unwrap();
+            let run = run(&shop(CLEAN), line, null.into(), Stdio::piped());
+            assert_eq!(run.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&run.stderr));
+        }
+    }
 }

@@ -72,6 +72,6 @@ impl Store {
     /// The variables that were set, by name.
     pub fn all(&self) -> BTreeMap<String, f64> {
         let set = self.0.iter().enumerate();
-        set.filter_map(|(at, value)| Some((Cell(at).name(), (*value)?))).collect()
+        set.filter_map(|(at, value)| value.map(|value| (Cell(at).name(), value))).collect()
     }
 }

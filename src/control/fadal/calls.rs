@@ -113,17 +113,19 @@ impl Interpreter<'_, '_> {
     pub(super) fn end_subroutine(&mut self, op: Op) -> Flow<Next> {
         match (self.level, op) {
             (Level::Subroutine, _) => Ok(Next::Back),
-            (_, Op::SubAreaEnd) => {
+            (_, Op::SubAreaEnd) if !self.outline().is_in_area(self.at.index.saturating_sub(1)) => {
                 if self.outline().has_area() {
                     self.session.trace.doubt("machine:sub.area.end.again");
                 }
                 self.session.rest_on("end.alone");
                 Err(Halt::Ended(Op::EndRewind))
             }
-            _ => {
-                self.session.trace.doubt("machine:sub.end.outside");
-                Ok(Next::On)
-            }
+            _ => Err(nothing_open()),
         }
     }
+}
+
+/// The end of a subroutine, where a jump came into it and no call.
+pub(super) fn nothing_open() -> Halt {
+    Halt::Error("a subroutine ends that was not called: what the control does is in no source".into())
 }

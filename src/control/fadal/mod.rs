@@ -120,7 +120,7 @@ impl<'r> Interpreter<'r, '_> {
         self.session.enter_block(self.at.section, block.span)?;
         self.at.index += 1;
         self.session.refuse_faulty(block)?;
-        if let Some(next) = self.area(self.at.index - 1) {
+        if let Some(next) = self.area(self.at.index - 1)? {
             return Ok(next);
         }
         self.run(block)
@@ -135,20 +135,23 @@ impl<'r> Interpreter<'r, '_> {
     }
 
     /// What a block at the border of a subroutine does by standing there.
-    fn area(&mut self, index: usize) -> Option<Next> {
+    fn area(&mut self, index: usize) -> Flow<Option<Next>> {
         let outline = self.outline();
         if !outline.defines(index) {
-            return None;
+            return Ok(None);
         }
         if self.level == Level::Subroutine {
             self.session.rest_on("sub.ends.at.next");
-            return Some(Next::Back);
+            return Ok(Some(Next::Back));
+        }
+        if outline.is_in_area(index) {
+            return Err(calls::nothing_open());
         }
         if outline.works_before(index) {
             self.session.rest_on("sub.area.entered");
         }
         self.at.index = outline.main;
-        Some(Next::On)
+        Ok(Some(Next::On))
     }
 
     /// The outline of the running program.

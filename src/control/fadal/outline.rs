@@ -74,6 +74,11 @@ impl Outline {
         self.definitions.contains(&index)
     }
 
+    /// True between the first definition and the end of the subroutines.
+    pub fn is_in_area(&self, index: usize) -> bool {
+        index < self.main && self.definitions.iter().any(|first| *first < index)
+    }
+
     /// True where the program has subroutines at its head.
     pub fn has_area(&self) -> bool {
         !self.definitions.is_empty()

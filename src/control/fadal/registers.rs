@@ -95,7 +95,8 @@ impl Registers {
     pub fn all(&self) -> BTreeMap<String, f64> {
         let named = |name: char, cells: &[Option<f64>], first: usize| {
             let set = cells.iter().enumerate().skip(first);
-            set.filter_map(|(number, value)| Some((format!("{name}{number}"), (*value)?))).collect::<Vec<_>>()
+            set.filter_map(|(number, value)| value.map(|value| (format!("{name}{number}"), value)))
+                .collect::<Vec<_>>()
         };
         let mut all = named('V', &self.v, 1);
         all.extend(named('R', &self.r, 0));

@@ -2,6 +2,7 @@
 
 use super::cycle::Cycle;
 use super::frame::Rotation;
+use super::tooling::LostBy;
 use super::{Machine, Op};
 use crate::control::entry::Entry;
 use crate::control::scenario::AXES;
@@ -40,6 +41,9 @@ impl Machine {
         if let Some(number) = entry.length {
             (self.length_op, self.length_offset) = (Op::LengthPlus, number);
             self.frame.length = self.length_value();
+            if entry.length_lost {
+                self.may_lose_length(LostBy::Reference, true);
+            }
         }
         if let Some(number) = entry.cutter {
             (self.side, self.radius_offset) = (Side::Left, number);
@@ -74,7 +78,7 @@ impl Machine {
         let (direction, speed, surface) = (self.spindle, self.speed, self.surface_speed);
         let told = [
             entry.work.map(|number| Happening::WorkOffset { number }),
-            entry.length.map(|offset| Happening::ToolLength { offset, value: self.frame.length }),
+            entry.length.map(|offset| Happening::ToolLength { offset, value: self.length_value() }),
             entry.cutter.map(|_| cutter()),
             entry.spindle.map(|_| Happening::Spindle { direction, speed, surface }),
             entry.coolant.then_some(Happening::Coolant { state: self.coolant }),

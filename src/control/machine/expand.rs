@@ -5,7 +5,7 @@ use super::cycle::{Cycle, Planes};
 use super::state::axes_of;
 use crate::canon::Op;
 use crate::control::scenario::Axes;
-use crate::control::trace::{FeedMode, Happening, Position, Spindle, Trace};
+use crate::control::trace::{FeedMode, Happening, Position, Spindle, Told, Trace};
 
 /// Drills where the machine stands over the hole, and leaves it as the return plane says.
 pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
@@ -210,6 +210,7 @@ impl<'a> Driver<'a> {
             self.machine.spindle = direction;
             let (speed, surface) = (self.machine.speed, self.machine.surface_speed);
             self.trace.push(Happening::Spindle { direction, speed, surface });
+            self.trace.tell(Told::Cycle);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Machine;
 use super::frame::Rotation;
 use crate::canon::{Group, Op};
 use crate::control::scenario::{AXES, Axes, Tool};
-use std::collections::BTreeMap;
+use crate::control::table::Table;
 
 /// The groups whose codes a caller may rely on.
 const MODES: [Group; 8] = [
@@ -29,10 +29,14 @@ pub struct Left {
     pub feed: f64,
     /// The selected work offset: 0 none.
     pub work: u32,
-    /// What is added to a programmed coordinate: work offset, shifts, tool length.
+    /// What is added to a programmed coordinate: work offset and shifts.
     pub shift: Axes,
-    /// How far that may be off by rounding.
+    /// The tool length, and true if a return or a machine move may have cancelled it.
+    pub length: (f64, bool),
+    /// How far a coordinate may be off by rounding, millimetres.
     pub rounded: f64,
+    /// How far a place that the program read may have been off by rounding, in its units.
+    pub read: f64,
     /// Mirrored axes and about which coordinate.
     pub mirror: [Option<f64>; AXES],
     /// Scale factors and their centre.
@@ -43,34 +47,37 @@ pub struct Left {
     pub position: Axes,
     /// True where the shift of all work offsets lies in the register of the local shift.
     pub external_is_local: bool,
-    /// Work offsets by common number, and the shift of all of them as number 0, millimetres.
-    pub work_offsets: BTreeMap<u32, Axes>,
+    /// Work offsets by common number, millimetres.
+    pub work_offsets: Table<Axes>,
+    /// The shift of all of them, millimetres.
+    pub external: Axes,
     /// The tool table.
-    pub tools: BTreeMap<u32, Tool>,
+    pub tools: Table<Tool>,
 }
 
 impl Machine {
     /// What is in force now, at the end of a run: the machine's tables go with it.
     pub fn left(&mut self) -> Left {
-        // Whether a length that a return or a machine move may have cancelled is back shows where it counts.
-        if self.length_lost.is_some() {
-            self.frame.length = 0.0;
-        }
-        let mut work_offsets = std::mem::take(&mut self.work_offsets);
-        work_offsets.insert(0, self.frame.external);
+        let rounded = self.off_by();
+        let is_lost = self.length_lost.is_some();
+        let length = if is_lost { self.length_value() } else { self.frame.length };
+        self.frame.length = 0.0;
         Left {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
             unit_named: self.unit_named,
             feed: self.feed,
             work: self.frame.number,
             shift: std::array::from_fn(|axis| self.frame.shift(axis)),
-            rounded: self.off_by(),
+            length: (length, is_lost),
+            rounded,
+            read: self.rounding.read,
             mirror: self.frame.mirror,
             scale: self.frame.scale,
             rotation: self.frame.rotation,
             position: self.position,
             external_is_local: self.rules.local_is_external.peek(),
-            work_offsets,
+            work_offsets: std::mem::take(&mut self.work_offsets),
+            external: self.frame.external,
             tools: std::mem::take(&mut self.tools),
         }
     }

@@ -31,13 +31,14 @@ pub use left::Left;
 
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};
+use super::table::Table;
 use super::trace::{FeedMode, Plane, Side, Spindle, Trace};
 use crate::canon::{Group, Op, Pause, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
 use rounding::Rounding;
 use rules::Rules;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use tooling::LostBy;
 
 /// The groups of modes that a called program finds as its caller left them.
@@ -61,7 +62,7 @@ pub struct Machine {
     /// Program coordinates, millimetres, at which the last rotation found the machine: without
     /// the rotation before it.
     unturned: Axes,
-    work_offsets: BTreeMap<u32, Axes>,
+    work_offsets: Table<Axes>,
     inch: bool,
     /// True once the program named its unit.
     unit_named: bool,
@@ -82,7 +83,7 @@ pub struct Machine {
     unsure_running: [Option<Pause>; 2],
     tool_ready: f64,
     tool: f64,
-    tools: BTreeMap<u32, Tool>,
+    tools: Table<Tool>,
     length_op: Op,
     length_offset: u32,
     /// What may have cancelled the length since the program named it, and whether it did.

@@ -35,7 +35,8 @@ impl Machine {
 
     fn is_running(&self, running: Running) -> bool {
         match running {
-            Running::Spindle => self.spindle != Spindle::Stopped,
+            // One that is held at an angle stands.
+            Running::Spindle => matches!(self.spindle, Spindle::Clockwise | Spindle::CounterClockwise),
             Running::Coolant => !matches!(self.coolant, Op::CoolantOff | Op::ThroughSpindleOff),
         }
     }

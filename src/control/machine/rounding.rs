@@ -29,6 +29,8 @@ pub(super) struct Rounding {
     pub cycle: f64,
     /// The plane that the cycle began at.
     initial: f64,
+    /// A place that the program read, in its own units.
+    pub read: f64,
 }
 
 impl Rounding {
@@ -43,6 +45,7 @@ impl Rounding {
             turn: 0.0,
             cycle: 0.0,
             initial: 0.0,
+            read: 0.0,
         }
     }
 }
@@ -51,18 +54,31 @@ impl Machine {
     /// How far a word may be off, millimetres or degrees.
     fn off(&self, command: &Command, role: Role, value: f64) -> f64 {
         let turns = matches!(role, Role::Angle | Role::PolarAngle) || axis(role).is_some_and(is_rotary);
-        let increment = match (turns, self.inch) {
-            (true, _) => self.rounding.increment_degrees,
-            (false, true) => self.rounding.increment_inch,
-            (false, false) => self.rounding.increment_mm,
-        };
+        let increment = if turns { self.rounding.increment_degrees } else { self.least_length() };
         if increment <= 0.0 || !value.is_finite() {
             return 0.0;
         }
         let own = (value - (value / increment).round() * increment).abs();
         let told = command.rounded.iter().filter(|(found, _)| *found == role).map(|(_, by)| *by);
         let off = told.fold(own, f64::max);
-        if off < WHOLE { 0.0 } else { off * if turns { 1.0 } else { self.unit() } }
+        match (off < WHOLE, turns) {
+            (true, _) => 0.0,
+            (false, true) => off,
+            // It may be computed from a place that was read.
+            (false, false) => (off + self.rounding.read) * self.unit(),
+        }
+    }
+
+    /// The least increment of a length, in the units of the program.
+    fn least_length(&self) -> f64 {
+        if self.inch { self.rounding.increment_inch } else { self.rounding.increment_mm }
+    }
+
+    /// The program reads a place: what it computes from that is as far off. One increment at the most is told, or it
+    /// would grow without end in a loop.
+    pub(super) fn round_read(&mut self) {
+        let off = (self.off_by() / self.unit()).min(self.least_length());
+        self.rounding.read = self.rounding.read.max(off);
     }
 
     /// The most that a length of a block may be off.

@@ -28,9 +28,13 @@ impl Machine {
     /// words, variables) it answers itself. Reading a timer lets it move on.
     pub fn read(&mut self, state: Sys, subscripts: &[u32], trace: &mut Trace) -> Option<f64> {
         let passed = self.clock;
+        if matches!(state, Sys::MachinePosition | Sys::ProbePoint) {
+            self.round_read();
+        }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             self.place_by_offset(trace);
             self.place_by_length(trace);
+            self.round_read();
             let depth = subscripts.last() == Some(&3) && state != Sys::EndPosition;
             if depth && self.frame.length != 0.0 {
                 self.rules.positions_hold_length.ask(trace);

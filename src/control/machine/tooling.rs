@@ -135,6 +135,11 @@ impl Machine {
         }
     }
 
+    /// The offset of a length in force that may be lost.
+    pub fn lost_length(&self) -> Option<u32> {
+        self.length_lost.map(|_| self.length_offset)
+    }
+
     /// Notes what a length that may be lost rests on, where something is placed by it.
     pub(super) fn place_by_length(&mut self, trace: &mut Trace) {
         let Some((by, gone)) = self.length_lost.take() else { return };

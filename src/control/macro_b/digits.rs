@@ -16,6 +16,8 @@ pub struct Digits {
     step: f64,
     /// Error of an angle that a function yields, degrees.
     angle: f64,
+    /// Decimal digits that a value keeps when it is read.
+    kept: i32,
 }
 
 impl Digits {
@@ -23,11 +25,25 @@ impl Digits {
     pub fn of(arithmetic: &str) -> Option<Self> {
         match arithmetic {
             // 0.002*1000 may be 1.99999997, and ATAN is off by up to 3.6e-6 degrees (seed 001:1391).
-            "decimal8" => Some(Self { step: 2e-8, angle: 3.6e-6 }),
+            "decimal8" => Some(Self { step: 2e-8, angle: 3.6e-6, kept: 8 }),
             // 6/2 may be 3.000001, a 5 be stored as 4.999999 (seed 002:516).
-            "single" => Some(Self { step: 4e-7, angle: 4e-5 }),
+            "single" => Some(Self { step: 4e-7, angle: 4e-5, kept: 7 }),
             _ => None,
         }
+    }
+
+    /// By how much a value of the text or of the machine is off when it is read: nothing where the control has its
+    /// digits, since it then reads the same value wherever the same digits stand.
+    pub fn read(&self, value: f64) -> f64 {
+        if is_short(value) || self.has_digits(value) { 0.0 } else { value.abs() * self.step }
+    }
+
+    /// True for a value of no more decimal digits than are kept, as near as doubles tell.
+    fn has_digits(&self, value: f64) -> bool {
+        // Between -324 and 308: the value is finite, and zero is short.
+        let first = value.abs().log10().floor() as i32;
+        let whole = value.abs() * 10f64.powi(self.kept - 1 - first);
+        (whole - whole.round()).abs() <= whole * NOISE
     }
 
     /// By how much the result of two operands may be off; says where that decides what the result is.
@@ -137,6 +153,9 @@ fn decides(distance: f64, off: f64, trace: &mut Trace) {
         trace.doubt("machine:arithmetic.last.digit");
     }
 }
+
+/// What doubles make of a value with few digits that was scaled from one unit to the other, relative.
+const NOISE: f64 = 1e-12;
 
 /// True for a value that every short arithmetic holds: it has 24 binary digits at most.
 fn is_short(value: f64) -> bool {

@@ -17,7 +17,7 @@ impl Runner<'_> {
     pub fn eval_in(&mut self, ex: &Ex, increment: Option<f64>) -> Result<Value, Halt> {
         Ok(match ex {
             Ex::Number(value) => {
-                self.off = 0.0;
+                self.off = self.reading_off(*value);
                 Some(*value)
             }
             Ex::Read(var) => {
@@ -91,6 +91,11 @@ impl Runner<'_> {
                 Some(result)
             }
         })
+    }
+
+    /// By how much a value is off that the text or the machine gives.
+    pub fn reading_off(&self, value: f64) -> f64 {
+        self.numeric.short.as_ref().map_or(0.0, |short| short.read(value))
     }
 
     /// Notes a value that is about to be rounded to a whole number.

@@ -113,9 +113,10 @@ impl Memory {
     /// All that are not vacant, by name; locals are those of the outermost level.
     pub fn dump(&self) -> BTreeMap<String, f64> {
         let locals = self.levels.first().into_iter().flat_map(|locals| locals.values.iter().enumerate());
-        let near = self.near.iter().enumerate();
-        let row = locals.chain(near).filter_map(|(number, value)| Some((format!("#{number}"), (*value)?)));
-        let far = self.far.iter().filter_map(|(number, value)| Some((format!("#{number}"), (*value)?)));
-        row.chain(far).collect()
+        let row = locals.chain(self.near.iter().enumerate());
+        let near = row.filter_map(|(number, value)| value.map(|value| (format!("#{number}"), value)));
+        let far =
+            self.far.iter().filter_map(|(number, value)| value.map(|value| (format!("#{number}"), value)));
+        near.chain(far).collect()
     }
 }

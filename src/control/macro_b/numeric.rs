@@ -61,8 +61,8 @@ fn is(word: &'static str, no: &'static str) -> impl Fn(&str) -> Option<bool> {
 /// How the control calculates.
 #[derive(Debug)]
 pub struct Numeric {
-    /// Significant digits that are kept; none for all of a double's.
-    digits: Option<FewerDigits>,
+    /// Significant digits that are kept.
+    digits: FewerDigits,
     /// How far values may be off, where few digits are kept.
     pub short: Option<Digits>,
     largest: f64,
@@ -87,7 +87,7 @@ impl Numeric {
     /// The arithmetic of a control; the digits of the scenario in place of its own where given.
     pub fn new(control: &Control, scenario: &Scenario, alarms: &'static Alarms) -> Self {
         let short = control.numbers().arithmetic == "decimal8";
-        let digits = FewerDigits::of(scenario).or_else(|| short.then(|| FewerDigits::new(8)));
+        let digits = FewerDigits::of(scenario, short.then_some(8));
         let alarm = |value: &str| (value == "alarm").then_some(true);
         Self {
             digits,
@@ -119,12 +119,12 @@ impl Numeric {
         if value.abs() < self.smallest {
             return Ok(0.0);
         }
-        Ok(self.digits.as_ref().map_or(value, |digits| digits.keep(value)))
+        Ok(self.digits.keep(value))
     }
 
     /// True where a result needed more digits than are kept.
     pub fn lacked_digits(&self) -> bool {
-        self.digits.as_ref().is_some_and(FewerDigits::lacked)
+        self.digits.lacked()
     }
 
     /// An operand of arithmetic.

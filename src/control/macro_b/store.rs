@@ -21,7 +21,11 @@ impl Runner<'_> {
                 self.off = self.memory.off(*number);
                 Ok(self.memory.get(*number))
             }
-            Var::System(system) => self.read_system(system),
+            Var::System(system) => {
+                let value = self.read_system(system)?;
+                self.off = self.reading_off(value.unwrap_or(0.0));
+                Ok(value)
+            }
             Var::Bit(system, bit) => {
                 let value = self.read_system(system)?.unwrap_or(0.0).abs() as u64;
                 Ok(Some(value.checked_shr(*bit).map_or(0.0, |rest| f64::from((rest & 1) as u8))))
@@ -39,8 +43,8 @@ impl Runner<'_> {
             Var::Family(state, fixed, index) => {
                 let mut subscripts = fixed.clone();
                 subscripts.push(self.index(index)?);
-                self.off = 0.0;
                 let value = self.session.machine.read(*state, &subscripts, &mut self.session.trace);
+                self.off = self.reading_off(value.unwrap_or(0.0));
                 value.map(Some).ok_or_else(|| self.no_variable(0))
             }
             Var::Missing(number) => Err(self.no_variable(*number)),

@@ -5,7 +5,7 @@
 
 use super::manifest::{Entry, Kind, Manifest, seen_from};
 use super::{Change, OutputError};
-use crate::library::outputs::SIDECARS;
+use crate::library::outputs::{SIDECARS, read_file};
 use crate::verify::sha256;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -65,9 +65,9 @@ pub fn changes<'b>(
     sources: &BTreeMap<&str, &Path>,
     prune: bool,
 ) -> Result<(Vec<Change<'b>>, Told), OutputError> {
-    let mut plan = Plan { folder, manifest, changes: Vec::new(), told: Told::default() };
-    let mut next = manifest.clone();
     let names: BTreeSet<String> = wanted.iter().map(|wanted| wanted.name.clone()).collect();
+    let mut plan = Plan { folder, manifest, names: &names, changes: Vec::new(), told: Told::default() };
+    let mut next = manifest.clone();
     let here: Vec<&str> = sources.keys().copied().collect();
     for gone in manifest.gone(folder, &here) {
         if prune {
@@ -120,6 +120,8 @@ pub fn changes<'b>(
 struct Plan<'p, 'b> {
     folder: &'p Path,
     manifest: &'p Manifest,
+    /// What the run puts there.
+    names: &'p BTreeSet<String>,
     changes: Vec<Change<'b>>,
     told: Told,
 }
@@ -146,7 +148,7 @@ impl<'b> Plan<'_, 'b> {
 
     fn read(&self, name: &str) -> Result<Option<Vec<u8>>, OutputError> {
         let path = self.folder.join(name);
-        match fs::read(&path) {
+        match read_file(&path) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound) => Ok(None),
             Err(error) => Err(OutputError::Unwritable(path, error)),
@@ -161,7 +163,9 @@ impl<'b> Plan<'_, 'b> {
         }
         let names =
             (1_u32..).map(|n| if n == 1 { format!("{name}.kept") } else { format!("{name}.kept-{n}") });
-        let free = |kept: &String| fs::symlink_metadata(self.folder.join(kept)).is_err();
+        let free = |kept: &String| {
+            !self.names.contains(kept) && fs::symlink_metadata(self.folder.join(kept)).is_err()
+        };
         let kept = names.take(1000).find(free)?;
         self.told.kept.insert(name.to_owned(), kept.clone());
         Some(kept.into())

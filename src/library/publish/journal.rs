@@ -6,12 +6,13 @@
 //! journal has its name has changed nothing; one that is ended after it is finished by the next. A step that fails turns
 //! the journal round: what was done is undone, and that too may be done twice.
 
+use super::super::outputs::leads_out;
 use super::{Change, OutputError, disk};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// What an output folder holds of a run that is under way.
 const FOLDER: &str = ".macroglot";
@@ -23,6 +24,8 @@ const BACK: &str = "back";
 const DONE: &str = "done";
 /// Files that were written elsewhere: reports have their place where the user wants them.
 const OUTSIDE: &str = "outside";
+/// How the names begin of files that are written beside their place.
+const STAGED: &str = ".macroglot-";
 
 #[derive(Serialize, Deserialize)]
 struct Journal {
@@ -84,11 +87,15 @@ pub fn recover(folder: &Path) -> io::Result<super::Recovered> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),
     };
-    if let Some(journal) = read(BACK)? {
+    if let Some(mut journal) = read(BACK)? {
+        check(folder, &journal)?;
+        // Nothing shows that an old text belongs to a place elsewhere, so only this folder is brought back.
+        journal.steps.retain(|step| is_inside(folder, &step.place));
         undo(folder, &journal)?;
         return Ok(super::Recovered::TakenBack);
     }
     if let Some(journal) = read(JOURNAL)? {
+        check(folder, &journal)?;
         apply(folder, &journal).map_err(|(_, error)| error)?;
         finish(folder, &journal)?;
         return Ok(super::Recovered::Finished);
@@ -96,6 +103,39 @@ pub fn recover(folder: &Path) -> io::Result<super::Recovered> {
     let is_done = work.join(DONE).exists();
     take_back(folder)?;
     Ok(if is_done { super::Recovered::Finished } else { super::Recovered::TakenBack })
+}
+
+/// A journal that somebody else wrote, or brought here with the folder, changes nothing elsewhere.
+fn check(folder: &Path, journal: &Journal) -> io::Result<()> {
+    let is_ours = |step: &Step| {
+        let paths = || [&step.new, &step.old, &step.aside].into_iter().flatten();
+        if is_inside(folder, &step.place) {
+            return paths().all(|path| is_inside(folder, path));
+        }
+        // A report: its new text lies beside it, and its old one in this folder.
+        let at = |path: &Path| folder.join(path).parent().map(Path::to_owned);
+        let is_beside = |new: &PathBuf| is_staged(new) && at(new) == at(&step.place);
+        step.new.as_ref().is_some_and(is_beside) && paths().skip(1).all(|path| is_inside(folder, path))
+    };
+    match journal.steps.iter().find(|step| !is_ours(step)) {
+        None => Ok(()),
+        Some(step) => Err(io::Error::other(format!(
+            "`{FOLDER}` in it names {}, as no run of macroglot does; look at it, and delete it",
+            step.place.display()
+        ))),
+    }
+}
+
+/// True if a path, from the folder or whole, is one in it: by its name, and by the links on the way.
+fn is_inside(folder: &Path, path: &Path) -> bool {
+    let place = folder.join(path);
+    let is_plain = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
+    place.strip_prefix(folder).is_ok_and(is_plain) && !leads_out(folder, &place)
+}
+
+/// True if a file has a name that only a new file has which is written beside its place.
+fn is_staged(path: &Path) -> bool {
+    path.file_name().and_then(|name| name.to_str()).is_some_and(|name| name.starts_with(STAGED))
 }
 
 /// Writes everything aside.
@@ -116,7 +156,7 @@ fn stage(folder: &Path, work: &Path, changes: &[Change<'_>]) -> Result<Journal, 
             None => None,
             Some(bytes) => {
                 let new = staged(folder, &place, at);
-                if let Some(above) = place.parent().filter(|_| !new.starts_with(folder)) {
+                if let Some(above) = place.parent().filter(|_| is_staged(&new)) {
                     disk::make_folder(above).map_err(fault)?;
                 }
                 disk::create(&new, bytes).map_err(fault)?;
@@ -145,16 +185,16 @@ fn stage(folder: &Path, work: &Path, changes: &[Change<'_>]) -> Result<Journal, 
 
 /// Where a new file is written first: in the output folder, or beside a place that lies elsewhere.
 fn staged(folder: &Path, place: &Path, at: usize) -> PathBuf {
-    match place.starts_with(folder) {
+    match is_inside(folder, place) {
         true => folder.join(FOLDER).join(format!("new-{at}")),
-        false => place.with_file_name(format!(".macroglot-{}-{at}", std::process::id())),
+        false => place.with_file_name(format!("{STAGED}{}-{at}", std::process::id())),
     }
 }
 
 fn outside(folder: &Path, changes: &[Change<'_>]) -> Vec<PathBuf> {
     let places = changes.iter().enumerate().filter(|(_, change)| change.bytes.is_some());
     let staged = places.map(|(at, change)| staged(folder, &folder.join(&change.place), at));
-    staged.filter(|path| !path.starts_with(folder)).collect()
+    staged.filter(|path| is_staged(path)).collect()
 }
 
 /// Gives the journal its name: the moment at which the set is published.
@@ -234,13 +274,8 @@ fn take_back(folder: &Path) -> io::Result<()> {
     let work = folder.join(FOLDER);
     if let Ok(file) = File::open(work.join(OUTSIDE)) {
         let outside: Vec<PathBuf> = serde_json::from_reader(io::BufReader::new(file)).unwrap_or_default();
-        let ours = |path: &&PathBuf| {
-            path.file_name()
-                .and_then(|name| name.to_str())
-                .is_some_and(|name| name.starts_with(".macroglot-"))
-        };
         // A list that somebody else wrote removes nothing of theirs.
-        outside.iter().filter(ours).try_for_each(|path| disk::remove(path))?;
+        outside.iter().filter(|path| is_staged(path)).try_for_each(|path| disk::remove(path))?;
     }
     disk::remove_folder(&work)
 }

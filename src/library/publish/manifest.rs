@@ -3,9 +3,11 @@
 //! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
 
 use crate::library::inputs::slashed;
+use crate::library::outputs::read_text;
 use crate::verify::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -74,7 +76,7 @@ impl Manifest {
     /// A file that is no manifest.
     pub fn load(folder: &Path) -> Result<Self, ManifestError> {
         let path = folder.join(Self::NAME);
-        let text = match fs::read_to_string(&path) {
+        let text = match read_text(&path) {
             Ok(text) => text,
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
                 return Ok(Self::default());

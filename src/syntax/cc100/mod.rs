@@ -7,7 +7,7 @@ mod lexemes;
 
 use super::Block;
 use super::plain::plain_block;
-use super::support::{readable, tile, unparsed};
+use super::support::{readable, tile, too_long, unparsed};
 use crate::text::Span;
 use pest::Parser as _;
 
@@ -27,7 +27,7 @@ pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
     if line.is_empty() {
         return;
     }
-    match plain_block(source, line) {
+    match too_long(line).or_else(|| plain_block(source, line)) {
         Some(block) => out.push(block),
         None => by_grammar(source, line, out),
     }

@@ -7,7 +7,7 @@ mod expr;
 mod lexemes;
 
 use super::plain::plain_block;
-use super::support::{depth, fault, readable, tile, unparsed};
+use super::support::{depth, fault, readable, tile, too_long, unparsed};
 use super::{Block, SyntaxError};
 use crate::diag::Code;
 use crate::text::Span;
@@ -34,7 +34,7 @@ pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
     if line.is_empty() {
         return;
     }
-    match plain_block(source, line) {
+    match too_long(line).or_else(|| plain_block(source, line)) {
         Some(block) => out.push(block),
         None => by_grammar(source, line, out),
     }

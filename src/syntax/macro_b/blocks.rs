@@ -7,7 +7,7 @@ use super::plain::{NeedsCheck, Plain};
 use super::shape::{self, Shape};
 use super::tree;
 use super::{Rules, checks, scanner, sound};
-use crate::syntax::support::readable;
+use crate::syntax::support::{LONGEST_LINE, readable, too_long};
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;
 
@@ -22,6 +22,10 @@ pub enum Keep {
 
 /// Reads the blocks of one line.
 pub fn read_line(rules: &Rules, source: &[u8], line: Span, keep: Keep, out: &mut Vec<Block>) {
+    if let Some(block) = too_long(line) {
+        out.push(block);
+        return;
+    }
     let bytes = line.of(source);
     let first = out.len();
     let mut at = if is_dump_header(bytes) { line.end } else { line.start };
@@ -47,7 +51,11 @@ pub fn read_line(rules: &Rules, source: &[u8], line: Span, keep: Keep, out: &mut
 /// True for a line of blocks in which nothing can be wrong, as far as their leaves tell; see [`sound`].
 pub fn is_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
     // What is plain is seen faster than remembered.
-    is_plain(source, line) || known::is_sound(rules, line.of(source), || is_found_sound(rules, source, line))
+    let found = || {
+        is_plain(source, line)
+            || known::is_sound(rules, line.of(source), || is_found_sound(rules, source, line))
+    };
+    line.len() <= LONGEST_LINE && found()
 }
 
 /// As [`is_sound`], by the grammar.

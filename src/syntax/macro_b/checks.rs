@@ -40,6 +40,12 @@ pub fn check_shape(rules: &Rules, source: &[u8], block: &mut Block, line_start: 
 
 /// Checks what the items say.
 pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Vec<SyntaxError>) {
+    check_each(rules, source, items, errors);
+    check_expressions(rules, source, items, &mut Faults(errors));
+}
+
+/// Checks all but what expressions compute, also behind a condition.
+fn check_each(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Vec<SyntaxError>) {
     let mut faults = Faults(errors);
     let may_call = may_call_macro(items);
     for item in items {
@@ -47,7 +53,7 @@ pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Ve
             ItemKind::Word(word) => check_word(rules, word, item.span, may_call, &mut faults),
             ItemKind::Assign { target, value, .. } => check_assign(rules, target, value, &mut faults),
             ItemKind::If { body, .. } => {
-                check_items(rules, source, body, faults.0);
+                check_each(rules, source, body, faults.0);
                 if body.iter().all(|item| matches!(item.kind, ItemKind::Comment(_))) {
                     faults.add(Code::NothingConditional, item.span, "nothing follows this condition");
                 }
@@ -63,7 +69,6 @@ pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Ve
     if may_call && rules.call_stands_first {
         check_call(items, &mut faults);
     }
-    check_expressions(rules, source, items, &mut faults);
 }
 
 /// True where a code of the block may call a macro, so that its words are arguments.
@@ -141,24 +146,42 @@ fn check_call(items: &[Item], faults: &mut Faults<'_>) {
     }
 }
 
-/// Quotients and function calls whose constants have no value.
+/// Quotients and function calls whose constants have no value. Behind a condition they may never be computed.
 fn check_expressions(rules: &Rules, source: &[u8], items: &[Item], faults: &mut Faults<'_>) {
-    for_each_expr(items, &mut |expr| match &expr.kind {
+    let body = items.iter().find_map(|item| match &item.kind {
+        ItemKind::If { body, .. } => body.first(),
+        _ => None,
+    });
+    for_each_expr(items, &mut |expr| {
+        let may_run = body.is_some_and(|body| expr.span.start >= body.span.start);
+        check_expression(rules, source, expr, may_run.then_some(Code::AlarmIfRun), faults);
+    });
+}
+
+/// Looks at one of them; `instead` is said of what has no value where it may never be computed.
+fn check_expression(
+    rules: &Rules,
+    source: &[u8],
+    expr: &Expr,
+    instead: Option<Code>,
+    faults: &mut Faults<'_>,
+) {
+    match &expr.kind {
         ExprKind::Binary(BinaryOp::Divide, left, right) => {
-            check_divisor(right, faults);
+            check_divisor(right, instead, faults);
             if rules.atan_slash_needs_bracket {
                 check_atan(source, left, right, faults);
             }
         }
-        ExprKind::Binary(BinaryOp::Modulo, _, right) => check_divisor(right, faults),
-        ExprKind::Call { function, arguments, .. } => check_domain(*function, arguments, faults),
+        ExprKind::Binary(BinaryOp::Modulo, _, right) => check_divisor(right, instead, faults),
+        ExprKind::Call { function, arguments, .. } => check_domain(*function, arguments, instead, faults),
         _ => {}
-    });
+    }
 }
 
-fn check_divisor(divisor: &Expr, faults: &mut Faults<'_>) {
+fn check_divisor(divisor: &Expr, instead: Option<Code>, faults: &mut Faults<'_>) {
     if constant(divisor) == Some(0.0) {
-        faults.add(Code::DivisionByZero, divisor.span, "the divisor is zero");
+        faults.add(instead.unwrap_or(Code::DivisionByZero), divisor.span, "the divisor is zero");
     }
 }
 
@@ -171,7 +194,7 @@ fn check_atan(source: &[u8], left: &Expr, right: &Expr, faults: &mut Faults<'_>)
     }
 }
 
-fn check_domain(function: Func, arguments: &[Expr], faults: &mut Faults<'_>) {
+fn check_domain(function: Func, arguments: &[Expr], instead: Option<Code>, faults: &mut Faults<'_>) {
     let Some(argument) = arguments.first() else { return };
     let Some(value) = constant(argument) else { return };
     let domain = match function {
@@ -180,7 +203,8 @@ fn check_domain(function: Func, arguments: &[Expr], faults: &mut Faults<'_>) {
         Func::Ln if value <= 0.0 => "above 0",
         _ => return,
     };
-    faults.add(Code::FunctionDomain, argument.span, format!("the argument must be {domain}"));
+    let code = instead.unwrap_or(Code::FunctionDomain);
+    faults.add(code, argument.span, format!("the argument must be {domain}"));
 }
 
 /// The operand just before the end of an expression.

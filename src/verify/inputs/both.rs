@@ -2,7 +2,8 @@
 
 use super::{Input, Inputs, inputs_by, labels};
 use crate::control::ProgramRef;
-use crate::verify::names::{Names, Side, class_of};
+use crate::verify::names::{Names, class_of};
+use crate::verify::side::Side;
 use std::collections::BTreeSet;
 
 /// The most values of one variable that are tried.

@@ -2,7 +2,6 @@
 
 use super::Verifier;
 use crate::assume::Predicate;
-use crate::text::LineIndex;
 use crate::verify::assumed::Tried;
 use crate::verify::certificate::{Assumed, Why};
 
@@ -19,12 +18,10 @@ impl Verifier<'_, '_> {
     /// What the conversion supposes of the program, and how its runs kept that. What none kept is not shown.
     pub(super) fn assumptions(&mut self) -> Vec<Assumed> {
         let job = self.job;
-        let file = job.source.files.get(self.program.file);
-        let lines = LineIndex::new(file.map_or(&[], |file| file.parsed.source));
         let mut list = Vec::new();
         for (at, assumption) in job.assumptions.get(&self.program).into_iter().flatten().enumerate() {
             let (kept, broken) = self.assumed.get(&at).copied().unwrap_or_default();
-            let (line, column) = lines.place(assumption.place.start);
+            let (line, column) = job.source.line_of(self.program.file, assumption.place.start);
             let (kind, text) = (assumption.predicate.kind(), assumption.text.to_string());
             if kept == 0 && self.compared > 0 && assumption.predicate.is_seen() {
                 self.because(Why::NoRunKept, &format!("no run kept what line {line} supposes: {text}"));

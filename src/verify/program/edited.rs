@@ -9,13 +9,13 @@
 use super::Verifier;
 use crate::control::{LoadedFile, ProgramRef};
 use crate::syntax::{Expr, ExprKind, Item, ItemKind, parse_file};
-use crate::text::{LineIndex, Span};
+use crate::text::Span;
 use crate::verify::Job;
 use crate::verify::assumed::moved;
 use crate::verify::certificate::{Edit, Why};
 use crate::verify::inputs::{inputs, name_of};
-use crate::verify::names::Side;
 use crate::verify::scenarios::{Proposals, unit};
+use crate::verify::side::Side;
 use std::collections::BTreeSet;
 
 /// Constants of a program that are edited, at the most.
@@ -80,8 +80,9 @@ impl Verifier<'_, '_> {
             return;
         }
         let found = inputs(&new_source, self.program);
+        let inch = unit(source, target).or(found.inch);
         let Some(mut scenario) = Proposals::new(&found, effort).next() else { return };
-        scenario.inch = unit(source, target).or(found.inch);
+        scenario.inch = inch;
         self.given.start(&mut scenario);
         let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
         *steps = steps.saturating_sub(run.steps);
@@ -112,9 +113,9 @@ impl Verifier<'_, '_> {
         }
         let edit = Edit {
             variable: ours.name.clone(),
-            line: line(source, self.program, ours.span),
+            line: source.line_of(self.program.file, ours.span.start).0,
             register: theirs.name.clone(),
-            target_line: line(target, there, theirs.span),
+            target_line: target.line_of(there.file, theirs.span.start).0,
             value,
         };
         if let Some(witness) = &pair.witness {
@@ -243,8 +244,4 @@ fn moved_back(
         let back = |at: u32| if at > edit { (i64::from(at) - grown).max(0) as u32 } else { at };
         if file == edited { Span::new(back(span.start), back(span.end)) } else { span }
     }
-}
-
-fn line(side: &Side<'_>, program: ProgramRef, span: Span) -> u32 {
-    side.files.get(program.file).map_or(0, |file| LineIndex::new(file.parsed.source).place(span.start).0)
 }

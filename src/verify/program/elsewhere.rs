@@ -3,34 +3,22 @@
 use super::Verifier;
 use crate::canon::Op;
 use crate::control::ProgramRef;
+use crate::verify::Job;
 use crate::verify::certificate::Why;
-use crate::verify::given::Given;
+use crate::verify::given::{Given, given};
 use crate::verify::scenarios::unit;
 
 impl Verifier<'_, '_> {
     /// Looks at what the program does in the other unit that callers come in, and as after power-on in the machine's own
     /// unit, where its callers run it otherwise.
     ///
-    /// What no caller gives it is no fault. Where none comes to it, the modes that it was run in are those in
-    /// which their runs ended, and may not be those of the call: a difference counts that shows in the modes of power-on
-    /// too. The unit counts, for a library names it at the heads of its programs.
+    /// What no caller gives it is no fault. The unit counts, for a library names it at the heads of its programs.
     pub(super) fn elsewhere(&mut self, there: ProgramRef) {
         let own = unit(self.job.source, self.job.target).unwrap_or(false);
-        if self.given.never_come_to && !self.given.unlike_power_on().is_empty() {
-            let plain = self.begun_as(self.given.unit_alone(), there);
-            let (here, other) = (self.witness.take(), plain.witness);
-            let only = here.as_ref().xor(other.as_ref()).map(|witness| witness.what.clone());
-            match only {
-                None => self.witness = here,
-                Some(what) => {
-                    let (modes, power_on) = (in_words(&self.given, own), "as after power-on");
-                    let (bad, good) = if here.is_some() { (&*modes, power_on) } else { (power_on, &*modes) };
-                    let text = format!(
-                        "no run of what calls it comes to it: {good} it does the same, {bad} not: {what}"
-                    );
-                    self.because(Why::NotByItself, &text);
-                }
-            }
+        if self.given.never_come_to {
+            self.guessed(own, there);
+        } else if self.witness.is_some() {
+            self.each_as_called(own, there);
         }
         for inch in self.given.both_units().filter(|inch| *inch != own).collect::<Vec<_>>() {
             if self.witness.is_none() {
@@ -54,19 +42,79 @@ impl Verifier<'_, '_> {
         self.because(Why::NotByItself, &text);
     }
 
+    /// Looks at a program that no caller comes to: the modes that it was run in are those in which their runs ended, and
+    /// may not be those of the call. A difference counts that shows in the modes of power-on too, and in a straight cut.
+    fn guessed(&mut self, own: bool, there: ProgramRef) {
+        if !self.given.unlike_power_on().is_empty() {
+            self.or_begun_as(&self.given.unit_alone(), own, there);
+        }
+        if self.witness.is_some() {
+            self.or_begun_as(&self.given.in_straight_cut(), own, there);
+        }
+    }
+
+    /// Begins each side as its own callers do: the target's may leave other modes, of which they make something else.
+    fn each_as_called(&mut self, own: bool, there: ProgramRef) {
+        let Job { source, target, .. } = *self.job;
+        let given = target.given.get_or_init(|| given(&Job { source: target, target: source, ..*self.job }));
+        let Some(theirs) = given.get(&there).filter(|given| !given.never_come_to) else { return };
+        let modes = theirs.unlike_power_on();
+        if modes == self.given.unlike_power_on() {
+            return;
+        }
+        let text = format!(
+            "{} on the source and {} on the target, as the callers of each run it, it does the same",
+            in_words(&self.given, own),
+            in_words(theirs, own)
+        );
+        let mut other = self.anew(self.given.clone());
+        other.target_modes = Some(modes);
+        other.search(there);
+        if other.witness.is_none() {
+            self.witness = None;
+            self.because(Why::NotByItself, &text);
+        }
+    }
+
+    /// Tries the program in another guess of what is in force at its call: what differs in one of the two alone is for
+    /// review.
+    fn or_begun_as(&mut self, guess: &Given, own: bool, there: ProgramRef) {
+        let other = self.begun_as(guess.clone(), there).witness;
+        let here = self.witness.take();
+        match here.as_ref().xor(other.as_ref()).map(|witness| witness.what.clone()) {
+            None => self.witness = here,
+            Some(what) => {
+                let (ours, others) = (in_words(&self.given, own), in_words(guess, own));
+                let (bad, good) = if here.is_some() { (ours, others) } else { (others, ours) };
+                let text = format!(
+                    "no run of what calls it comes to it: {good} it does the same, {bad} not: {what}"
+                );
+                self.because(Why::NotByItself, &text);
+            }
+        }
+    }
+
     /// The program tried anew, in other circumstances.
     fn begun_as(&self, given: Given, there: ProgramRef) -> Self {
-        let mut other = Self { given, ..Self::new(self.job, self.program) };
+        let mut other = self.anew(given);
         other.search(there);
         other
     }
+
+    /// A new verifier of the program, which is given this.
+    fn anew(&self, given: Given) -> Self {
+        Self { given, ..Self::new(self.job, self.program) }
+    }
 }
 
-/// What a program is given that is not as after power-on: `in inches, distance.incremental`.
+/// What a program is given that is not as after power-on: `in inches, distance.incremental`; or that nothing is.
 fn in_words(given: &Given, own: bool) -> String {
     let unit =
         given.inch().filter(|inch| *inch != own).map(|inch| if inch { "inches" } else { "millimetres" });
     let modes = given.unlike_power_on().iter().map(Op::to_string).collect::<Vec<_>>();
     let all = unit.map(str::to_owned).into_iter().chain(modes);
-    format!("in {}", all.collect::<Vec<_>>().join(", "))
+    match all.collect::<Vec<_>>() {
+        none if none.is_empty() => "as after power-on".into(),
+        all => format!("in {}", all.join(", ")),
+    }
 }

@@ -5,7 +5,7 @@ use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::assumed::telling_numbers;
 use crate::verify::certificate::Why;
 use crate::verify::compare::is_cut;
-use crate::verify::inputs::{calls, inputs_of_both};
+use crate::verify::inputs::inputs_of_both;
 use crate::verify::observe::returns;
 use crate::verify::scenarios::{Proposals, unit};
 use crate::verify::{Effort, Job};
@@ -15,6 +15,9 @@ const LONGER: u64 = 10;
 
 /// Scenarios that are compared even where nothing is left to be reached.
 const FEWEST: usize = 16;
+
+/// Runs of which none can be compared to its end before a program with no ways left is given up.
+const BARREN: usize = 48;
 
 /// How often a run may execute each block of a long program, on the average.
 const EACH_BLOCK: u64 = 4;
@@ -38,6 +41,7 @@ impl Verifier<'_, '_> {
         found.try_also(&telling_numbers(self.job.assumptions, self.program, names));
         let blocks = source.blocks(self.program).len() as u64;
         let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
+        let inch = unit(source, target).or(found.inch);
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
@@ -46,7 +50,7 @@ impl Verifier<'_, '_> {
                 break;
             }
             scenario.milliseconds = scenario.milliseconds.map(|most| most.min(self.clock.left()));
-            scenario.inch = unit(source, target).or(found.inch);
+            scenario.inch = inch;
             self.given.start(&mut scenario);
             self.theirs = proposals.theirs().clone();
             let run = self.run_longer(&mut scenario);
@@ -65,7 +69,8 @@ impl Verifier<'_, '_> {
                 self.tell(scenario, &run, new || new_there);
             }
             let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
-            let done = self.coverage.is_complete() && gone && !telling && self.compared >= FEWEST;
+            let barren = self.compared == 0 && self.tried >= BARREN;
+            let done = self.coverage.is_complete() && gone && !telling && (self.compared >= FEWEST || barren);
             if self.witness.is_some()
                 || done
                 || endless >= ENDLESS
@@ -129,17 +134,8 @@ impl Verifier<'_, '_> {
 pub fn of_target(job: &Job<'_>, program: ProgramRef) -> Vec<ProgramRef> {
     let Job { source, target, names, .. } = *job;
     let became = |program: ProgramRef| names.program(source, program, target);
-    let others = || target.became.get_or_init(|| source.programs().into_iter().filter_map(became).collect());
-    let mut all: Vec<ProgramRef> = became(program).into_iter().collect();
-    let mut at = 0;
-    while let Some(&one) = all.get(at) {
-        for block in target.text(one) {
-            let new: Vec<ProgramRef> = calls(target, &block.items)
-                .filter(|called| !all.contains(called) && !others().contains(called))
-                .collect();
-            all.extend(new);
-        }
-        at += 1;
-    }
-    all
+    let all = || source.links().programs().iter().copied();
+    let others = || target.became.get_or_init(|| all().filter_map(became).collect());
+    let own = became(program).map(|own| target.links().called_from(own, |called| !others().contains(called)));
+    own.unwrap_or_default()
 }

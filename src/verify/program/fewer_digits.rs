@@ -2,12 +2,9 @@
 
 use super::Verifier;
 use crate::control::trace::Event;
-use crate::control::{ProgramRef, Run, Scenario};
+use crate::control::{FEWER_DIGITS, ProgramRef, Run, Scenario};
 use crate::verify::Names;
 use crate::verify::compare::compare;
-
-/// Significant digits that the second run of the target keeps: three fewer than a double has.
-const FEWER_DIGITS: u32 = 13;
 
 impl Verifier<'_, '_> {
     /// The target's run with fewer digits, their last ones rounded or drawn with a seed.
@@ -26,6 +23,10 @@ impl Verifier<'_, '_> {
         run: &Run,
         upto: Option<Option<&Event>>,
     ) -> bool {
+        // With fewer digits it would be the same run.
+        if !run.lacked_digits {
+            return false;
+        }
         let target = self.job.target;
         let place = |event: Option<&Event>| {
             let is = |other: &Event| event.is_some_and(|event| std::ptr::eq(event, other));
@@ -44,6 +45,9 @@ impl Verifier<'_, '_> {
 
     /// True where the target goes elsewhere, by however little, with fewer digits.
     pub(super) fn wavers(&self, of: (ProgramRef, &Scenario), run: &Run) -> bool {
+        if !run.lacked_digits {
+            return false;
+        }
         let target = self.job.target;
         let nudged = self.nudged(of, None);
         let apart = compare((target, run), (target, &nudged), &Names::default(), self.tolerance);

@@ -7,9 +7,10 @@ use crate::verify::Job;
 use crate::verify::assumed::{excuse, tried};
 use crate::verify::callers::{Shown, ways};
 use crate::verify::certificate::{Moment, Why, Witness};
-use crate::verify::compare::{Difference, compare, writes_elsewhere};
+use crate::verify::compare::{Difference, compare};
 use crate::verify::rounding::hangs_on_rounding;
 use crate::verify::stops::{off_its_circle, stops_by_itself};
+use crate::verify::variables::writes_elsewhere;
 
 /// The fact that says whether words are rounded.
 pub(super) const ROUNDS: &str = "behaviour:word.rounds.to.increment";
@@ -61,7 +62,17 @@ impl Verifier<'_, '_> {
             (self.program, pair.scenario, pair.run),
             (pair.there, pair.circumstances, pair.other),
         );
-        hangs.then(|| (Why::Unconfirmed, format!("{ROUNDS} is not confirmed, and decides what is read back")))
+        if hangs {
+            let text = format!("{ROUNDS} is not confirmed, and decides what is read back");
+            return Some((Why::Unconfirmed, text));
+        }
+        difference.by_place.then(|| {
+            let text = format!(
+                "a variable keeps a place that was read, and that words rounded: {}",
+                difference.what
+            );
+            (Why::Substituted, text)
+        })
     }
 
     /// Keeps a difference, and where it showed itself.
@@ -93,7 +104,7 @@ impl Verifier<'_, '_> {
         let hair = found.hair.filter(|_| !self.wavers((pair.there, pair.circumstances), pair.other));
         let difference = hair.or(found.difference).or_else(|| {
             let what = writes_elsewhere(source, (target, pair.other), &pair.circumstances.variables, names)?;
-            Some(Difference { source: None, target: None, what })
+            Some(Difference::new(None, None, what))
         });
         let Some(difference) = difference else { return Ok(()) };
         let excuse = excuse(&tried(self.job, pair.run, pair.other), pair.run, pair.other, &difference);

@@ -217,47 +217,86 @@ fn programs_that_are_called_in_both_units_are_run_in_both() {
     }
 }
 
+/// A control whose machine is set to a unit.
+fn control(dialect: &str, units: &str) -> Control {
+    let profile = Profile::read(&format!("dialect = \"{dialect}\"\nunits = \"{units}\"")).unwrap();
+    Control::new(registry::find(dialect).unwrap(), profile).unwrap()
+}
+
+/// Which programs of two libraries differ, given by the names of their files and their texts.
+fn judged(controls: &[Control; 2], texts: &[Vec<(&str, String)>; 2], names: Names) -> Vec<bool> {
+    let parsed: [Vec<_>; 2] = std::array::from_fn(|at| {
+        let parse = controls[at].entry().parse;
+        texts[at].iter().map(|(name, text)| (*name, parse_file(text.as_bytes(), parse))).collect()
+    });
+    let files: [Vec<LoadedFile<'_>>; 2] = std::array::from_fn(|at| {
+        parsed[at].iter().map(|(name, parsed)| LoadedFile { name, parsed }).collect()
+    });
+    let side = |at: usize| Side::new(&controls[at], controls[at].entry().execute.unwrap(), &files[at]);
+    let (source, target) = (side(0), side(1));
+    let (assumptions, effort) = (Assumptions::new(), Effort::default());
+    let spent = &Spent::default();
+    let job =
+        Job { source: &source, target: &target, names: &names, assumptions: &assumptions, effort, spent };
+    verify(&job, &[]).programs.iter().map(|program| program.outcome == Outcome::Different).collect()
+}
+
 /// A cycle stands in a file of its own, and is called by its code: it is in the unit of its caller, to which the target
 /// is not set.
 #[test]
 fn a_cycle_is_called_by_its_code() {
-    let control = |dialect: &str, units: &str| {
-        let profile = Profile::read(&format!("dialect = \"{dialect}\"\nunits = \"{units}\"")).unwrap();
-        Control::new(registry::find(dialect).unwrap(), profile).unwrap()
-    };
     let controls = [control("cc100", "metric"), control("haas", "inch")];
-    let judged = |head: &str, way: &str| {
-        let texts = [
-            ["G90\nG54\nG0 X1\nG820\nM30\n".to_owned(), "G0\nZ-1.5\nM2\n".to_owned()],
-            [format!("O1000\n{head}G90G54\nG0X1.\nM98P8000\nM30\n"), format!("O8000\nG0\nZ{way}\nM99\n")],
-        ];
-        let parsed: Vec<Vec<_>> = (texts.iter().zip(&controls))
-            .map(|(files, control)| {
-                files.iter().map(|text| parse_file(text.as_bytes(), control.entry().parse)).collect()
-            })
-            .collect();
-        let files: Vec<Vec<LoadedFile<'_>>> = (parsed.iter())
-            .map(|files| {
-                let named = ["a.nc", "cycle20.nc"].into_iter().zip(files);
-                named.map(|(name, parsed)| LoadedFile { name, parsed }).collect()
-            })
-            .collect();
-        let side = |at: usize| Side::new(&controls[at], controls[at].entry().execute.unwrap(), &files[at]);
-        let (source, target) = (side(0), side(1));
+    let tried = |head: &str, way: &str| {
+        let source =
+            vec![("a.nc", "G90\nG54\nG0 X1\nG820\nM30\n".into()), ("cycle20.nc", "G0\nZ-1.5\nM2\n".into())];
+        let main = format!("O1000\n{head}G90G54\nG0X1.\nM98P8000\nM30\n");
+        let target = vec![("a.nc", main), ("cycle20.nc", format!("O8000\nG0\nZ{way}\nM99\n"))];
         let programs = [("a.nc".to_owned(), 1000), ("cycle20.nc".to_owned(), 8000)].into();
-        let names = Names { programs, ..Names::default() };
-        let (assumptions, effort) = (Assumptions::new(), Effort::default());
-        let job = Job {
-            source: &source,
-            target: &target,
-            names: &names,
-            assumptions: &assumptions,
-            effort,
-            spent: &Spent::default(),
-        };
-        verify(&job, &[]).programs.into_iter().map(|program| program.outcome == Outcome::Different).collect()
+        judged(&controls, &[source, target], Names { programs, ..Names::default() })
     };
-    let judged: [Vec<bool>; 3] = [judged("G21\n", "-1.5"), judged("", "-1.5"), judged("G21\n", "-1.6")];
-    assert_eq!(judged[0], [false, false]);
-    assert_eq!((judged[1][0], judged[2][1]), (true, true));
+    assert_eq!(tried("G21\n", "-1.5"), [false, false]);
+    assert!(tried("", "-1.5")[0] && tried("G21\n", "-1.6")[1]);
+}
+
+/// O2 is called in both units behind an alarm, and writes an offset: the unit that it is tried in is that of both sides.
+#[test]
+fn what_no_run_comes_to_is_in_one_unit_on_both_sides() {
+    let controls = [("fanuc", "metric"), ("haas", "inch")].map(|(dialect, units)| control(dialect, units));
+    let library = |value: &str| {
+        format!("O1\nG20\nIF[#500GT9]GOTO5\nG21\nN5#3000=1(STOP)\nM98P2\nM30\nO2\nG90G10L11P3R{value}\nM99\n")
+    };
+    let judged = |value: &str| {
+        let texts = [vec![("a.nc", library("0.05"))], vec![("a.nc", library(value))]];
+        judged(&controls, &texts, Names::default())[1]
+    };
+    assert_eq!((judged("0.05"), judged("0.06")), (false, true));
+}
+
+/// No run comes to O2, and the runs of its caller end in G0: that it is called in G1, as the text has it, is not known.
+#[test]
+fn what_no_run_comes_to_is_begun_in_a_straight_cut_too() {
+    use Outcome::{Different, Undecided};
+    let source = "O1\nG90G1F100.\nGOTO5\nM98P2\nN5G0\nM30\nO2\nX1.\nM99\n";
+    let (outcome, excuse) = &library(source, "\nX1.", "\nG1X1.")[1];
+    assert_eq!(*outcome, Undecided);
+    assert!(excuse.contains("in motion.linear it does the same, as after power-on not"), "{excuse}");
+    assert_eq!(library(source, "\nX1.", "\nG1X2.")[1].0, Different);
+}
+
+/// O2 is called in G2 on the source, where a block without a centre moves straight on one control, and in G1 on the
+/// target: each moves straight as it is called, and by itself in G2 the target stops.
+#[test]
+fn each_side_is_begun_as_its_own_callers_do() {
+    use Outcome::{Different, Undecided};
+    let source = "O1\nG90 G17 G0 X0 Y0\nG1 F300.\nG2 I5.\nX16. Y3.\nM98 P2\nM2\nO2\nZ1.\nM99\n";
+    let judged = |depth: &str| {
+        let target = format!("O1\nG90G17G0X0Y0\nG1F300.\nG2I5.\nG1X16.Y3.\nM98P2\nM2\nO2\nZ{depth}\nM99\n");
+        let found = programs(("fadal", source), ("fanuc", &target), &[]);
+        let reasons = found[1].reasons.iter().filter(|reason| reason.why == Why::NotByItself);
+        (found[1].outcome, reasons.map(|reason| reason.text.clone()).collect::<String>())
+    };
+    let (outcome, why) = judged("1.");
+    assert_eq!(outcome, Undecided, "{why}");
+    assert!(why.contains("in motion.arc.cw on the source and in motion.linear on the target"), "{why}");
+    assert_eq!(judged("2.").0, Different);
 }

@@ -244,24 +244,77 @@ fn a_tool_size_may_be_off_by_what_its_word_rounds() {
     assert_eq!(found("#1=10.009/2\nG10 L12 P3 R#1").outcome, Outcome::Different);
 }
 
-/// The target has one coolant, and its end ends that; mist in place of flood shows nowhere.
+/// The source's length stays where its control has no machine move; whether the target's is back shows where it counts.
 #[test]
-fn the_other_coolant_before_an_end_is_the_one_that_is_on() {
-    let head = "O1\nG21G90G94G54\nS800M3\nM8\nG1X5.F100.\n";
-    let found =
-        |last: &str| run("fanuc", &format!("{head}M7\nM30\n"), "haas", &format!("{head}{last}M30\n"), &[]);
-    assert_eq!(found("").outcome, Outcome::Undecided);
-    assert_eq!(found("X6.\n").outcome, Outcome::Different);
+fn a_length_that_may_be_lost_is_the_same_at_a_return() {
+    let source = "O1\nG90G17G40G49G80E1\nM98P2\nM2\nO2\nH2G0Z20.\nE0G0X0Y0\nE1\nM99\n";
+    let found = |length: &str| {
+        let target =
+            format!("O1\nG90G17G40G49G80G54\nM98P2\nM2\nO2\nG43{length}G0Z20.\nG53G0X0.Y0.\nG54\nM99\n");
+        programs(("fadal", source), ("fanuc", &target), &[])[1].outcome
+    };
+    assert_ne!(found("H2"), Outcome::Different);
+    assert_eq!(found("H3"), Outcome::Different);
 }
 
-/// G86 stops the spindle and lets it turn again, which says nothing where the change may have stopped it.
+/// A rotation puts Y at 1/2*sqrt(3) inches, which no word says: a cycle that is run there rounds it, and what is read behind
+/// it is half a ten-thousandth off at the most.
 #[test]
-fn a_cycle_says_nothing_of_a_spindle_that_may_stand() {
-    let text = "O1\nG21G90G17G54\nS800M3\nG0X0.Y0.Z20.\nT2M6\nG99G86X4.Z-3.R2.F120.\nG80\n";
-    let found = |target: &str| {
-        let target = format!("{text}{target}M5\nM30\n");
-        run("haas", &format!("{text}M30\n"), "fanuc", &target, &[]).outcome
+fn a_place_that_is_read_behind_a_rounded_word_is_as_far_off() {
+    let source = "O1\nG20\nG90 G17 G0 X0 Y0 E1\nG68 X0 Y0 R30.\nG1 Y1. F30.\nG69\nG81 G98 Z-7. R0+.1 F30.\nM45\nG80\n#V5=AY\nM2\n";
+    let with = |read: &str| {
+        let target = format!(
+            "O1\nG20\nG90G17G54\nG0X0.Y0.\nG68X0Y0R30.\nG1Y1.F30.\nG69\nG81G98Z-7.R0.1F30.L0\nX#5001Y#5002\nG80\n#505={read}\nM2\n"
+        );
+        run("fadal", source, "fanuc", &target, &[("V5", 505)])
     };
-    assert_ne!(found(""), Outcome::Different);
-    assert_eq!(found("M3\nG1X5.\n"), Outcome::Different);
+    let found = with("#5042");
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert!(found.reasons.iter().any(|reason| reason.text.contains("a place that was read")), "{found:#?}");
+    assert_eq!(with("#5042+0.0002").outcome, Outcome::Different);
+}
+
+/// What is read of a place that words rounded is off, and the next word that it makes rounds again: 5.99348 inches on one
+/// side and 5.9936 on the other, where the three words alone round a ten-thousandth.
+#[test]
+fn a_place_that_is_read_and_written_again_is_off_twice() {
+    let source = "O1\nG20 G90 G0 Z0 E1\n#R1=1.49837\nG91\nG0 Z+R1\n#R1=AZ\nG0 Z+R1\n#R1=AZ\nG0 Z+R1\nM2\n";
+    let with = |last: &str| {
+        let target = format!(
+            "O1\nG20G90G54\nG0Z0.\n#501=1.49837\nG91\nG0Z#501\n#501=#5043\nG0Z#501\n#501=#5043\nG0Z[#501{last}]\nM2\n"
+        );
+        run("fadal", source, "fanuc", &target, &[("R1", 501)])
+    };
+    let found = with("");
+    assert_eq!(found.outcome, Outcome::Undecided, "{:#?}", found.witness);
+    assert_eq!(with("+0.01").outcome, Outcome::Different);
+}
+
+/// 2^24 + 1 is 2^24 to a control of 24 binary digits, and more than that to one of doubles.
+#[test]
+fn a_constant_of_more_digits_than_the_source_has_is_marked() {
+    let marked = |limit: &str| {
+        let program = format!("O1\nG21G90G54\n#1=16777217\nIF[#1GT{limit}]GOTO9\nG0X5.\nN9M30\n");
+        let found = run("haas", &program, "fanuc", &program, &[]);
+        assert_ne!(found.outcome, Outcome::Different, "{:#?}", found.witness);
+        found.unconfirmed.iter().any(|fact| fact == "machine:arithmetic.last.digit")
+    };
+    assert!(marked("16777216"));
+    assert!(!marked("16777000"));
+}
+
+/// A caller's return to the reference position leaves it to the called program whether the length is back.
+#[test]
+fn a_called_program_finds_the_length_that_its_caller_may_have_lost() {
+    let o2 = "#IF V10<=1 THEN GOTO :L10\nG1 Z3.\n#:L10\nM99\n";
+    let source = format!("O1\n#CLEAR\nG90G17G40G49G80E1\nH2G0Z30.\nG28X0Y0Z0\nG1F300.\nM98P2\nM2\nO2\n{o2}");
+    let found = |length: &str| {
+        let o2 = format!("IF[#510LE1]GOTO10\nG43G1Z3.{length}\nN10M99\n");
+        let target = format!(
+            "O1\n#510=0\nG90G17G40G49G80G54\nG43H2G0Z30.\nG28X0.Y0.Z0.\nG1F300.\nM98P2\nM2\nO2\n{o2}"
+        );
+        programs(("fadal", &source), ("fanuc", &target), &[("V10", 510)])[1].outcome
+    };
+    assert_ne!(found("H2"), Outcome::Different);
+    assert_eq!(found("H3"), Outcome::Different);
 }

@@ -82,6 +82,12 @@ fn what_is_not_there_is_an_error_at_its_block() {
     for text in ["M98 P77\n", "L101\n", "#START 7\n", "G10 L13 P1\n"] {
         assert!(matches!(lines(text).end, End::Error { .. }), "{text}");
     }
+    // No call is open that the subroutine's end could go back from.
+    for end in ["M17\nM30\n", "L200\nM17\nM30\n", "M30\n"] {
+        let text = format!("L100\nN5 G0 X1.\n{end}#GOTO N5\n");
+        assert!(matches!(lines(&text).end, End::Error { .. }), "{text}");
+    }
+    assert!(matches!(lines("M17\n").end, End::Error { .. }));
     // No source says that it is an alarm: the run says what it rests on.
     for text in ["#GOTO :NO\n", "#GOTO N7\n"] {
         let run = lines(text);

@@ -58,6 +58,33 @@ fn what_no_bound_leaves_open_is_not_told() {
     }
 }
 
+/// Near 123 the numbers of 24 binary digits are 7.6e-6 apart (2^-17), so that both constants may be the one value
+/// 123.45679 to the control; near 2^24 they are one apart.
+#[test]
+fn a_constant_of_more_digits_is_rounded_when_read() {
+    let open = |statements: &str| doubts(&haas(&format!("O1\n{statements}\nN9M30\n")), DIGIT);
+    assert!(open("#1=123.456789\nIF[#1EQ123.456788]GOTO9"));
+    assert!(open("#1=16777217\nIF[#1GT16777216]GOTO9"));
+    assert!(open("#1=1234567.89\n#2=FIX[#1*10-12345678]"));
+    assert!(!open("#1=123.4567\nIF[#1EQ123.4566]GOTO9"));
+    assert!(!open("#1=123.456789\nIF[#1GT123.4]GOTO9"));
+    assert!(!open("#1=16777216\nIF[#1EQ16777216]GOTO9"));
+}
+
+/// 3.333 and 3.333000333 are one value in seven digits.
+#[test]
+fn a_value_of_the_machine_is_rounded_when_read() {
+    let open = |value: &str| {
+        doubts(&haas(&format!("O1\nG21\n#2001={value}\nIF[#2001EQ3.333]GOTO9\nN9M30\n")), DIGIT)
+    };
+    assert!(!open("3.333"));
+    assert!(open("3.333000333"));
+    let profile = "dialect = \"haas\"\n[settings]\narithmetic = \"double\"\n";
+    let doubles = Control::from_profile(profile).expect("a profile");
+    let text = "O1\n#1=123.456789\nIF[#1EQ123.456788]GOTO9\nN9M30\n";
+    assert!(!doubts(&run_on(&doubles, &[text], &Scenario::default()), DIGIT));
+}
+
 /// What an argument, a repeated macro, and a shared variable carry is as far off as it was.
 #[test]
 fn errors_go_along_with_values() {

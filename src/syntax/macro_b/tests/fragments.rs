@@ -120,6 +120,9 @@ const SLIPS: &[(&str, Code, u32)] = &[
     ("IF[#1 EQ 2]", Code::NothingConditional, 0),
     ("DPRNT[X#1[54]]", Code::OutputFormat, 7),
     ("#1=SQRT[-1]", Code::FunctionDomain, 8),
+    ("IF[#1GT9]THEN#2=SQRT[-1]", Code::AlarmIfRun, 21),
+    ("IF[#1GT9]THEN#2=#1/0", Code::AlarmIfRun, 19),
+    ("IF[#1/0GT9]THEN#2=1", Code::DivisionByZero, 6),
     ("G1 X1.0 *", Code::Unreadable, 8),
     ("N99999999999", Code::TooManyDigits, 1),
 ];

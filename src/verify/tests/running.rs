@@ -1,0 +1,92 @@
+//! What random programs showed of spindle and coolant, as small as it goes.
+
+use super::*;
+
+/// The target has one coolant, and its end ends that; mist in place of flood shows nowhere.
+#[test]
+fn the_other_coolant_before_an_end_is_the_one_that_is_on() {
+    let head = "O1\nG21G90G94G54\nS800M3\nM8\nG1X5.F100.\n";
+    let found =
+        |last: &str| run("fanuc", &format!("{head}M7\nM30\n"), "haas", &format!("{head}{last}M30\n"), &[]);
+    assert_eq!(found("").outcome, Outcome::Undecided);
+    assert_eq!(found("X6.\n").outcome, Outcome::Different);
+}
+
+/// G86 and G76 stop the spindle and let it turn again, which says nothing where the change may have stopped it.
+#[test]
+fn a_cycle_says_nothing_of_a_spindle_that_may_stand() {
+    for cycle in ["G86", "G76Q.2"] {
+        let text = format!("O1\nG21G90G17G54\nS800M3\nG0X0.Y0.Z20.\nT2M6\nG99{cycle}X4.Z-3.R2.F120.\nG80\n");
+        let found = |target: &str| {
+            let target = format!("{text}{target}M5\nM30\n");
+            run("haas", &format!("{text}M30\n"), "fanuc", &target, &[]).outcome
+        };
+        assert_ne!(found(""), Outcome::Different, "{cycle}");
+        assert_eq!(found("M3\nG1X5.\n"), Outcome::Different, "{cycle}");
+    }
+}
+
+/// A spindle that is held at an angle stands: an end that is known to stop one shows nothing.
+#[test]
+fn an_end_stops_no_spindle_that_is_held() {
+    let text = "O1\nG21G90G17G54\nS800M3\nG1F300.X9.\nT2M6\nM19\n";
+    let found = |source: &str, target: &str| {
+        run("haas", &format!("{text}{source}M30\n"), "fanuc", &format!("{text}{target}M30\n"), &[]).outcome
+    };
+    assert_ne!(found("", ""), Outcome::Different);
+    // Where another way has it turning, the conversion stops it.
+    assert_ne!(found("", "M5\n"), Outcome::Different);
+    assert_eq!(found("", "M5\nM0\n"), Outcome::Different);
+    assert_eq!(found("", "M3\nX5.\n"), Outcome::Different);
+    assert_eq!(found("M3\nX5.\n", "X5.\n"), Outcome::Different);
+}
+
+/// A new speed alone starts nothing: one that a stop ends before anything is cut shows on neither side.
+#[test]
+fn a_speed_that_a_stop_ends_says_nothing_of_a_spindle_that_may_stand() {
+    let text = "O1\nG21G90G17G54\nS800M3\nG1F300.X9.\nT2M6\n";
+    let found = |source: &str, target: &str| {
+        let end = "M5\nG65P2\nM30\nO2\nG1F200.S1500\nM99\n";
+        let (source, target) = (format!("{text}{source}{end}"), format!("{text}{target}{end}"));
+        programs(("haas", &source), ("fanuc", &target), &[])[0].outcome
+    };
+    assert_ne!(found("S600\n", "S600\n"), Outcome::Different);
+    assert_eq!(found("S600\n", "S600M3\nX5.\n"), Outcome::Different);
+    assert_eq!(found("S600M3\nX5.\n", "S600\nX5.\n"), Outcome::Undecided);
+}
+
+/// A speed that the next block's M3 replaces: the Haas starts the spindle at the end of that block, which cuts nothing.
+#[test]
+fn a_speed_that_is_replaced_beside_a_rapid_move_shows_on_neither_side() {
+    let source = "O1\nG90G17G49G80\nG0X1.M3S900M8\nS1500\nG28X0Y0M3S900\nG1X2.F9.\nM2\n";
+    let found = |speeds: &str| {
+        let target = format!("O1\nG90G17G49G80\nM3S900\nG0X1.M8\n{speeds}G1X2.F9.\nM2\n");
+        run("fadal", source, "haas", &target, &[]).outcome
+    };
+    assert_ne!(found("S1500\nG28X0.Y0.M3S900\n"), Outcome::Different);
+    assert_eq!(found("S1500\nG28X0.Y0.\n"), Outcome::Different);
+    assert_eq!(found("S1500\nG28X0.Y0.M3S800\n"), Outcome::Different);
+}
+
+/// A speed behind a cycle that stops the spindle and lets it turn again starts nothing that may stand.
+#[test]
+fn a_speed_behind_a_cycle_starts_nothing() {
+    let text = "O1\nG21G90G17G54\nS800M3\nG0X0.Y0.Z20.\nM1\nG99G86X4.Z-3.R2.F120.\nG80\n";
+    let found = |speed: &str| {
+        let end = "G1X9.F99.\nM30\n";
+        run("fanuc", &format!("{text}S500\n{end}"), "haas", &format!("{text}{speed}{end}"), &[]).outcome
+    };
+    assert_ne!(found("S500\n"), Outcome::Different);
+    assert_eq!(found("S400\n"), Outcome::Different);
+    assert_eq!(found("S500M4\n"), Outcome::Different);
+}
+
+/// The source ends with an alarm, the target at its end, where the Haas stops the spindle: the coolant is on by then.
+#[test]
+fn what_an_end_stops_comes_after_what_was_started() {
+    let text = "O1\nG21G90G54\nS800M3\nM8\n";
+    let found = run("fanuc", &format!("{text}#3000=1(STOP)\nM30\n"), "haas", &format!("{text}M30\n"), &[]);
+    assert_eq!(found.outcome, Outcome::Different);
+    let first = found.witness.and_then(|witness| witness.source).map(|moment| moment.block);
+    assert_eq!(first.as_deref(), Some("#3000=1(STOP)"));
+}
