@@ -11,7 +11,11 @@ use super::modal_facts::ModalFacts;
 use super::pauses::pause_of;
 use super::{Context, Modal, replace_statements};
 use crate::canon::{Auxiliary, Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
+
+/// Why what acts after a move cannot have a block of its own where that move runs a modal call.
+pub(super) const AFTER_CALL: &str = "a modal call is in force: what this block does when its move is done would come after the call, in a block of its own. Put it into a block before the move, or after the end of the modal call";
 
 /// True where anything stands that may stand beside a move.
 pub fn concerns(census: &Census) -> bool {
@@ -39,6 +43,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.rests_on_source(index, stmt.site.span, fact);
         }
         let Block { early, late, .. } = block;
+        if !late.is_empty() && before.may_call() {
+            context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
+        }
         let site = |first: bool, stmt: &mut Stmt| Site {
             span: stmt.site.span,
             sequence: if first { stmt.site.sequence.take() } else { None },
@@ -85,9 +92,8 @@ fn move_of(nc: &Nc, before: &Modal) -> Move {
     let mut state = before.clone();
     state.step_words(nc);
     let drills = state.op(Group::Cycle) != Some(CycleOff);
-    let calls = before.calls.as_ref().is_none_or(|calls| !calls.is_empty());
     let rapid = nc.ops().any(|op| op == RapidOnce) || state.op(Group::Motion) == Some(Rapid);
-    if rapid && !drills && !calls { Move::Idle } else { Move::Cut }
+    if rapid && !drills && !before.may_call() { Move::Idle } else { Move::Cut }
 }
 
 /// What kind an item is of; a speed beside a code that starts the spindle goes with that.

@@ -76,6 +76,7 @@ mod state;
 mod substitutes;
 mod tapping;
 mod temporaries;
+mod tool_word;
 mod truth;
 mod units;
 mod vacancy;
@@ -246,6 +247,7 @@ pub const PASSES: &[Pass] = &[
         concerns: |c, _| c.has(Thing::System),
         run: Rewrites(position_length::run),
     },
+    Pass { name: "tool-word", concerns: |c, _| c.has(Thing::System), run: Reports(tool_word::run) },
     Pass { name: "offset-rows", concerns: |c, _| c.has(Thing::System), run: Rewrites(offset_rows::run) },
     Pass {
         name: "state",

@@ -1,5 +1,6 @@
 //! What is in force of every modal group at a place, and what statements do to it.
 
+use super::tool_word::ToolWord;
 use crate::canon::{Group, Op, Role};
 use crate::ir::{Block, BlockId, Call, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::text::Span;
@@ -89,6 +90,8 @@ pub struct Modal {
     /// True where some way here named a tool length.
     length_named: bool,
     feed: Feed,
+    /// What the last tool word is to the tool in the spindle.
+    pub(super) tool_word: ToolWord,
     /// The open modal calls, innermost last; absent where paths disagree.
     pub calls: Option<Vec<Call>>,
     /// True where nothing in the library leaves another unit than the one that is named.
@@ -104,6 +107,7 @@ impl Modal {
             length_lost: LengthLost::default(),
             length_named: false,
             feed: Feed::Unknown,
+            tool_word: ToolWord::Unknown,
             calls: Some(Vec::new()),
             one_unit: false,
         }
@@ -123,7 +127,13 @@ impl Modal {
         let mut unknown = state.clone();
         unknown.may_be_cancelled = false;
         unknown.forget();
+        unknown.tool_word = state.tool_word.after_unknown();
         unknown
+    }
+
+    /// True if a move may run a modal call.
+    pub fn may_call(&self) -> bool {
+        self.calls.as_ref().is_none_or(|calls| !calls.is_empty())
     }
 
     /// Puts an operation in force from the start.
@@ -168,9 +178,10 @@ impl Modal {
         match &stmt.kind {
             StmtKind::Nc(nc) => {
                 self.step_words(nc);
-                if self.calls.as_ref().is_none_or(|calls| !calls.is_empty()) && nc.moves() {
+                if self.may_call() && nc.moves() {
                     // The modal call runs now, and may leave anything in force.
                     self.forget();
+                    self.tool_word = self.tool_word.after_unknown();
                 }
             }
             StmtKind::ModalCall(call) => self.calls.iter_mut().for_each(|calls| calls.push((**call).clone())),
@@ -195,9 +206,20 @@ impl Modal {
             }
         }
         self.step_length(nc);
+        self.tool_word = self.tool_word.after(nc);
+        self.step_tap(nc);
         // Behind the unit and the feed mode, which it counts in, wherever they stand.
         if let Some(feed) = feed {
             self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
+        }
+    }
+
+    /// A tap turns the spindle, also one that stands, and may leave it turning.
+    fn step_tap(&mut self, nc: &Nc) {
+        let taps = self.op(Group::Cycle).is_some_and(Op::is_tap) && (nc.moves() || nc.ops().any(Op::is_tap));
+        let turns = |op| matches!(op, Op::SpindleCw | Op::SpindleCcw);
+        if taps && self.op(Group::Spindle).is_some_and(|op| !turns(op)) {
+            self.settings[Group::Spindle as usize] = Setting::Unknown;
         }
     }
 
@@ -282,6 +304,8 @@ impl Modal {
             self.may_be_cancelled = true;
             changed = true;
         }
+        let tool_word = self.tool_word.join(other.tool_word);
+        changed |= std::mem::replace(&mut self.tool_word, tool_word) != tool_word;
         changed |= self.length_lost.join(other.length_lost);
         changed |= other.length_named && !self.length_named;
         self.length_named |= other.length_named;

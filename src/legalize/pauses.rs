@@ -8,6 +8,7 @@
 
 mod after;
 
+use super::beside_moves::AFTER_CALL;
 use super::census::Census;
 use super::modal_facts::ModalFacts;
 use super::{Context, Modal, calls_of};
@@ -21,9 +22,16 @@ use std::collections::BTreeMap;
 /// True where something that may be running is started, or runs from the start: in a piece of a program.
 pub fn concerns(census: &Census, entry: &Modal) -> bool {
     let runs = |running: Running| entry.op(ends(running).0);
-    let may =
-        |running: Running| starts(running).iter().any(|op| census.op(*op) || runs(running) == Some(*op));
+    let may = |running: Running| {
+        starts_in(census, running) || starts(running).iter().any(|op| runs(running) == Some(*op))
+    };
     Running::ALL.into_iter().any(may)
+}
+
+/// True where something starts it: its codes, or a tap the spindle.
+fn starts_in(census: &Census, running: Running) -> bool {
+    let taps = running == Running::Spindle && census.any_op(Op::is_tap);
+    taps || starts(running).iter().any(|op| census.op(*op))
 }
 
 /// What starts it.
@@ -66,6 +74,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 place.skipped = stmt.site.skip.is_some();
                 if let Some((pause, optional)) = pause {
                     let before = place.stop(pause, optional, number + 1, stmt.site.span, context);
+                    let moves = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
+                    if moves && !before.is_empty() && place.state.may_call() {
+                        let refused = Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL);
+                        context.add(index, refused);
+                    }
                     ended(before, stmt, &mut out);
                 } else {
                     out.push(stmt);
@@ -90,7 +103,7 @@ fn started(module: &Module) -> Vec<[bool; 2]> {
     let mut found: Vec<[bool; 2]> = (programs.iter())
         .map(|program| {
             let census = Census::of(std::slice::from_ref(program));
-            Running::ALL.map(|running| starts(running).iter().any(|op| census.op(*op)))
+            Running::ALL.map(|running| starts_in(&census, running))
         })
         .collect();
     let names = programs.iter().enumerate().filter_map(|(index, p)| Some((p.name.as_ref()?, index)));

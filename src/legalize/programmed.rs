@@ -74,10 +74,7 @@ impl Programmed {
                 // A rotation takes the tool along only where it runs the cycle in force.
                 let cycle = modal.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff);
                 let turned = nc.has(Op::RotateOff) || (nc.has(Op::RotateOn) && !cycle);
-                if turned
-                    || !nc.ops().all(keeps_coordinates)
-                    || modal.calls.as_ref().is_none_or(|calls| !calls.is_empty())
-                {
+                if turned || !nc.ops().all(keeps_coordinates) || modal.may_call() {
                     *self = NOWHERE;
                 } else if !nc.has(Op::RotateOn) {
                     self.moved([nc.word(Role::X), nc.word(Role::Y)], modal.op(Group::Distance));

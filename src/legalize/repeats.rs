@@ -83,9 +83,8 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         if cycle.is_none() {
             refuse("whether a drilling cycle or the move is repeated here depends on what ran before");
         }
-        let modal = state.calls.as_ref().is_none_or(|calls| !calls.is_empty());
         let computed = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.constant().is_none());
-        if modal && nc.items.iter().any(computed) {
+        if state.may_call() && nc.items.iter().any(computed) {
             refuse(
                 "a repeated move with computed words under a modal call, whose macro may change them between",
             );

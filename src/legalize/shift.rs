@@ -79,7 +79,7 @@ fn refuse_read(index: usize, span: Span, state: &Modal, context: &mut Context<'_
     }
 }
 
-/// `incremental` where a program of the library sets incremental coordinates.
+/// `incremental` if a program of the library sets incremental coordinates.
 fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'static str)> {
     let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
     let moves = nc.moves() && !nc.has(Op::ReferenceReturn) && !nc.has(Op::MachineOnce);
@@ -109,6 +109,10 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
                     Some(_) => Some((
                         Code::NoEquivalent,
                         "a move with all zero shifts cancelled and a tool length in force: the target's machine coordinates leave the length out",
+                    )),
+                    None if state.names_length() => Some((
+                        Code::NoEquivalent,
+                        "a move with all zero shifts cancelled and a tool length in force on some of the ways that lead here, or left by a caller: the target's machine coordinates leave the length out. Cancel the length before it, and it converts",
                     )),
                     _ => Some((
                         Code::Conditional,

@@ -4,7 +4,7 @@
 //! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
 //! frame no source settles is taken as the work position, with a review diagnostic from lowering.
 
-use super::{Context, Position, Rewriter, rewrite_program};
+use super::{Context, Position, Rewriter, rewrite_program, tool_word};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side};
@@ -31,9 +31,6 @@ const SCALED: &[(Sys, Sys, f64)] = &[
     (Sys::RadiusWear, Sys::DiameterOrRadiusWear, 2.0),
     (Sys::DiameterWear, Sys::DiameterOrRadiusWear, 1.0),
 ];
-
-/// The letter number of T in [`Sys::Address`].
-const ADDRESS_T: f64 = 20.0;
 
 /// Rewrites machine state to what the target has.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -72,7 +69,6 @@ enum Finding {
     Unconfirmed(Sys, String, String),
     Renumbered(String),
     Wiring,
-    LastTool,
     ReadOnly(Sys),
     Table(Sys),
     TargetTable,
@@ -126,10 +122,6 @@ impl Finding {
             Finding::Wiring => {
                 let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
                 context.add_once(index, "wiring", Diagnostic::new(Code::Conditional, span, what));
-            }
-            Finding::LastTool => {
-                let what = "the target tells the last T word, which is the tool in the spindle only behind its tool change";
-                context.add_once(index, "tool", Diagnostic::new(Code::Conditional, span, what));
             }
         }
     }
@@ -196,9 +188,8 @@ fn read(
         Sys::ModalMotionPlus1 if held(Sys::Modal, &[Expr::Number(1.0)], target).is_some() => {
             binary(BinOp::Add, Expr::System(Sys::Modal, [Expr::Number(1.0)].into()), 1.0)
         }
-        Sys::ActiveTool if held(Sys::Address, &[Expr::Number(ADDRESS_T)], target).is_some() => {
-            found.push((span, Finding::LastTool));
-            Expr::System(Sys::Address, [Expr::Number(ADDRESS_T)].into())
+        Sys::ActiveTool if tool_word::stands_in(target) => {
+            Expr::System(Sys::Address, [Expr::Number(f64::from(tool_word::ADDRESS_T))].into())
         }
         Sys::Pi => Expr::Number(std::f64::consts::PI),
         Sys::Euler => Expr::Number(std::f64::consts::E),

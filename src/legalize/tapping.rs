@@ -21,7 +21,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if context.target.behaviour("cycle.tap.feed").is_some_and(|row| row.value == "lead") {
         return;
     }
-    let taps = |nc: &Nc| nc.ops().any(is_tap) && nc.word(Role::Lead).is_some();
+    let taps = |nc: &Nc| nc.ops().any(Op::is_tap) && nc.word(Role::Lead).is_some();
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
     if !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if taps(nc))) {
         return;
@@ -38,7 +38,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let does = kept.step(&stmt, &mut state, &mut in_force);
                 let span = stmt.site.span;
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
-                    if nc.ops().any(is_tap)
+                    if nc.ops().any(Op::is_tap)
                         && let Some((code, what)) = give_feed(nc, state.op(Group::FeedMode))
                     {
                         context.add(index, Diagnostic::new(code, span, what));
@@ -71,10 +71,6 @@ fn give_feed(nc: &mut Nc, mode: Option<Op>) -> Option<(Code, &'static str)> {
         }
         _ => (Code::NoEquivalent, "a tapping cycle without a speed beside its lead, or in feed per turn"),
     })
-}
-
-fn is_tap(op: Op) -> bool {
-    matches!(op, Op::CycleTap | Op::CycleTapLeft | Op::CycleTapRigid | Op::CycleTapByLead)
 }
 
 fn set_feed(nc: &mut Nc, speed: Expr, lead: Expr) {

@@ -31,7 +31,7 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
     let others = [Thing::Emptied, Thing::Code, Thing::Modal, Thing::Call, Thing::LocalCall];
     let entry = &context.entry;
     entry.op(Group::Units).is_none()
-        || entry.calls.as_ref().is_none_or(|calls| !calls.is_empty())
+        || entry.may_call()
         || census.any_op(|op| op.group() == Group::Units || check(op))
         || others.into_iter().any(|thing| census.has(thing))
 }

@@ -163,10 +163,9 @@ fn may_cut(nc: &Nc, state: &Modal) -> bool {
     let drills = state.op(Group::Cycle).is_none_or(Op::is_cycle);
     let rapid = |op: Op| matches!(op, RapidOnce | ReferenceReturn | ReferenceFrom | Reference2 | Home);
     let rapid = state.op(Group::Motion) == Some(Rapid) || nc.ops().any(rapid);
-    let calls = state.calls.as_ref().is_none_or(|calls| !calls.is_empty());
     let always = |op: Op| op.is_cycle() || matches!(op, CycleHere | Probe | ProbeOther);
     let arcs = |item: &NcItem| matches!(item, NcItem::Word(Role::ArcI | Role::ArcJ | Role::ArcK, _));
     nc.ops().any(always)
         || nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _)))
-        || ((nc.moves() || nc.items.iter().any(arcs)) && (drills || calls || !rapid))
+        || ((nc.moves() || nc.items.iter().any(arcs)) && (drills || state.may_call() || !rapid))
 }

@@ -1,7 +1,6 @@
 //! The feed from before a tap: where the target's own tap feed stands in its place, and what brings it back.
 
-use super::is_tap;
-use crate::canon::{Group, Role, Sys};
+use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
 use crate::ir::{BlockId, Class, Expr, Module, Place, Site, Stmt, StmtKind, TermKind, Var};
@@ -131,7 +130,7 @@ impl Kept {
         // What was read counts something else in another unit or feed mode.
         let other = nc.ops().any(|op| matches!(op.group(), Group::Units | Group::FeedMode));
         let mut does = Does::Nothing;
-        if nc.ops().any(is_tap) {
+        if nc.ops().any(Op::is_tap) {
             if *feed == Feed::Same && nc.word(Role::Lead).is_some() {
                 (*feed, does) =
                     if self.readable { (Feed::Held, Does::Reads) } else { (Feed::Lost, Does::Nothing) };
@@ -139,8 +138,8 @@ impl Kept {
         } else if nc.word(Role::Feed).is_some() {
             *feed = if skipped && *feed != Feed::Same { Feed::Lost } else { Feed::Same };
         } else if *feed != Feed::Same
-            && was.is_none_or(is_tap)
-            && modal.op(Group::Cycle).is_some_and(|op| !is_tap(op))
+            && was.is_none_or(Op::is_tap)
+            && modal.op(Group::Cycle).is_some_and(|op| !op.is_tap())
         {
             does = match (known, *feed) {
                 (Some(feed), _) => Does::Says(feed),
@@ -160,6 +159,5 @@ impl Kept {
 
 /// True for a block that moves where a modal call may be open.
 fn calls_by_moving(stmt: &Stmt, modal: &Modal) -> bool {
-    let open = modal.calls.as_ref().is_none_or(|calls| !calls.is_empty());
-    open && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis())
+    modal.may_call() && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis())
 }

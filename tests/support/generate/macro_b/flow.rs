@@ -104,6 +104,12 @@ impl Writer<'_> {
                 self.line("GOTO#119");
             }
         }
+        self.arms(arms, first, end);
+    }
+
+    /// The ways of a computed jump: ten numbers apart from the first, each goes on at the end.
+    pub(super) fn arms(&mut self, arms: &[Vec<Step>], first: u32, end: u32) {
+        let gap = self.gap;
         for (at, arm) in arms.iter().enumerate() {
             self.line(&format!("N{}", first + 10 * at as u32));
             self.steps(arm);

@@ -97,14 +97,7 @@ impl Writer<'_> {
             }
             _ => self.line(&format!("GOTO{gap}[{first}+10*[FIX[ABS[{name}]]{gap}AND{gap}1]]")),
         }
-        for (at, arm) in arms.iter().enumerate() {
-            self.line(&format!("N{}", first + 10 * at as u32));
-            self.steps(arm);
-            if at + 1 < arms.len() {
-                self.line(&format!("GOTO{gap}{end}"));
-            }
-        }
-        self.line(&format!("N{end}"));
+        self.arms(arms, first, end);
     }
 
     /// A computed call: of one of two subprograms, or of the program that circumstances name.
