@@ -14,7 +14,7 @@ mod shift;
 use super::Context;
 use super::banks::{all_numbers, each_index};
 use super::registers::Registers;
-use crate::canon::Sys;
+use crate::canon::{Pause, Running, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
 use crate::ir::analysis::{self, Ranges, Summaries, Values, values_at};
@@ -143,6 +143,15 @@ pub fn report(registers: &Registers, context: &mut Context<'_>) {
     }
 }
 
+/// True if a message of the target ends whatever one of the source is known to end. Where the number is computed, nothing
+/// can be written before it.
+fn stops_alike(source: &Control, target: &Control) -> bool {
+    Running::ALL.into_iter().all(|running| {
+        let [here, there] = [source, target].map(|control| control.ends(Pause::Message, running).answer);
+        here.is_none() || here == there
+    })
+}
+
 /// Numbers of axes repeat at this distance.
 const GAP: u32 = 20;
 
@@ -262,6 +271,7 @@ impl<'c> Numbers<'c> {
             match &here {
                 None if there.is_none() => None,
                 Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
+                Some(Meaning::State(Sys::StopMessage, _)) if !stops_alike(source, target) => Some(false),
                 Some(Meaning::State(..)) => {
                     Some(here == there && access(source).chars().all(|c| access(target).contains(c)))
                 }

@@ -50,10 +50,14 @@ fn ends(running: Running) -> (Group, Op) {
     }
 }
 
+/// One way has the spindle turning, and another one holds it.
+const LETS_GO: &str = "the M5 before this stop lets go of a spindle that an M19 holds: say M3 or M19 again where the program goes on";
+
 /// Ends before stops what the source ends at them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
     let (after, started) = (After::of(module, &facts), started(module));
+    let holds = Census::of(&module.programs).op(Op::SpindleOrient);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
@@ -64,6 +68,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 restarted: [false; 2],
                 skipped: false,
                 started: started[index],
+                holds,
                 after: &after,
             };
             let mut out = Vec::with_capacity(block.stmts.len());
@@ -183,6 +188,8 @@ struct Place<'p> {
     skipped: bool,
     /// Whether the program, or one that calls it or that it calls, starts it.
     started: [bool; 2],
+    /// True if some program of the library holds the spindle at an angle.
+    holds: bool,
     after: &'p After,
 }
 
@@ -219,6 +226,17 @@ impl Place<'_> {
             if here.answer == Some(true) && !(there.known && there.answer == Some(true)) {
                 let left = optional || pause == Pause::Change;
                 if !left {
+                    if running == Running::Spindle
+                        && self.holds
+                        && pause != Pause::End
+                        && self.state.op(Group::Spindle).is_none()
+                    {
+                        context.add_once(
+                            self.index,
+                            LETS_GO,
+                            Diagnostic::new(Code::Conditional, span, LETS_GO),
+                        );
+                    }
                     before.push(op);
                 } else if matters || (optional && running == Running::Spindle) {
                     self.tell(pause, there, span, context);

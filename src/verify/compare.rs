@@ -177,6 +177,7 @@ impl<'r> Pairs<'_, 'r> {
                         || may_do_so(act, others, side == 1)
                         || runs[side].is_told(&runs[1 - side], act)
                         || runs[side].lets_go(acts)
+                        || runs[side].stays_open(act)
                 })
             };
             let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());

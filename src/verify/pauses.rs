@@ -62,17 +62,24 @@ impl Runs {
         self.open[Running::Spindle as usize]
     }
 
-    /// True if the next act lets go of a spindle that is held at an angle, and the program ends then: it stands either way.
+    /// True for what nobody knows to run before and after, and what is said of it is what was said before: a cycle came
+    /// between.
+    pub fn stays_open(&self, act: &Act<'_>) -> bool {
+        let spindle = Running::Spindle as usize;
+        self.open[spindle] && act.event.open[spindle] && *act.what == self.spindle
+    }
+
+    /// True if the next act lets go of a spindle that is held at an angle, before a stop or the end: it stands either way,
+    /// and before the tool moves again the program says of the spindle what it does.
     pub fn lets_go(&self, acts: &[Act<'_>]) -> bool {
         let is_held = matches!(self.spindle, Happening::Spindle { direction: Spindle::Oriented, .. });
         let stops =
             |act: &Act<'_>| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. });
-        let ends = |acts: &[Act<'_>]| {
-            acts.iter()
-                .find(|act| runs(&act.what).is_none())
-                .is_some_and(|act| matches!(*act.what, Happening::End { .. }))
-        };
-        is_held && acts.split_first().is_some_and(|(act, rest)| stops(act) && ends(rest))
+        let Some((act, rest)) = acts.split_first() else { return false };
+        let rest: Vec<_> = rest.iter().filter(|act| runs(&act.what) != Some(Running::Coolant)).collect();
+        let pauses = rest.iter().take_while(|act| is_pause(&act.what)).count();
+        let says = rest.get(pauses).is_none_or(|act| runs(&act.what).is_some());
+        is_held && stops(act) && pauses > 0 && says
     }
 
     /// True if a change says what is known to run on the other side already, and may have run here.

@@ -90,3 +90,32 @@ fn what_an_end_stops_comes_after_what_was_started() {
     let first = found.witness.and_then(|witness| witness.source).map(|moment| moment.block);
     assert_eq!(first.as_deref(), Some("#3000=1(STOP)"));
 }
+
+/// A loop with an optional stop that one control is known to stop the spindle at: what is said of it there stays open.
+#[test]
+fn a_speed_behind_a_cycle_in_a_loop_starts_nothing() {
+    let text = |speed: &str| {
+        format!(
+            "O1\nG90G17G40G49G80G94G54\nS800M3\nG1F300.\n#20=0\nWHILE[#20LT3]DO1\n#21=0\nWHILE[#21LT2]DO2\n\
+             G99G86Z-4.9R2.F120.\nG80\n{speed}\n#21=#21+1\nEND2\nM1\n#20=#20+1\nEND1\nM30\n"
+        )
+    };
+    let found = |speed: &str| run("fanuc", &text("S500"), "haas", &text(speed), &[]).outcome;
+    assert_ne!(found("S500"), Outcome::Different);
+    assert_eq!(found("S400"), Outcome::Different);
+}
+
+/// The conversion stops what another way has turning; where M19 holds the spindle, the stop lets it go before an M0.
+#[test]
+fn a_stop_before_an_m0_lets_go_of_a_spindle_that_is_held() {
+    let text = "O1\nG21G90G17G54\nS800M3\nG1F300.X9.\nM19\n";
+    let found = |before: &str, after: &str| {
+        let source = format!("{text}M0\n{after}M30\n");
+        run("haas", &source, "fanuc", &format!("{text}{before}M0\n{after}M30\n"), &[]).outcome
+    };
+    assert_ne!(found("M5\n", ""), Outcome::Different);
+    assert_ne!(found("M5\n", "S900M3\nX5.\nM5\n"), Outcome::Different);
+    assert_eq!(found("M5\n", "G0X5.\n"), Outcome::Different);
+    assert_eq!(found("M3\n", "S900M3\nX5.\n"), Outcome::Different);
+    assert_eq!(found("M5\nG4P500\n", "S900M3\nX5.\n"), Outcome::Different);
+}
