@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Entry {
-    /// The selected work offset, by common number.
+    /// The selected work offset, by common number; 0 for none, or for the first where the control cannot cancel them.
     pub work: Option<u32>,
     /// The offset of the tool length that is added.
     pub length: Option<u32>,

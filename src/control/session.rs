@@ -130,8 +130,8 @@ impl<'r, 'f> Session<'r, 'f> {
         let file = found.map_or(0, |section| section.file);
         let number = self.programs.len() as u32;
         let modes = self.modes();
-        let lost_length = self.machine.lost_length();
-        self.programs.push(Program { file, name, modes, lost_length });
+        let (lost_length, no_offset) = (self.machine.lost_length(), self.machine.has_no_offset());
+        self.programs.push(Program { file, name, modes, lost_length, no_offset });
         self.numbers.insert(section, number);
         number
     }

@@ -84,6 +84,9 @@ pub struct Program {
     /// The offset of a tool length that was in force then, if a return or a machine move may have cancelled it.
     #[serde(skip)]
     pub lost_length: Option<u32>,
+    /// True if no work offset was selected then.
+    #[serde(skip)]
+    pub no_offset: bool,
 }
 
 /// Something that a run computed.

@@ -3,7 +3,7 @@
 use super::callers::{LOOKS, is_root, scenarios_in};
 use super::program::Job;
 use crate::canon::{Group, Op};
-use crate::control::{ProgramRef, Scenario};
+use crate::control::{ProgramRef, Scenario, trace};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most runs of a caller, where fewer do not come to all that its text calls.
@@ -17,6 +17,8 @@ pub struct Given {
     pub modes: Vec<Op>,
     /// The offset of a tool length in force that all of them come in with, if a return may have cancelled it.
     lost_length: Option<u32>,
+    /// True if all of them come in with no work offset.
+    no_offset: bool,
     /// The units that they come in, true for inch.
     units: BTreeSet<bool>,
     /// True once anything is known of it.
@@ -27,11 +29,12 @@ pub struct Given {
 
 impl Given {
     /// Takes in what another run gives.
-    fn add(&mut self, modes: &[Op], lost_length: Option<u32>) {
+    fn add(&mut self, modes: &[Op], lost_length: Option<u32>, no_offset: bool) {
         if !std::mem::replace(&mut self.any, true) {
-            (self.modes, self.lost_length) = (modes.to_vec(), lost_length);
+            (self.modes, self.lost_length, self.no_offset) = (modes.to_vec(), lost_length, no_offset);
         }
         self.lost_length = self.lost_length.filter(|number| lost_length == Some(*number));
+        self.no_offset &= no_offset;
         self.modes.retain(|op| modes.contains(op));
         self.units.extend(modes.iter().filter(|op| op.group() == Group::Units).map(|op| *op == Op::Inch));
     }
@@ -79,6 +82,9 @@ impl Given {
         if let Some(number) = self.lost_length {
             (scenario.entry.length, scenario.entry.length_lost) = (Some(number), true);
         }
+        if self.no_offset {
+            scenario.entry.work = Some(0);
+        }
     }
 }
 
@@ -97,15 +103,15 @@ pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
         let mut came: BTreeMap<ProgramRef, Given> = BTreeMap::new();
         for caller in &callers {
             let shown = gives(job, *caller, found.get(caller));
-            for (to, modes, lost_length) in shown.met {
+            for (to, ran) in shown.met {
                 if !found.contains_key(&to) {
-                    came.entry(to).or_default().add(&modes, lost_length);
+                    came.entry(to).or_default().add(&ran.modes, ran.lost_length, ran.no_offset);
                 }
             }
             for to in shown.missed {
                 let given =
                     ended.entry(to).or_insert_with(|| Given { never_come_to: true, ..Given::default() });
-                shown.ends.iter().for_each(|modes| given.add(modes, None));
+                shown.ends.iter().for_each(|modes| given.add(modes, None, false));
             }
         }
         gone.extend(callers);
@@ -129,8 +135,8 @@ pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
 /// What the runs of a caller show of what it calls.
 #[derive(Default)]
 struct Shown {
-    /// The programs that they come to, what is in force there, and the offset of a length that may be lost.
-    met: Vec<(ProgramRef, Vec<Op>, Option<u32>)>,
+    /// The programs that they come to, and what is in force there.
+    met: Vec<(ProgramRef, trace::Program)>,
     /// Those that its text calls and no run comes to.
     missed: BTreeSet<ProgramRef>,
     /// What is in force where they end.
@@ -148,7 +154,7 @@ fn gives(job: &Job<'_>, caller: ProgramRef, given: Option<&Given>) -> Shown {
         }
         for (to, ran) in links.entries(&run).into_iter().filter(|(to, _)| *to != caller) {
             shown.missed.remove(&to);
-            shown.met.push((to, ran.modes.clone(), ran.lost_length));
+            shown.met.push((to, ran.clone()));
         }
         shown.ends.push(run.modes);
     }

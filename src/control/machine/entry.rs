@@ -30,7 +30,8 @@ impl Machine {
 
     /// Starts with what an earlier program left in force.
     pub(super) fn enter(&mut self, entry: &Entry) {
-        self.select(entry.work.unwrap_or(1));
+        let cancels = self.rules.cancels_offsets;
+        self.select(entry.work.filter(|number| *number > 0 || cancels).unwrap_or(1));
         self.feed = entry.feed.unwrap_or(self.feed);
         if let Some(speed) = entry.spindle {
             (self.spindle, self.speed) = (Spindle::CounterClockwise, speed);
@@ -77,7 +78,7 @@ impl Machine {
         };
         let (direction, speed, surface) = (self.spindle, self.speed, self.surface_speed);
         let told = [
-            entry.work.map(|number| Happening::WorkOffset { number }),
+            entry.work.map(|_| Happening::WorkOffset { number: self.frame.number }),
             entry.length.map(|offset| Happening::ToolLength { offset, value: self.length_value() }),
             entry.cutter.map(|_| cutter()),
             entry.spindle.map(|_| Happening::Spindle { direction, speed, surface }),

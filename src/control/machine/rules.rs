@@ -1,8 +1,9 @@
 //! The facts of a control that the machine acts by, read once.
 
-use crate::canon::{Auxiliary, Pause, Running, Sys};
+use crate::canon::{Auxiliary, Op, Pause, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine};
+use std::collections::BTreeMap;
 
 /// A fact: the answer acted by, and its name where nobody confirmed it.
 #[derive(Clone, Debug)]
@@ -88,6 +89,8 @@ pub struct Rules {
     late: [Fact<bool>; Auxiliary::ALL.len()],
     /// Whether each kind of stop ends spindle and coolant, and whether that is known.
     ends: [[(Option<bool>, bool); Running::ALL.len()]; Pause::ALL.len()],
+    /// True if a code cancels all zero shifts, or a word that selects them takes 0 for none.
+    pub cancels_offsets: bool,
     pub negative_radius_is_long: Fact<bool>,
     pub positive_radius_is_short: Fact<bool>,
     pub no_centre: Fact<NoCentre>,
@@ -164,6 +167,8 @@ impl Rules {
                     (ends.answer, ends.known)
                 })
             }),
+            cancels_offsets: control.code_for(Op::ShiftCancel, &BTreeMap::new()).is_some()
+                || control.word_for(Op::SelectWork).is_some(),
             positive_radius_is_short: fact(control, "arc.radius.positive", word("short", "long"), plus),
             negative_radius_is_long: negative_is_long,
             no_centre: fact(control, "arc.without.centre", no_centre, NoCentre::Alarm),

@@ -144,6 +144,11 @@ impl Machine {
         self.frame.work = self.work_offsets.get(&number).copied().unwrap_or([0.0; AXES]);
     }
 
+    /// True if all zero shifts are cancelled.
+    pub fn has_no_offset(&self) -> bool {
+        self.frame.number == 0
+    }
+
     /// The axis words of a block, lengths in millimetres.
     pub(super) fn named_axes(&self, command: &Command) -> Vec<(usize, f64)> {
         let unit = |axis| if super::command::is_rotary(axis) { 1.0 } else { self.unit() };

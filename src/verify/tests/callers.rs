@@ -300,3 +300,22 @@ fn each_side_is_begun_as_its_own_callers_do() {
     assert!(why.contains("in motion.arc.cw on the source and in motion.linear on the target"), "{why}");
     assert_eq!(judged("2.").0, Different);
 }
+
+/// The callers of a program have cancelled all zero shifts, and the target, which cannot, moves in machine coordinates.
+#[test]
+fn a_called_program_finds_no_offset_if_its_callers_have_none() {
+    let found = |zero: &str, there: &str| {
+        let source = format!(
+            "O1\nG0G90G17G40G49G80{zero}\nG20\nX0Y0\nM98P2\nM98P3\nM2\nO2\nG0Z+R7\nM99\nO3\nG0Z1.\nM99\n"
+        );
+        let target = format!(
+            "O1\nIF[#550EQ#0]THEN#550=0\nG20\nG0G90G17G40G49G80G54\n{there}X0.Y0.\nM98P2\nM98P3\nM2\nO2\nG0{there}Z#550\nM99\nO3\nG0{there}Z1.\nM99\n"
+        );
+        let all = programs(("fadal", &source), ("fanuc", &target), &[("R7", 550)]);
+        all.into_iter().map(|program| program.outcome == Outcome::Different).collect::<Vec<_>>()
+    };
+    assert_eq!(found("E0", "G53"), [false; 3]);
+    assert_eq!(found("E1", ""), [false; 3]);
+    assert_eq!(found("E0", ""), [true; 3]);
+    assert_eq!(found("E1", "G53"), [true; 3]);
+}
