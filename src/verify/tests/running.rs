@@ -89,6 +89,11 @@ fn what_an_end_stops_comes_after_what_was_started() {
     assert_eq!(found.outcome, Outcome::Different);
     let first = found.witness.and_then(|witness| witness.source).map(|moment| moment.block);
     assert_eq!(first.as_deref(), Some("#3000=1(STOP)"));
+    let text = format!("{text}X5.\nM9\n");
+    let found =
+        |end: &str| run("haas", &format!("{text}M30\n"), "fanuc", &format!("{text}{end}"), &[]).outcome;
+    assert_ne!(found("M5\nM30\n"), Outcome::Different);
+    assert_eq!(found("M3\nM30\n"), Outcome::Different);
 }
 
 /// A loop with an optional stop that one control is known to stop the spindle at: what is said of it there stays open.
