@@ -2,7 +2,7 @@
 
 use super::Part;
 use crate::diag::{ALL, Severity};
-use crate::text::json_pretty;
+use crate::text::{CodePoints, json_pretty};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -30,7 +30,10 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
                 "version": env!("CARGO_PKG_VERSION"),
                 "rules": rules,
             }},
+            // Columns count what a reader sees that takes every file for UTF-8, and lines end as controls end them.
             "columnKind": "unicodeCodePoints",
+            "defaultEncoding": "UTF-8",
+            "newlineSequences": ["\r\n", "\n", "\r"],
             "results": results,
         }],
     });
@@ -38,12 +41,11 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
 }
 
 fn results(part: &Part<'_>) -> Vec<Value> {
-    let indexes = part.indexes();
+    let indexes: Vec<CodePoints> = part.inputs.iter().map(|input| CodePoints::new(&input.bytes)).collect();
     let findings =
         part.conversion.programs.iter().flat_map(|p| p.diagnostics.iter().map(move |d| (p.file, d)));
     let results = findings.map(|(file, d)| {
-        let (line, column) = indexes[file].place(d.span.start);
-        let (end_line, end_column) = indexes[file].place(d.span.end.max(d.span.start));
+        let [(line, column), (end_line, end_column)] = indexes[file].region(d.span);
         json!({
             "ruleId": d.code.number(),
             "ruleIndex": ALL.iter().position(|code| *code == d.code),

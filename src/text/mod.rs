@@ -5,12 +5,14 @@
 //! of comments and messages, where a person reads it ([`decode`]): every
 //! position in the project is a byte offset into the file ([`Span`]).
 
+mod columns;
 mod json;
 mod letters;
 mod lines;
 mod shown;
 mod span;
 
+pub use columns::CodePoints;
 pub use json::{json, json_pretty, write_json, write_json_pretty};
 pub use letters::{decode, likeness};
 pub use lines::{Line, Lines, MAX_FILE};

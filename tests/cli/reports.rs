@@ -81,6 +81,27 @@ fn sarif_is_complete() {
     serde_json::from_value::<serde_sarif::sarif::Sarif>(log).unwrap();
 }
 
+/// Columns count code points as the file says; a byte that is no letter of UTF-8 is one, as viewers show it.
+#[test]
+fn sarif_counts_code_points() {
+    let shop = Shop::empty();
+    shop.write(
+        "in/b.nc",
+        b"\xEF\xBB\xBF%\nO1\rG20 G17 G90 G40 G80 G94\r\n(T\xC3\x9CR \xE6\x97\xA5 \xDC) M38\rM30\n",
+    );
+    let run = convert(&shop, "--format sarif");
+    let log: Value = serde_json::from_str(&run.out).unwrap();
+    let run = &log["runs"][0];
+    assert_eq!((&run["columnKind"], &run["defaultEncoding"]), (&"unicodeCodePoints".into(), &"UTF-8".into()));
+    assert_eq!(run["newlineSequences"], serde_json::json!(["\r\n", "\n", "\r"]));
+    let found = |result: &&Value| result["message"]["text"].as_str().unwrap().contains("M38");
+    let result = run["results"].as_array().unwrap().iter().find(found).unwrap();
+    // In front of M38: bracket, T, Ü, R, blank, 日, blank, the wrong byte, bracket, blank.
+    let region = serde_json::json!({"startLine": 4, "startColumn": 11, "endLine": 4, "endColumn": 14});
+    assert_eq!(result["locations"][0]["physicalLocation"]["region"], region);
+    serde_json::from_value::<serde_sarif::sarif::Sarif>(log).unwrap();
+}
+
 #[test]
 fn reports_for_people_show_each_program_with_its_lines() {
     let shop = shop();
