@@ -6,6 +6,7 @@ mod commands;
 mod files;
 mod help;
 mod inputs;
+mod interrupted;
 mod outputs;
 mod profiles;
 mod project;

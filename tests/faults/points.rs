@@ -86,6 +86,34 @@ fn at_each_change() {
     }
 }
 
+/// The next run may spell the folder in another way, and the report's place in it.
+#[test]
+fn at_each_change_by_another_path() {
+    const NEXT: &str = "convert in --from fanuc --to haas --out out --report out/r.json";
+    let before = changed(&mut Draw(2), 3);
+    let shop = Shop::with(&before);
+    let code = shop.run(NEXT, "").code;
+    let mut after = shop.files();
+    after.remove("out/r.json");
+    for at in 1.. {
+        let shop = Shop::with(&before);
+        let whole = shop.path("").join("out").display().to_string();
+        let run = shop.run(
+            &NEXT.replace("--out out", &format!("--out {whole}")).replace("out/r", &format!("{whole}/r")),
+            &format!("kill:{at}"),
+        );
+        let next = shop.run(NEXT, "");
+        assert_eq!(next.code, code, "{at}: {}", next.err);
+        let mut ended = shop.files();
+        assert!(ended.remove("out/r.json").is_some());
+        assert!(ended == after, "{at}: {:?}", parted(&ended, &after));
+        if run.code.is_some() {
+            assert!(at > 15, "{at} points");
+            break;
+        }
+    }
+}
+
 #[test]
 fn at_random_points_of_random_libraries() {
     let wanted: usize =

@@ -49,13 +49,19 @@ pub fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes a folder and what is in it; one that is not there is removed already.
-pub fn remove_folder(path: &Path) -> io::Result<()> {
+/// Removes a folder and the files in it, `last` after the others; one that is not there is removed already.
+pub fn remove_folder(path: &Path, last: &str) -> io::Result<()> {
     change(Takes::None)?;
-    match fs::remove_dir_all(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
+    let is_gone = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
+    let found = match fs::read_dir(path) {
+        Err(error) if is_gone(&error) => return Ok(()),
+        found => found?.collect::<io::Result<Vec<_>>>()?,
+    };
+    let others = found.iter().filter(|file| file.file_name() != last).map(fs::DirEntry::path);
+    for file in others.chain([path.join(last)]) {
+        fs::remove_file(file).or_else(|error| if is_gone(&error) { Ok(()) } else { Err(error) })?;
     }
+    fs::remove_dir(path)
 }
 
 /// Puts what a folder holds on the disk: the names, not the files.

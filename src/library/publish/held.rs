@@ -1,6 +1,6 @@
 //! An output folder while one run has it for itself.
 
-use super::{OutputError, disk, journal};
+use super::{OutputError, disk, recover};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ impl Held {
                 break lock;
             }
         };
-        let recovered = journal::recover(folder).map_err(fault)?;
+        let recovered = recover::recover(folder)?;
         Ok((Self { folder: folder.to_owned(), _lock: lock }, recovered))
     }
 

@@ -6,48 +6,47 @@
 //! journal has its name has changed nothing; one that is ended after it is finished by the next. A step that fails turns
 //! the journal round: what was done is undone, and that too may be done twice.
 
-use super::super::outputs::leads_out;
+use super::super::outputs::{leads_out, read_file};
 use super::{Change, OutputError, disk};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
 /// What an output folder holds of a run that is under way.
-const FOLDER: &str = ".macroglot";
+pub(super) const FOLDER: &str = ".macroglot";
 /// The steps of a set that stands ready.
-const JOURNAL: &str = "journal";
+pub(super) const JOURNAL: &str = "journal";
 /// The steps of a set that is being undone.
-const BACK: &str = "back";
+pub(super) const BACK: &str = "back";
 /// The steps of a set that is in its place.
-const DONE: &str = "done";
+pub(super) const DONE: &str = "done";
 /// Files that were written elsewhere: reports have their place where the user wants them.
-const OUTSIDE: &str = "outside";
+pub(super) const OUTSIDE: &str = "outside";
+/// One of these files while it is written.
+pub(super) const READY: &str = "ready";
+/// How the names begin of new files, and of second names of files that were there.
+pub(super) const NUMBERED: [&str; 2] = ["new-", "old-"];
 /// How the names begin of files that are written beside their place.
 const STAGED: &str = ".macroglot-";
 
 #[derive(Serialize, Deserialize)]
-struct Journal {
-    steps: Vec<Step>,
+pub(super) struct Journal {
+    pub(super) steps: Vec<Step>,
 }
 
 /// One step. Paths count from the output folder.
 #[derive(Serialize, Deserialize)]
-struct Step {
+pub(super) struct Step {
     /// Where something changes.
-    place: PathBuf,
+    pub(super) place: PathBuf,
     /// The new file, which goes there; none for one that is removed.
-    new: Option<PathBuf>,
+    pub(super) new: Option<PathBuf>,
     /// A second name of the file that was there.
-    old: Option<PathBuf>,
+    pub(super) old: Option<PathBuf>,
     /// Where that file goes for good.
-    aside: Option<PathBuf>,
-}
-
-/// True if a run into this folder did not come to its end.
-pub fn is_pending(folder: &Path) -> bool {
-    folder.join(FOLDER).exists()
+    pub(super) aside: Option<PathBuf>,
 }
 
 /// Publishes a set.
@@ -60,14 +59,16 @@ pub fn publish(folder: &Path, changes: &[Change<'_>]) -> Result<(), OutputError>
             return Err(error);
         }
     };
-    let commit = work.join(JOURNAL);
     let fault = |error| OutputError::Unwritable(folder.to_owned(), error);
-    if let Err(error) = name_journal(&work, &journal, &commit) {
+    // The moment at which the set is published.
+    let text = serde_json::to_vec(&journal).map_err(io::Error::from);
+    if let Err(error) = text.and_then(|text| name_whole(&work, JOURNAL, &text)) {
         let _ = take_back(folder);
         return Err(fault(error));
     }
     if let Err((place, error)) = apply(folder, &journal) {
-        let undone = disk::rename(&commit, &work.join(BACK)).and_then(|()| undo(folder, &journal));
+        let undone =
+            disk::rename(&work.join(JOURNAL), &work.join(BACK)).and_then(|()| undo(folder, &journal));
         return Err(match undone {
             Ok(()) => OutputError::Unwritable(place, error),
             Err(again) => OutputError::HalfWay(folder.to_owned(), error, again),
@@ -76,65 +77,15 @@ pub fn publish(folder: &Path, changes: &[Change<'_>]) -> Result<(), OutputError>
     finish(folder, &journal).map_err(fault)
 }
 
-/// Brings a folder to the end of the last run into it, or to its beginning.
-pub fn recover(folder: &Path) -> io::Result<super::Recovered> {
-    let work = folder.join(FOLDER);
-    if !work.exists() {
-        return Ok(super::Recovered::Nothing);
-    }
-    let read = |name: &str| match fs::read(work.join(name)) {
-        Ok(bytes) => serde_json::from_slice::<Journal>(&bytes).map(Some).map_err(io::Error::other),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error),
-    };
-    if let Some(mut journal) = read(BACK)? {
-        check(folder, &journal)?;
-        // Nothing shows that an old text belongs to a place elsewhere, so only this folder is brought back.
-        journal.steps.retain(|step| is_inside(folder, &step.place));
-        undo(folder, &journal)?;
-        return Ok(super::Recovered::TakenBack);
-    }
-    if let Some(journal) = read(JOURNAL)? {
-        check(folder, &journal)?;
-        apply(folder, &journal).map_err(|(_, error)| error)?;
-        finish(folder, &journal)?;
-        return Ok(super::Recovered::Finished);
-    }
-    let is_done = work.join(DONE).exists();
-    take_back(folder)?;
-    Ok(if is_done { super::Recovered::Finished } else { super::Recovered::TakenBack })
-}
-
-/// A journal that somebody else wrote, or brought here with the folder, changes nothing elsewhere.
-fn check(folder: &Path, journal: &Journal) -> io::Result<()> {
-    let is_ours = |step: &Step| {
-        let paths = || [&step.new, &step.old, &step.aside].into_iter().flatten();
-        if is_inside(folder, &step.place) {
-            return paths().all(|path| is_inside(folder, path));
-        }
-        // A report: its new text lies beside it, and its old one in this folder.
-        let at = |path: &Path| folder.join(path).parent().map(Path::to_owned);
-        let is_beside = |new: &PathBuf| is_staged(new) && at(new) == at(&step.place);
-        step.new.as_ref().is_some_and(is_beside) && paths().skip(1).all(|path| is_inside(folder, path))
-    };
-    match journal.steps.iter().find(|step| !is_ours(step)) {
-        None => Ok(()),
-        Some(step) => Err(io::Error::other(format!(
-            "`{FOLDER}` in it names {}, as no run of macroglot does; look at it, and delete it",
-            step.place.display()
-        ))),
-    }
-}
-
 /// True if a path, from the folder or whole, is one in it: by its name, and by the links on the way.
-fn is_inside(folder: &Path, path: &Path) -> bool {
+pub(super) fn is_inside(folder: &Path, path: &Path) -> bool {
     let place = folder.join(path);
     let is_plain = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
-    place.strip_prefix(folder).is_ok_and(is_plain) && !leads_out(folder, &place)
+    place != folder && place.strip_prefix(folder).is_ok_and(is_plain) && !leads_out(folder, &place)
 }
 
 /// True if a file has a name that only a new file has which is written beside its place.
-fn is_staged(path: &Path) -> bool {
+pub(super) fn is_staged(path: &Path) -> bool {
     path.file_name().and_then(|name| name.to_str()).is_some_and(|name| name.starts_with(STAGED))
 }
 
@@ -145,8 +96,7 @@ fn stage(folder: &Path, work: &Path, changes: &[Change<'_>]) -> Result<Journal, 
     let outside = outside(folder, changes);
     if !outside.is_empty() {
         let names = serde_json::to_vec(&outside).map_err(|error| fault(folder, error.into()))?;
-        let list = disk::create(&work.join(OUTSIDE), &names).and_then(|file| file.sync_all());
-        list.map_err(|error| fault(folder, error))?;
+        name_whole(work, OUTSIDE, &names).map_err(|error| fault(folder, error))?;
     }
     let (mut steps, mut files) = (Vec::with_capacity(changes.len()), Vec::new());
     for (at, change) in changes.iter().enumerate() {
@@ -166,27 +116,27 @@ fn stage(folder: &Path, work: &Path, changes: &[Change<'_>]) -> Result<Journal, 
         };
         let mut old = None;
         if fs::symlink_metadata(&place).is_ok() {
-            let beside = work.join(format!("old-{at}"));
+            let beside = work.join(format!("{}{at}", NUMBERED[1]));
             disk::keep(&place, &beside).map_err(fault)?;
             old = Some(beside);
         }
-        let named = |path: PathBuf| path.strip_prefix(folder).map(Path::to_owned).unwrap_or(path);
-        let step = Step {
-            place: change.place.clone(),
-            new: new.map(named),
-            old: old.map(named),
-            aside: change.aside.clone(),
-        };
-        steps.push(step);
+        let named = |path: PathBuf| from(folder, path);
+        let aside = change.aside.clone();
+        steps.push(Step { place: named(place), new: new.map(named), old: old.map(named), aside });
     }
     super::sync::sync(&files)?;
     Ok(Journal { steps })
 }
 
+/// A path as it counts from a folder, if it is one in it: the next run may spell the folder otherwise.
+fn from(folder: &Path, path: PathBuf) -> PathBuf {
+    path.strip_prefix(folder).map(Path::to_owned).unwrap_or(path)
+}
+
 /// Where a new file is written first: in the output folder, or beside a place that lies elsewhere.
 fn staged(folder: &Path, place: &Path, at: usize) -> PathBuf {
     match is_inside(folder, place) {
-        true => folder.join(FOLDER).join(format!("new-{at}")),
+        true => folder.join(FOLDER).join(format!("{}{at}", NUMBERED[0])),
         false => place.with_file_name(format!("{STAGED}{}-{at}", std::process::id())),
     }
 }
@@ -194,19 +144,19 @@ fn staged(folder: &Path, place: &Path, at: usize) -> PathBuf {
 fn outside(folder: &Path, changes: &[Change<'_>]) -> Vec<PathBuf> {
     let places = changes.iter().enumerate().filter(|(_, change)| change.bytes.is_some());
     let staged = places.map(|(at, change)| staged(folder, &folder.join(&change.place), at));
-    staged.filter(|path| is_staged(path)).collect()
+    staged.filter(|path| is_staged(path)).map(|path| from(folder, path)).collect()
 }
 
-/// Gives the journal its name: the moment at which the set is published.
-fn name_journal(work: &Path, journal: &Journal, commit: &Path) -> io::Result<()> {
-    let ready = work.join("ready");
-    disk::create(&ready, &serde_json::to_vec(journal)?)?.sync_all()?;
-    disk::rename(&ready, commit)?;
+/// Writes a file under another name, and gives it its own when it is whole and on the disk.
+fn name_whole(work: &Path, name: &str, bytes: &[u8]) -> io::Result<()> {
+    let ready = work.join(READY);
+    disk::create(&ready, bytes)?.sync_all()?;
+    disk::rename(&ready, &work.join(name))?;
     disk::sync_names(work)
 }
 
 /// Does every step that is not done.
-fn apply(folder: &Path, journal: &Journal) -> Result<(), (PathBuf, io::Error)> {
+pub(super) fn apply(folder: &Path, journal: &Journal) -> Result<(), (PathBuf, io::Error)> {
     for step in &journal.steps {
         let place = folder.join(&step.place);
         step_forward(folder, step, &place).map_err(|error| (place, error))?;
@@ -237,7 +187,7 @@ fn step_forward(folder: &Path, step: &Step, place: &Path) -> io::Result<()> {
 }
 
 /// Undoes every step: what was there is there again.
-fn undo(folder: &Path, journal: &Journal) -> io::Result<()> {
+pub(super) fn undo(folder: &Path, journal: &Journal) -> io::Result<()> {
     for step in &journal.steps {
         let place = folder.join(&step.place);
         match step.old.as_ref().map(|old| folder.join(old)) {
@@ -255,12 +205,12 @@ fn undo(folder: &Path, journal: &Journal) -> io::Result<()> {
 }
 
 /// Puts the new names on the disk, and forgets how they came there.
-fn finish(folder: &Path, journal: &Journal) -> io::Result<()> {
+pub(super) fn finish(folder: &Path, journal: &Journal) -> io::Result<()> {
     sync_places(folder, journal)?;
     let work = folder.join(FOLDER);
     // From here on the rest is rubbish.
     disk::rename(&work.join(JOURNAL), &work.join(DONE))?;
-    disk::remove_folder(&work)
+    disk::remove_folder(&work, DONE)
 }
 
 fn sync_places(folder: &Path, journal: &Journal) -> io::Result<()> {
@@ -270,12 +220,15 @@ fn sync_places(folder: &Path, journal: &Journal) -> io::Result<()> {
 }
 
 /// Removes what was written aside.
-fn take_back(folder: &Path) -> io::Result<()> {
+pub(super) fn take_back(folder: &Path) -> io::Result<()> {
     let work = folder.join(FOLDER);
-    if let Ok(file) = File::open(work.join(OUTSIDE)) {
-        let outside: Vec<PathBuf> = serde_json::from_reader(io::BufReader::new(file)).unwrap_or_default();
+    if let Ok(bytes) = read_file(&work.join(OUTSIDE)) {
+        let outside: Vec<PathBuf> = serde_json::from_slice(&bytes).unwrap_or_default();
         // A list that somebody else wrote removes nothing of theirs.
-        outside.iter().filter(|path| is_staged(path)).try_for_each(|path| disk::remove(path))?;
+        outside
+            .iter()
+            .filter(|path| is_staged(path))
+            .try_for_each(|path| disk::remove(&folder.join(path)))?;
     }
-    disk::remove_folder(&work)
+    disk::remove_folder(&work, DONE)
 }

@@ -2,6 +2,7 @@
 //!
 //! - `held`: one run at a time.
 //! - `journal`: a set of files becomes visible together, or not at all.
+//! - `recover`: what an interrupted run left is finished or taken back.
 //! - `manifest`: which files macroglot wrote, so that a later run knows what is stale and what a person changed.
 //! - `changes`: what a run replaces, takes away and leaves.
 
@@ -10,12 +11,13 @@ mod disk;
 mod held;
 mod journal;
 mod manifest;
+mod recover;
 mod sync;
 
 pub use changes::{Told, Wanted, changes};
 pub use held::{Held, Recovered, abandon};
-pub use journal::is_pending;
 pub use manifest::{Kind, Manifest, ManifestError};
+pub use recover::is_pending;
 
 use std::borrow::Cow;
 use std::fs;
@@ -51,6 +53,11 @@ pub enum OutputError {
     /// A file that nobody may change.
     #[error("{0}: is read-only; nothing was written. Say --force to replace it")]
     ReadOnly(PathBuf),
+    /// What an interrupted run left, and what is wrong with it; the folder of that run.
+    #[error(
+        "{0}: {1}; nothing was written. A run was interrupted here, so the files beside {2} may be partly new and partly old, and what it is to mend them by is damaged. Move {2} elsewhere (its files old-0, old-1 and so on are texts that were there before) and run the same again"
+    )]
+    Unrecovered(PathBuf, String, PathBuf),
     /// A set that is half in its place, and could not be taken back.
     #[error(
         "{0}: could not be written ({1}), nor brought back to what it was ({2}). Mend that and run the same again: it begins with that"
