@@ -244,7 +244,7 @@ pub const PASSES: &[Pass] = &[
     },
     Pass {
         name: "position-length",
-        concerns: |c, _| c.has(Thing::System),
+        concerns: |c, _| c.has(Thing::System) || c.has(Thing::Indirect),
         run: Rewrites(position_length::run),
     },
     Pass { name: "tool-word", concerns: |c, _| c.has(Thing::System), run: Reports(tool_word::run) },

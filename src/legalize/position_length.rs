@@ -4,15 +4,20 @@
 //! own; so one is the other with that variable added or taken away. Where no length can be in force nothing is asked.
 //! Where it ends: a position of an axis that is computed.
 
+use super::computed_numbers::constant_part;
 use super::{Context, ModalFacts, Setting, rewrite_program};
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BinOp, BlockId, Expr, Module, Program, TermKind};
+use crate::ir::eval::whole;
+use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Program, TermKind};
 use crate::text::Span;
 
-const FACT: &str = "position.length";
-const Z: f64 = 3.0;
+/// Whether positions hold the tool length.
+pub(super) const FACT: &str = "position.length";
+/// The axis of the length.
+pub(super) const DEPTH: u32 = 3;
+const Z: f64 = DEPTH as f64;
 
 /// Adds the length to positions, or takes it away.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -25,7 +30,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let added = |row: Option<(bool, bool)>| row.is_some_and(|(added, _)| added);
     let facts = ModalFacts::of(module, &context.entry);
     for index in 0..module.programs.len() {
-        let Some((span, computed)) = reads(&module.programs[index], index, &facts) else { continue };
+        let Some((span, computed)) = reads(&module.programs[index], index, &facts, context.source) else {
+            continue;
+        };
         context.rests_on_source(index, span, FACT);
         context.rests_on_target(index, span, FACT);
         let op = match (added(ours), added(theirs)) {
@@ -50,7 +57,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 /// Where a program first reads a position along the axis of the length while one may be in force, and where it reads one
 /// of a computed axis.
-fn reads(program: &Program, index: usize, facts: &ModalFacts) -> Option<(Span, Option<Span>)> {
+fn reads(
+    program: &Program,
+    index: usize,
+    facts: &ModalFacts,
+    source: &Control,
+) -> Option<(Span, Option<Span>)> {
     let ends = program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::End { .. }));
     let (mut depth, mut computed) = (None, None);
     for (at, block) in program.blocks.iter().enumerate() {
@@ -60,7 +72,7 @@ fn reads(program: &Program, index: usize, facts: &ModalFacts) -> Option<(Span, O
                 if off {
                 } else if is_depth(e) {
                     depth.get_or_insert(span);
-                } else if is_computed(e) {
+                } else if is_computed(e, source) {
                     computed.get_or_insert(span);
                 }
             });
@@ -84,9 +96,14 @@ fn is_off(length: Setting, main: bool) -> bool {
     }
 }
 
+/// The states that tell where an axis is.
+pub(super) const fn is_position(state: Sys) -> bool {
+    matches!(state, Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition)
+}
+
 fn position(e: &Expr) -> Option<&Expr> {
     match e {
-        Expr::System(Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition, axis) => axis.first(),
+        Expr::System(state, axis) if is_position(*state) => axis.first(),
         _ => None,
     }
 }
@@ -95,6 +112,12 @@ fn is_depth(e: &Expr) -> bool {
     position(e).and_then(Expr::constant) == Some(Z)
 }
 
-fn is_computed(e: &Expr) -> bool {
-    position(e).is_some_and(|axis| axis.constant().is_none())
+/// True for a position of a computed axis; people count axes from 1, so `#[5040+#1]` is one.
+fn is_computed(e: &Expr, source: &Control) -> bool {
+    let Expr::Indirect(Bank::Numbered, number) = e else {
+        return position(e).is_some_and(|axis| axis.constant().is_none());
+    };
+    let start = constant_part(number).and_then(whole);
+    let first = start.and_then(|start| source.read_system("#", Some(start.saturating_add(1))));
+    first.is_some_and(|(state, ..)| is_position(state))
 }

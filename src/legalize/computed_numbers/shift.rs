@@ -5,7 +5,7 @@ use super::{Finding, Numbers};
 use crate::ir::{Bank, BinOp, Expr, Place, Program, StmtKind};
 
 /// The sum of the constants that are added up in a number.
-pub(super) fn constant_part(number: &Expr) -> Option<f64> {
+pub fn constant_part(number: &Expr) -> Option<f64> {
     match number {
         Expr::Number(value) => Some(*value),
         Expr::Binary(op @ (BinOp::Add | BinOp::Sub), operands) => {
