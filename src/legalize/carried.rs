@@ -1,7 +1,12 @@
-//! Locals that one run of a macro leaves for the next one under the same modal call.
+//! What changes while a modal call is open: locals that one run of its macro leaves for the next one, and variables that
+//! its arguments read.
 
+use super::computed_numbers::constant_part;
+use super::rewrite::{Part, highest_temp, rebuild};
 use crate::ir::analysis::Cfg;
-use crate::ir::{Block, Callee, Class, Expr, Module, Place, Program, TermKind, Var};
+use crate::ir::{
+    Bank, Block, Call, Callee, Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var,
+};
 use crate::syntax::ProgramName;
 use std::collections::BTreeSet;
 
@@ -17,7 +22,7 @@ pub fn local(module: &Module, name: &ProgramName) -> Option<u32> {
     let mut shared = BTreeSet::from([name]);
     let mut work = vec![program];
     while let Some(one) = work.pop() {
-        written.extend(one.blocks.iter().flat_map(writes));
+        written.extend(one.blocks.iter().flat_map(may_write));
         for block in &one.blocks {
             if let TermKind::Call { call, .. } = &block.term.kind
                 && let Callee::Program(name) = &call.callee
@@ -32,6 +37,91 @@ pub fn local(module: &Module, name: &ProgramName) -> Option<u32> {
     let mut read: Locals = of_others.flat_map(|other| other.blocks.iter().flat_map(reads)).collect();
     read.extend(early(program));
     read.intersection(&written).next().copied()
+}
+
+/// An argument of an open modal call that a write to this place may change.
+pub fn argument(call: &Call, place: &Place) -> Option<Var> {
+    call.arguments.iter().find_map(|argument| {
+        let mut found = None;
+        argument.value.variables(&mut |var| {
+            let hit = match place {
+                Place::Var(target) => *target == var,
+                Place::Indirect(bank, number) => {
+                    *bank == Bank::Numbered
+                        && var.class != Class::Temp
+                        && (var.class != Class::Local || is_low(number))
+                }
+                _ => false,
+            };
+            found = found.or(hit.then_some(var));
+        });
+        found
+    })
+}
+
+/// An argument of a modal call that the macro, or what that calls, may change; its locals are its own.
+pub fn changed_by_callee(module: &Module, call: &Call) -> Option<Var> {
+    let Callee::Program(name) = &call.callee else { return None };
+    let mut seen = BTreeSet::from([name]);
+    let mut work: Vec<&Program> = find(module, name).into_iter().collect();
+    while let Some(program) = work.pop() {
+        for block in &program.blocks {
+            let places = block.stmts.iter().filter_map(|stmt| stmt.kind.target());
+            let shared = |var: &Var| !call.level || var.class.shared();
+            if let Some(var) = places.filter_map(|place| argument(call, place)).find(shared) {
+                return Some(var);
+            }
+            for inner in super::calls_of(block) {
+                if let Callee::Program(name) = &inner.callee
+                    && seen.insert(name)
+                {
+                    work.extend(find(module, name));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// True where the arguments of a call mean another thing in a program that it runs under.
+pub fn reads_locals(call: &Call) -> bool {
+    let mut found = false;
+    for argument in &call.arguments {
+        argument.value.walk(&mut |e| {
+            found |=
+                matches!(e, Expr::Indirect(..) | Expr::Var(Var { class: Class::Local | Class::Temp, .. }));
+        });
+    }
+    found
+}
+
+/// True for a value that a temporary can keep: those are never vacant.
+fn is_held(value: &Expr) -> bool {
+    value.constant().is_none() && !value.may_be_vacant()
+}
+
+/// Computes the arguments of modal calls where those are opened.
+pub fn hold_arguments(program: &mut Program) {
+    let computed = |call: &Call| call.arguments.iter().any(|argument| is_held(&argument.value));
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    if !stmts.any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call))) {
+        return;
+    }
+    let mut temp = highest_temp(program);
+    rebuild(program, &mut |builder, mut part| {
+        if let Part::Stmt(stmt) = &mut part
+            && let StmtKind::ModalCall(call) = &mut stmt.kind
+        {
+            for argument in call.arguments.iter_mut().filter(|a| is_held(&a.value)) {
+                temp += 1;
+                let var = Var { class: Class::Temp, number: temp };
+                let value = std::mem::replace(&mut argument.value, Expr::Var(var));
+                let site = Site { skip: stmt.site.skip, ..Site::default() };
+                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site);
+            }
+        }
+        part.keep(builder);
+    });
 }
 
 /// True where a local of a program may be set in it, or in what runs at its level.
@@ -87,6 +177,27 @@ fn written(place: &Place) -> Option<u32> {
     }
 }
 
+/// The numbers that locals have.
+const NUMBERS: std::ops::RangeInclusive<u32> = 1..=33;
+
+/// True where a computed number may be that of a local: by its constant part.
+fn is_low(number: &Expr) -> bool {
+    constant_part(number).is_none_or(|part| part < f64::from(*NUMBERS.end() + 1))
+}
+
+/// What a block may write: a computed number may be that of any.
+fn may_write(block: &Block) -> Locals {
+    let mut out = writes(block);
+    for place in block.stmts.iter().filter_map(|stmt| stmt.kind.target()) {
+        if let Place::Indirect(Bank::Numbered, number) = place
+            && is_low(number)
+        {
+            out.extend(NUMBERS);
+        }
+    }
+    out
+}
+
 fn writes(block: &Block) -> Locals {
     block.stmts.iter().filter_map(|stmt| stmt.kind.target().and_then(written)).collect()
 }
@@ -104,6 +215,13 @@ fn locals(e: &Expr) -> Locals {
     e.variables(&mut |var| {
         if var.class == Class::Local {
             out.insert(var.number);
+        }
+    });
+    e.walk(&mut |e| {
+        if let Expr::Indirect(Bank::Numbered, number) = e
+            && is_low(number)
+        {
+            out.extend(NUMBERS);
         }
     });
     out

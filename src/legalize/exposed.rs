@@ -13,7 +13,7 @@ type Routine = (usize, BlockId);
 ///
 /// A backward analysis over all programs until nothing changes. A callee that is called at least once takes
 /// off what every way through it writes; one outside the library adds nothing, because a diagnostic of
-/// its own speaks of it. The sets may be too large, never too small.
+/// its own speaks of it. A computed call may run any program. The sets may be too large, never too small.
 pub struct Exposed {
     universe: Universe,
     /// What is live where a routine is entered.
@@ -38,8 +38,15 @@ impl Exposed {
         let mut live_in: Vec<Row> = Vec::new();
         callees.graph(module).settle(|index| {
             let program = &module.programs[index];
-            let transfer = |block| Transfer::of(block, &universe, |call| callees.routine(index, call));
+            let transfer = |block| Transfer::of(block, &universe, |call| callees.called(index, call));
             let transfers: Vec<Transfer> = program.blocks.iter().map(transfer).collect();
+            let mut anywhere = none.clone();
+            if transfers.iter().any(Transfer::calls_any) {
+                let starts = entries.iter().filter(|((_, entry), _)| *entry == BlockId(0));
+                starts.for_each(|(_, row)| {
+                    anywhere.join(row);
+                });
+            }
             live_in.clear();
             live_in.resize(program.blocks.len(), none.clone());
             let own = || (index, BlockId(0))..(index + 1, BlockId(0));
@@ -51,25 +58,33 @@ impl Exposed {
             let mut live = none.clone();
             while std::mem::take(&mut changed) {
                 for (at, block) in program.blocks.iter().enumerate().rev() {
-                    let Transfer { reads, passes, called: routine, modal } = &transfers[at];
+                    let Transfer { reads, passes, called: callee, modal } = &transfers[at];
                     live.clone_from(&none);
                     for to in block.term.kind.successors() {
                         live.join(live_in.get(to.index()).unwrap_or(&none));
                     }
-                    if let Some(sure) = routine.and_then(|routine| written.by_end(routine, block)) {
+                    if let Some(Called::One(routine)) = callee
+                        && let Some(sure) = written.by_end(*routine, block)
+                    {
                         live.subtract(sure);
                     }
-                    let called = |live: &mut Row, routine: Routine, passes: &Row| {
-                        let own = live_in.get(routine.1.index()).filter(|_| routine.0 == index);
-                        let mut there = own.or_else(|| entries.get(&routine)).unwrap_or(&none).clone();
+                    let called = |live: &mut Row, callee: Called, passes: &Row| {
+                        let mut there = match callee {
+                            Called::Any => &anywhere,
+                            Called::One(routine) => {
+                                let own = live_in.get(routine.1.index()).filter(|_| routine.0 == index);
+                                own.or_else(|| entries.get(&routine)).unwrap_or(&none)
+                            }
+                        }
+                        .clone();
                         there.intersect(passes);
                         live.join(&there);
                     };
-                    routine.iter().for_each(|routine| called(&mut live, *routine, &everything));
+                    callee.iter().for_each(|callee| called(&mut live, *callee, &everything));
                     live.intersect(passes);
                     live.join(reads);
                     // It runs at moves behind it, before what is written later.
-                    modal.iter().for_each(|(routine, passes)| called(&mut live, *routine, passes));
+                    modal.iter().for_each(|(callee, passes)| called(&mut live, *callee, passes));
                     changed |= live_in[at].join(&live) && back[at];
                 }
             }
@@ -110,6 +125,14 @@ fn universe(module: &Module) -> Universe {
     Universe::new(all.iter().collect())
 }
 
+/// What a call runs.
+#[derive(Clone, Copy)]
+enum Called {
+    One(Routine),
+    /// Whichever program has a computed number.
+    Any,
+}
+
 /// Which routine a call runs.
 struct Callees<'m>(BTreeMap<&'m ProgramName, usize>);
 
@@ -122,10 +145,21 @@ impl<'m> Callees<'m> {
     /// Which program calls which.
     fn graph(&self, module: &Module) -> CallGraph {
         let of = |(index, program): (usize, &Program)| {
-            let routines = program.blocks.iter().flat_map(calls_of).filter_map(|c| self.routine(index, c));
+            let calls = || program.blocks.iter().flat_map(calls_of);
+            if calls().any(|call| matches!(call.callee, Callee::Computed(_))) {
+                return (0..module.programs.len()).map(|callee| (callee, false)).collect();
+            }
+            let routines = calls().filter_map(|call| self.routine(index, call));
             routines.map(|(callee, _)| (callee, false)).collect()
         };
         CallGraph::new(module.programs.iter().enumerate().map(of).collect())
+    }
+
+    fn called(&self, program: usize, call: &Call) -> Option<Called> {
+        match &call.callee {
+            Callee::Computed(_) => Some(Called::Any),
+            _ => self.routine(program, call).map(Called::One),
+        }
     }
 
     fn routine(&self, program: usize, call: &Call) -> Option<Routine> {
@@ -262,14 +296,19 @@ struct Transfer {
     reads: Row,
     /// What it makes of everything.
     passes: Row,
-    /// The routine that its end calls.
-    called: Option<Routine>,
+    /// What its end calls.
+    called: Option<Called>,
     /// The modal calls that it starts, and what the statements before each make of everything.
-    modal: Vec<(Routine, Row)>,
+    modal: Vec<(Called, Row)>,
 }
 
 impl Transfer {
-    fn of(block: &Block, universe: &Universe, routine: impl Fn(&Call) -> Option<Routine>) -> Self {
+    fn calls_any(&self) -> bool {
+        let all = self.called.iter().chain(self.modal.iter().map(|(callee, _)| callee));
+        all.into_iter().any(|callee| matches!(callee, Called::Any))
+    }
+
+    fn of(block: &Block, universe: &Universe, callee: impl Fn(&Call) -> Option<Called>) -> Self {
         let mut rows = [universe.none(), universe.all()];
         block.term.kind.exprs(&mut |e| note(e, &mut rows, universe));
         backward(&block.stmts, &mut rows, universe);
@@ -278,11 +317,11 @@ impl Transfer {
             let mut before = [universe.all()];
             backward(&block.stmts[..at], &mut before, universe);
             let [before] = before;
-            Some((routine(call)?, before))
+            Some((callee(call)?, before))
         });
         let modal = modal.collect();
         let called = match &block.term.kind {
-            TermKind::Call { call, .. } => routine(call),
+            TermKind::Call { call, .. } => callee(call),
             _ => None,
         };
         let [reads, passes] = rows;

@@ -11,14 +11,15 @@
 //! A drilling cycle under a modal call is refused: no source says which of the two runs first, or whether both do.
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
-use super::rewrite::{Part, highest_temp, rebuild, unless_skipped};
+use super::registers::name_of;
+use super::rewrite::unless_skipped;
 use super::{Context, Modal, ModalFacts, carried, increments};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
-    BlockId, Builder, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site,
-    StmtKind, TermKind, Var,
+    BlockId, Builder, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind,
+    TermKind, Var,
 };
 use crate::syntax::ProgramName;
 use std::collections::BTreeSet;
@@ -28,7 +29,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let native = context.target.statement("call.modal").is_some();
     if !native {
         increments::of_modal_calls(module, context);
-        module.programs.iter_mut().for_each(hold_arguments);
+        module.programs.iter_mut().for_each(carried::hold_arguments);
     }
     let facts = match native {
         true => ModalFacts::of(module, &context.entry),
@@ -54,38 +55,9 @@ fn is_modal(program: &Program) -> bool {
     stmts.any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_) | StmtKind::ModalCallOff))
 }
 
-/// True for a value that a temporary can keep: those are never vacant.
-fn is_held(value: &Expr) -> bool {
-    value.constant().is_none() && !value.may_be_vacant()
-}
-
 /// True for a value that other moves may find changed.
 fn may_change(value: &Expr) -> bool {
     !matches!(value, Expr::Vacant | Expr::Var(Var { class: Class::Temp, .. })) && value.constant().is_none()
-}
-
-/// Computes the arguments of modal calls where those are opened.
-fn hold_arguments(program: &mut Program) {
-    let computed = |call: &Call| call.arguments.iter().any(|argument| is_held(&argument.value));
-    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    if !stmts.any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call))) {
-        return;
-    }
-    let mut temp = highest_temp(program);
-    rebuild(program, &mut |builder, mut part| {
-        if let Part::Stmt(stmt) = &mut part
-            && let StmtKind::ModalCall(call) = &mut stmt.kind
-        {
-            for argument in call.arguments.iter_mut().filter(|a| is_held(&a.value)) {
-                temp += 1;
-                let var = Var { class: Class::Temp, number: temp };
-                let value = std::mem::replace(&mut argument.value, Expr::Var(var));
-                let site = Site { skip: stmt.site.skip, ..Site::default() };
-                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site);
-            }
-        }
-        part.keep(builder);
-    });
 }
 
 /// The moves of a program that are none where what their words hold is vacant.
@@ -177,11 +149,30 @@ impl Expansion {
                 let before = state.calls.clone();
                 state.step(stmt);
                 let site = stmt.site.clone();
+                if !self.native
+                    && let Some(place) = stmt.kind.target()
+                    && let Some(var) = before.iter().flatten().find_map(|call| carried::argument(call, place))
+                {
+                    context.add(
+                        index,
+                        Diagnostic::new(Code::NoEquivalent, site.span, changes(var, &self.module, context)),
+                    );
+                }
                 match &stmt.kind {
                     StmtKind::ModalCall(call) if !self.native => {
                         if call.level && call.arguments.iter().any(|a| may_change(&a.value)) {
                             let why = "each move calls the macro anew: its arguments are computed and set again each time";
                             context.add(index, Diagnostic::new(Code::Conditional, site.span, why));
+                        }
+                        if let Some(var) = carried::changed_by_callee(&self.module, call) {
+                            context.add(
+                                index,
+                                Diagnostic::new(
+                                    Code::NoEquivalent,
+                                    site.span,
+                                    changes(var, &self.module, context),
+                                ),
+                            );
                         }
                         if let Some(local) = self.carries(call) {
                             let why = format!(
@@ -301,7 +292,7 @@ impl Expansion {
         if calls.is_empty() || self.native {
             return call;
         }
-        if calls.iter().any(reads_locals) {
+        if calls.iter().any(carried::reads_locals) {
             let why = "modal calls are nested here, and an outer one has arguments that are computed from variables of its level";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
             return call;
@@ -372,16 +363,13 @@ impl Expansion {
     }
 }
 
-/// True where the arguments of a call mean another thing in a program that it runs under.
-fn reads_locals(call: &Call) -> bool {
-    let mut found = false;
-    for argument in &call.arguments {
-        argument.value.walk(&mut |e| {
-            found |=
-                matches!(e, Expr::Indirect(..) | Expr::Var(Var { class: Class::Local | Class::Temp, .. }));
-        });
-    }
-    found
+/// Why an argument that changes is refused.
+fn changes(var: Var, module: &Module, context: &Context<'_>) -> String {
+    let name = name_of(var, module, context.source);
+    format!(
+        "each move computes the arguments of the modal call again, and {} changes while it is open: give the call a variable that stays",
+        name.as_deref().unwrap_or("one of their variables")
+    )
 }
 
 /// Leaves of a block what people wrote in it.

@@ -10,7 +10,7 @@ use super::modal::reachable;
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Expr, Module, NcItem, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
@@ -79,6 +79,10 @@ fn refuse_read(index: usize, span: Span, state: &Modal, context: &mut Context<'_
     }
 }
 
+fn names_axes(nc: &Nc) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_axis()))
+}
+
 /// `incremental` if a program of the library sets incremental coordinates.
 fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'static str)> {
     let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
@@ -88,6 +92,15 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
     let cancelled = at.map(|_| Op::ShiftCancel).or(state.op(Group::WorkOffset));
     if let Some(at) = at {
         nc.items.remove(at);
+    }
+    let returns = nc.has(Op::ReferenceReturn) || nc.has(Op::Reference2);
+    let absolute = state.op(Group::Distance) != Some(Op::Incremental);
+    if returns && absolute && names_axes(nc) && (state.may_be_cancelled || cancelled == Some(Op::ShiftCancel))
+    {
+        return Some((
+            Code::NoEquivalent,
+            "a return to the reference position by way of a point, while all zero shifts may be cancelled: the target counts the point from its work offset. Give the point in G91, and it converts",
+        ));
     }
     if !moves {
         return None;
