@@ -5,7 +5,7 @@ use super::left::left_differs;
 use super::letters;
 use super::loose::{Found, farthest};
 use super::names::Names;
-use super::observe::{Act, observe};
+use super::observe::{Act, observe, setting};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn};
 use super::side::Side;
@@ -133,6 +133,16 @@ pub fn compare<'r>(
     found
 }
 
+/// How many settings of the source its alarm keeps from doing anything, where the target has no such alarm: it goes on, and
+/// may set them otherwise first.
+fn before_alarm(source: &[Act<'_>], target: &[Act<'_>]) -> usize {
+    let alarm = |acts: &[Act<'_>]| {
+        let settings = acts.iter().take_while(|act| setting(&act.what).is_some()).count();
+        acts.get(settings).is_some_and(|act| matches!(*act.what, Happening::Alarm(_))).then_some(settings)
+    };
+    alarm(source).filter(|_| alarm(target).is_none()).unwrap_or(0)
+}
+
 /// Two runs side by side.
 struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
@@ -168,19 +178,37 @@ impl<'r> Pairs<'_, 'r> {
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
+            let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
+            let unseen = before_alarm(here, there);
+            if unseen > 0 {
+                here.iter().take(unseen).for_each(|act| self.moved(0, act));
+                i += unseen;
+                continue;
+            }
+            // What a cycle does to a spindle that may stand on one side has no counterpart on the other.
+            let cycles = [here, there].map(|acts| acts.first().is_some_and(|act| act.told == Told::Cycle));
+            if cycles.contains(&true) && self.runs.iter().any(Runs::may_stand) {
+                a.into_iter().filter(|_| cycles[0]).for_each(|act| self.moved(0, act));
+                b.into_iter().filter(|_| cycles[1]).for_each(|act| self.moved(1, act));
+                (i, j) = (i + usize::from(cycles[0]), j + usize::from(cycles[1]));
+                continue;
+            }
+            if self.runs[1].may_be_let_go(there, here) {
+                let text = "no source says whether a stop lets go of a spindle that is held";
+                self.found.substituted.insert(text.to_owned());
+                b.into_iter().for_each(|b| self.moved(1, b));
+                j += 1;
+                continue;
+            }
             let runs = |side: usize, acts: &[Act<'r>], others: &[Act<'r>], runs: &[Runs; 2]| {
-                // What a cycle does to a spindle that may stand on one side has no counterpart on the other.
-                let may_stand = runs.iter().any(Runs::may_stand);
-                let alone = others.first().is_none_or(|other| other.told != Told::Cycle);
                 acts.first().is_some_and(|act| {
-                    (act.told == Told::Cycle && may_stand && alone)
-                        || may_do_so(act, others, side == 1)
+                    may_do_so(act, others, side == 1)
                         || runs[side].is_told(&runs[1 - side], act)
                         || runs[side].lets_go(acts)
                         || runs[side].stays_open(act)
+                        || runs[side].is_idle_speed(acts)
                 })
             };
-            let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
             if runs(0, here, there, &self.runs) {
                 a.into_iter().for_each(|a| self.moved(0, a));
                 i += 1;

@@ -118,8 +118,7 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
         if !is_mode(&event.what) {
             let (back, tool) = (returns(&event.what), finds_tool(&event.what));
             let idle = is_idle(&event.what);
-            let ends = matches!(event.what, Happening::End { .. });
-            seen.settle(ends, |kind, event| match kind {
+            seen.settle(|kind, event| match kind {
                 Setting::Work => back,
                 Setting::Ready => tool,
                 // What was found running is nothing that counts before an idle move.
@@ -131,7 +130,7 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
     }
     // Where a run was stopped from outside, nothing says which settings the next action would have found.
     if !is_cut(run) {
-        seen.settle(true, |kind, _| kind != Setting::Work);
+        seen.settle(|kind, _| kind != Setting::Work);
     }
     seen.out
 }
@@ -148,9 +147,8 @@ struct Observer<'o, 'r> {
 
 impl<'r> Observer<'_, 'r> {
     /// Lets the settings that count now take their places, if they changed.
-    fn settle(&mut self, ends: bool, counts: impl Fn(Setting, &Event) -> bool) {
-        // At the end, what is stopped comes after what was started: the other side may have ended with an alarm.
-        self.waiting.sort_by_key(|(kind, event)| (ends && is_end(&event.what), *kind));
+    fn settle(&mut self, counts: impl Fn(Setting, &Event) -> bool) {
+        self.waiting.sort_by_key(|(kind, _)| *kind);
         let all = std::mem::take(&mut self.waiting).into_iter();
         let (now, later): (Vec<_>, Vec<_>) = all.partition(|(kind, event)| counts(*kind, event));
         self.waiting = later;

@@ -3,7 +3,7 @@
 //! Where the source's control is the one, the target's may do as it does; where the target's is, the conversion has to see
 //! to it, but for an optional stop and a tool change, of which it says so.
 
-use super::observe::{Act, is_pause, runs};
+use super::observe::{Act, is_pause, runs, setting};
 use crate::canon::{Op, Running};
 use crate::control::trace::{Happening, Spindle, Told};
 
@@ -11,6 +11,8 @@ use crate::control::trace::{Happening, Spindle, Told};
 #[derive(Clone, Debug)]
 pub struct Runs {
     spindle: Happening,
+    /// The same after a cycle, which may leave it turned round.
+    last: Happening,
     coolant: Happening,
     /// For each of [`Running`], true if nobody knows whether it runs.
     open: [bool; 2],
@@ -20,13 +22,21 @@ impl Runs {
     /// What runs before a program says anything.
     pub fn new() -> Self {
         let spindle = Happening::Spindle { direction: Spindle::Stopped, speed: 0.0, surface: false };
-        Self { spindle, coolant: Happening::Coolant { state: Op::CoolantOff }, open: [false; 2] }
+        Self {
+            last: spindle.clone(),
+            spindle,
+            coolant: Happening::Coolant { state: Op::CoolantOff },
+            open: [false; 2],
+        }
     }
 
     /// Takes an act.
     pub fn take(&mut self, act: &Act<'_>) {
+        if matches!(*act.what, Happening::Spindle { .. }) {
+            self.last = (*act.what).clone();
+        }
         match &*act.what {
-            // A cycle leaves the spindle as it finds it.
+            // What a cycle does to the spindle is said by no word.
             Happening::Spindle { .. } if act.told == Told::Cycle => {}
             what @ Happening::Spindle { .. } => self.spindle = what.clone(),
             what @ Happening::Coolant { .. } => self.coolant = what.clone(),
@@ -46,7 +56,8 @@ impl Runs {
             Happening::Spindle { direction, .. } => Some(*direction),
             _ => None,
         };
-        turns(what).is_some() && turns(what) == turns(&self.spindle)
+        // A cycle that stops the spindle lets it turn again as it was.
+        turns(what).is_some() && [&self.last, &self.spindle].map(turns).contains(&turns(what))
     }
 
     /// The coolant.
@@ -69,6 +80,14 @@ impl Runs {
         self.open[spindle] && act.event.open[spindle] && *act.what == self.spindle
     }
 
+    /// True for a new speed alone of a spindle that may stand, if a stop comes before anything else does.
+    pub fn is_idle_speed(&self, acts: &[Act<'_>]) -> bool {
+        let spindle = Running::Spindle as usize;
+        let Some((act, rest)) = acts.split_first() else { return false };
+        let stops = rest.iter().find(|act| runs(&act.what).is_none()).is_some_and(|act| is_pause(&act.what));
+        self.open[spindle] && act.event.open[spindle] && self.goes_on(&act.what) && stops
+    }
+
     /// True if the next act lets go of a spindle that is held at an angle, before a stop or the end: it stands either way,
     /// and before the tool moves again the program says of the spindle what it does.
     pub fn lets_go(&self, acts: &[Act<'_>]) -> bool {
@@ -76,20 +95,33 @@ impl Runs {
         let stops =
             |act: &Act<'_>| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. });
         let Some((act, rest)) = acts.split_first() else { return false };
-        let rest: Vec<_> = rest.iter().filter(|act| runs(&act.what) != Some(Running::Coolant)).collect();
-        let pauses = rest.iter().take_while(|act| is_pause(&act.what)).count();
-        let says = rest.get(pauses).is_none_or(|act| runs(&act.what).is_some());
-        is_held && stops(act) && pauses > 0 && says
+        let before = rest.iter().take_while(|act| setting(&act.what).is_some() || is_pause(&act.what));
+        let pauses = before.clone().any(|act| is_pause(&act.what));
+        let says = before.clone().any(|act| runs(&act.what) == Some(Running::Spindle));
+        let all = before.count() == rest.len();
+        is_held && stops(act) && pauses && (says || all)
+    }
+
+    /// True for what lets go of a spindle that is held before a stop, of which nobody knows whether it does that by itself
+    /// on the other side.
+    pub fn may_be_let_go(&self, acts: &[Act<'_>], others: &[Act<'_>]) -> bool {
+        let is_held = matches!(self.spindle, Happening::Spindle { direction: Spindle::Oriented, .. });
+        let stops = acts
+            .first()
+            .is_some_and(|act| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. }));
+        let next = others.iter().find(|other| is_pause(&other.what));
+        let open = next.is_some_and(|next| next.event.open[Running::Spindle as usize]);
+        is_held && stops && open
     }
 
     /// True if a change says what is known to run on the other side already, and may have run here.
     pub fn is_told(&self, other: &Self, act: &Act<'_>) -> bool {
-        let (running, there) = match runs(&act.what) {
-            Some(Running::Spindle) => (Running::Spindle, &other.spindle),
-            Some(Running::Coolant) => (Running::Coolant, &other.coolant),
-            None => return false,
+        let Some(running) = runs(&act.what) else { return false };
+        let there = match running {
+            Running::Spindle => [&other.spindle, &other.last],
+            Running::Coolant => [&other.coolant; 2],
         };
-        *act.what == *there && self.open[running as usize] && !other.open[running as usize]
+        there.contains(&&*act.what) && self.open[running as usize] && !other.open[running as usize]
     }
 }
 

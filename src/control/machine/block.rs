@@ -43,7 +43,10 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
 fn places_length(machine: &Machine, command: &Command) -> bool {
     let aside = |op: &Op| matches!(op, Op::MachineOnce | Op::WriteWork | Op::LocalShift | Op::Dwell);
     let depth = command.word(Role::Z).is_some() && !machine.incremental;
-    (depth || command.word(Role::CycleR).is_some()) && !command.ops.iter().any(aside)
+    // Words that are kept for later place nothing yet; a hole is placed by those that were kept.
+    let drills = machine.cycle.is_some() && command.has_axes();
+    let keeps = command.number(Role::Repeat) == Some(0);
+    (depth || command.word(Role::CycleR).is_some() || drills) && !keeps && !command.ops.iter().any(aside)
 }
 
 /// True for a code that chooses or leaves the frame of coordinates.

@@ -14,10 +14,13 @@ impl Machine {
     /// Ends what a stop ends, and notes if nobody knows what it does with something that is running.
     fn stop_running(&mut self, pause: Pause, trace: &mut Trace) {
         for running in Running::ALL {
+            let (answer, known) = self.rules.ends(pause, running);
             if !self.is_running(running) {
+                // Whether a stop lets go of a spindle that is held, no source says; after the end nobody asks.
+                let held = running == Running::Spindle && self.spindle == Spindle::Oriented;
+                trace.open[running as usize] |= held && answer != Some(false) && pause != Pause::End;
                 continue;
             }
-            let (answer, known) = self.rules.ends(pause, running);
             if !known {
                 self.unsure_running[running as usize] = Some(pause);
             }

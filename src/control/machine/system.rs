@@ -33,9 +33,13 @@ impl Machine {
         }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             self.place_by_offset(trace);
-            self.place_by_length(trace);
+            // People who read a place along another axis ask for no length.
+            let along = subscripts.last().is_none_or(|axis| *axis == 3);
+            if along {
+                self.place_by_length(trace);
+            }
             self.round_read();
-            let depth = subscripts.last() == Some(&3) && state != Sys::EndPosition;
+            let depth = along && state != Sys::EndPosition;
             if depth && self.frame.length != 0.0 {
                 self.rules.positions_hold_length.ask(trace);
             }

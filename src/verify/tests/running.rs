@@ -118,9 +118,58 @@ fn a_stop_before_an_m0_lets_go_of_a_spindle_that_is_held() {
         let source = format!("{text}M0\n{after}M30\n");
         run("haas", &source, "fanuc", &format!("{text}{before}M0\n{after}M30\n"), &[]).outcome
     };
-    assert_ne!(found("M5\n", ""), Outcome::Different);
+    assert_eq!(found("M5\n", ""), Outcome::Undecided);
+    assert_eq!(found("M5\n", "G0X5.\n"), Outcome::Undecided);
     assert_ne!(found("M5\n", "S900M3\nX5.\nM5\n"), Outcome::Different);
-    assert_eq!(found("M5\n", "G0X5.\n"), Outcome::Different);
     assert_eq!(found("M3\n", "S900M3\nX5.\n"), Outcome::Different);
     assert_eq!(found("M5\nG4P500\n", "S900M3\nX5.\n"), Outcome::Different);
+}
+
+/// The operator's answer leaves open whether the target's spindle turns, and a speed says nothing of it before a stop.
+#[test]
+fn a_speed_before_a_stop_says_nothing_of_a_spindle_that_may_stand() {
+    let found = |speed: &str| {
+        let source = "O1\nG90G17G40G49G80E1\nS800M3\nG1F300.\n#INPUT V5\nS500\nM1\nM2\n";
+        let target =
+            format!("O1\nG90G17G40G49G80G54\nS800M3\nG1F300.\n#550=0\n#3006=1(SET #550)\n{speed}\nM1\nM2\n");
+        programs(("fadal", source), ("fanuc", &target), &[("V5", 550)])[0].outcome
+    };
+    assert_ne!(found("S500"), Outcome::Different);
+    assert_eq!(found("S500M4"), Outcome::Different);
+    assert_eq!(found("S500M3\nG1X5."), Outcome::Different);
+}
+
+/// G74 leaves the spindle turned round: what goes on is that.
+#[test]
+fn a_cycle_leaves_the_spindle_turned_round() {
+    let text = |last: &str| {
+        format!(
+            "O1\nG21G90G17G40G49G80G54\nS800M3\nG1F300.\nG99G74X5.Z-8.R2.F120.\nX7.\nG80\nM1\nG1X1.F100.\n{last}\nM30\n"
+        )
+    };
+    let found = |last: &str| run("fanuc", &text("S600"), "haas", &text(last), &[]).outcome;
+    assert_ne!(found("S600"), Outcome::Different);
+    assert_eq!(found("S600M3\nX3."), Outcome::Different);
+}
+
+/// A stop leaves open whether the spindle turns on one side; a tap after it starts or turns it on both.
+#[test]
+fn a_tap_after_a_stop_says_nothing_of_a_spindle_that_may_stand() {
+    let text = |cycle: &str, end: &str| {
+        format!("O1\nG21G90G17G40G49G80G54\nS800{cycle}\nG1F300.\nM0\nG99G84Y1.Z-9.R2.F120.\nG80\n{end}M30\n")
+    };
+    let found =
+        |cycle: &str, end: &str| run("fanuc", &text(cycle, "M5\n"), "haas", &text(cycle, end), &[]).outcome;
+    assert_ne!(found("M3", "M5\n"), Outcome::Different);
+    assert_ne!(found("M4", "M5\n"), Outcome::Different);
+    assert_eq!(found("M3", "X5.\nM5\n"), Outcome::Different);
+}
+
+/// The source's alarm comes before the coolant that it has said is on for anything; the target has no such alarm.
+#[test]
+fn what_waits_at_an_alarm_of_the_source_shows_nowhere() {
+    let text = |at: &str| format!("O1\nG21G90G17G40G49G80G54\nS800M3\n{at}\nS900\nM8\nM30\n");
+    let found = |at: &str| run("fanuc", &text("#1=#[99999]"), "haas", &text(at), &[]).outcome;
+    assert_eq!(found("#1=0"), Outcome::Undecided);
+    assert_eq!(run("fanuc", &text(""), "haas", &text("G1X5.F100."), &[]).outcome, Outcome::Different);
 }
