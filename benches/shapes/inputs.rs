@@ -91,6 +91,11 @@ pub fn comment(n: usize) -> String {
     format!("{HEAD}({})\n{END}", "A".repeat(n))
 }
 
+/// Twenty comments of `n` bytes each.
+pub fn comments(n: usize) -> String {
+    row(20, |out, _| writeln!(out, "({})", "A".repeat(n)))
+}
+
 /// A line of `n` bytes.
 pub fn line(n: usize) -> String {
     format!("{HEAD}G0 {}\n{END}", "X1.".repeat(n / 3))

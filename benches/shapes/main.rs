@@ -44,6 +44,7 @@ const SHAPES: &[Shape] = &[
     ("lines that cannot be read", 10_000, "lines", inputs::faulty, Done::Converted),
     ("findings on one line", 1_000, "findings", inputs::findings, Done::Converted),
     ("a comment", 1_000_000, "bytes", inputs::comment, Done::Converted),
+    ("twenty comments, each", 26_000, "bytes", inputs::comments, Done::Converted),
     ("a line", 2_000_000, "bytes", inputs::line, Done::Converted),
 ];
 

@@ -3,7 +3,7 @@
 use super::Emitter;
 use super::labels::Standing;
 use super::numbers::write_padded;
-use super::remarks::{wrap, write_remark};
+use super::remarks::{spelled, wrap, write_remark, write_spelled};
 use crate::diag::Code;
 use crate::ir::{Cond, Remark, Site};
 use crate::text::Span;
@@ -252,9 +252,9 @@ impl<'p> Emitter<'p> {
     /// Writes a comment on lines of its own.
     pub(super) fn remark_lines(&mut self, text: &str) {
         let room = self.control.text().line.map_or(usize::MAX, |most| most.saturating_sub(2) as usize);
-        for piece in wrap(text, room) {
+        for piece in wrap(&spelled(text), room) {
             let start = self.text.len();
-            write_remark(&mut self.text, piece);
+            write_spelled(&mut self.text, piece);
             if !self.span.is_empty() {
                 self.emitted.blocks.push((self.span, start..self.text.len()));
             }

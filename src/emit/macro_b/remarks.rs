@@ -3,24 +3,37 @@
 use crate::text::likeness;
 
 /// Adds `( )` and a comment's text between them.
+pub(super) fn write_remark(out: &mut Vec<u8>, text: &str) {
+    write_spelled(out, &spelled(text));
+}
+
+/// Adds `( )` and between them a text that is spelled as the target spells it.
+pub(super) fn write_spelled(out: &mut Vec<u8>, spelled: &str) {
+    out.push(b'(');
+    out.extend_from_slice(spelled.as_bytes());
+    out.push(b')');
+}
+
+/// A comment's text in the characters of the target.
 ///
 /// A comment ends at its first closing bracket and may hold nothing that ends a block or
 /// a tape: those characters become others that look alike, so that every comment stays
 /// one. Letters outside ASCII lose their accents; what has no like becomes `?`.
-pub(super) fn write_remark(out: &mut Vec<u8>, text: &str) {
-    out.push(b'(');
-    for c in unfenced(text).chars() {
+pub(super) fn spelled(text: &str) -> String {
+    let text = unfenced(text);
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
         match c {
-            '(' => out.push(b'['),
-            ')' => out.push(b']'),
-            '%' => out.extend_from_slice(b"PCT"),
-            ';' => out.push(b','),
-            ' '..='~' => out.push(c as u8),
-            c if c.is_control() => out.push(b' '),
-            c => out.extend_from_slice(likeness(c).unwrap_or("?").as_bytes()),
+            '(' => out.push('['),
+            ')' => out.push(']'),
+            '%' => out.push_str("PCT"),
+            ';' => out.push(','),
+            ' '..='~' => out.push(c),
+            c if c.is_control() => out.push(' '),
+            c => out.push_str(likeness(c).unwrap_or("?")),
         }
     }
-    out.push(b')');
+    out
 }
 
 /// The text without a bracket at its end that people closed a comment with on a control whose
@@ -43,8 +56,7 @@ pub(super) fn is_writable(text: &str) -> bool {
 pub(super) fn wrap(text: &str, most: usize) -> Vec<&str> {
     let mut lines = Vec::new();
     let mut rest = text.trim_end();
-    while rest.chars().count() > most.max(1) {
-        let cut = rest.char_indices().nth(most.max(1)).map_or(rest.len(), |(at, _)| at);
+    while let Some((cut, _)) = rest.char_indices().nth(most.max(1)) {
         let ends_word = rest.get(cut..).is_some_and(|tail| tail.starts_with(' '));
         let space = rest.get(..cut).and_then(|head| head.rfind(' ')).filter(|&at| at > 0 && !ends_word);
         let (head, tail) = rest.split_at(space.unwrap_or(cut));
@@ -80,5 +92,11 @@ mod tests {
         assert_eq!(wrap("ONE TWO THREE", 7), ["ONE TWO", "THREE"]);
         assert_eq!(wrap("ABCDEFGH", 3), ["ABC", "DEF", "GH"]);
         assert_eq!(wrap("", 3), [""]);
+    }
+
+    /// Letters that become several are counted as what they become.
+    #[test]
+    fn pieces_are_as_long_as_they_are_written() {
+        assert_eq!(wrap(&spelled("ÄÖ%%"), 5), ["AEOEP", "CTPCT"]);
     }
 }

@@ -262,6 +262,15 @@ fn a_long_line_gives_up_its_comments_first() {
         format!("O0007\n{first})\n(IT STANDS IN AT ALL)\n{first})\n(IT STANDS IN AT ALL)\nN10 X1.\n")
     );
     assert!(text.lines().all(|line| line.len() <= 80));
+    // Counted as they are written: an umlaut is two letters, and a bracket at a piece's end stays.
+    let remarks = [remark(&format!("{} (IN BRACKETS) {}", "Ü".repeat(59), "%".repeat(50)), true)].into();
+    let program = Builder::new().finish(Some(ProgramName::Number(7)), 0, Site { remarks, ..site(0) });
+    let (words, signs) = ("UE".repeat(39), "PCT".repeat(26));
+    let text = super::text("haas", &program);
+    assert_eq!(
+        text,
+        format!("O0007\n({words})\n({} [IN BRACKETS])\n({signs})\n({})\n", "UE".repeat(20), "PCT".repeat(24))
+    );
     let sum = (0..30).fold(v(1), |sum, at| add(sum, v(at + 2)));
     assert_eq!(refused("haas", &one([set(100, sum.clone())])), [Code::LineTooLong]);
     assert!(line("fanuc", set(100, sum)).len() > 80);
