@@ -3,7 +3,7 @@
 use super::{FOUND, WELL, common, streams};
 use crate::diag::Severity;
 use crate::ir::Module;
-use crate::report::Sheet;
+use crate::report::Drawings;
 use crate::syntax::parse_file;
 use std::path::PathBuf;
 
@@ -33,15 +33,16 @@ fn print(arguments: &Arguments) -> Result<u8, u8> {
     let mut refused = false;
     for (at, input) in inputs.iter().enumerate() {
         let lowered = (entry.lower)(&parse_file(&input.bytes, entry.parse), at, &input.name, &control);
-        let sheet = Sheet::new(&input.path.display().to_string(), &input.bytes);
+        let mut drawings = Drawings::new(&input.path.display().to_string(), &input.bytes);
         let mut module = Module { names: lowered.names, ..Module::default() };
         for (program, diagnostics) in lowered.programs {
             for diagnostic in &diagnostics {
                 refused |= diagnostic.severity() == Severity::Error;
-                streams::tell(&sheet.draw(diagnostic));
+                streams::tell_drawn(drawings.draw(diagnostic));
             }
             module.programs.push(program);
         }
+        drawings.left_out().iter().for_each(streams::remark);
         streams::print(&module.to_string())?;
     }
     Ok(if refused { FOUND } else { WELL })

@@ -1,12 +1,12 @@
 //! What is told of conversions, and where: reports, drawings, standard output.
 
 use super::jobs::{Job, Out};
-use super::streams::{complain, print, tell};
+use super::streams::{complain, print, remark, tell, tell_drawn};
 use crate::library::{
     Certificates, Change, Conversion, Files, Held, Kind, Lock, Outcome, ProgramReport, Told, Wanted,
     certificate_of, changes, publish, same_file, withheld_of, write_file,
 };
-use crate::report::{self, Part, Sheet};
+use crate::report::{self, Drawings, Part};
 use crate::verify::Certificate;
 use std::path::{Path, PathBuf};
 
@@ -149,19 +149,25 @@ pub fn targets(job: &Job, conversion: &Conversion) -> Vec<Option<PathBuf>> {
     written.map(|(text, name)| text.as_ref().map(|_| out.held.folder().join(name))).collect()
 }
 
-/// Draws every finding at its source, on standard error.
+/// Draws the findings at their source, on standard error.
 pub fn draw(part: &Part<'_>) {
-    let mut sheet: Option<(usize, Sheet)> = None;
+    let mut drawings: Option<(usize, Drawings)> = None;
     for program in &part.conversion.programs {
         for diagnostic in &program.diagnostics {
-            if sheet.as_ref().is_none_or(|(file, _)| *file != program.file) {
-                let input = &part.inputs[program.file];
-                sheet = Some((program.file, Sheet::new(&input.path.display().to_string(), &input.bytes)));
+            let (file, input) = (program.file, &part.inputs[program.file]);
+            if drawings.as_ref().is_none_or(|(at, _)| *at != file) {
+                tell_left_out(drawings.take());
+                drawings = Some((file, Drawings::new(&input.path.display().to_string(), &input.bytes)));
             }
-            if let Some((_, sheet)) = &sheet {
-                tell(&sheet.draw(diagnostic));
-            }
+            tell_drawn(drawings.as_mut().and_then(|(_, drawings)| drawings.draw(diagnostic)));
         }
+    }
+    tell_left_out(drawings);
+}
+
+fn tell_left_out(drawings: Option<(usize, Drawings)>) {
+    if let Some(told) = drawings.and_then(|(_, drawings)| drawings.left_out()) {
+        remark(format!("{told}; `--report FILE.json` has all"));
     }
 }
 

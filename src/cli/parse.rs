@@ -3,7 +3,7 @@
 use super::{FOUND, WELL, common, streams};
 use crate::dialect::registry;
 use crate::library::{Found, Input, InputError, LeftOut, Source, sources};
-use crate::report::{Sheet, left_out_text};
+use crate::report::{Drawings, left_out_text};
 use crate::syntax::{ParseTotals, Parser, parse_faults, parse_totals};
 use crate::text::json;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ pub struct Arguments {
     /// Name every file of the folders that is left out
     #[arg(long)]
     verbose: bool,
-    /// Draw every fault that is found
+    /// Draw the faults that are found
     #[arg(long)]
     faults: bool,
 }
@@ -105,7 +105,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     Ok(if counts.unparsed == 0 && counts.lossless == counts.files { WELL } else { FOUND })
 }
 
-/// The length of a file and what it amounts to; with `draw`, every fault of it is drawn.
+/// The length of a file and what it amounts to; with `draw`, its faults are drawn.
 fn totals(source: Source, parse: Parser, draw: bool) -> Result<(usize, ParseTotals), InputError> {
     if !draw {
         let mut totals = ParseTotals::none();
@@ -115,7 +115,8 @@ fn totals(source: Source, parse: Parser, draw: bool) -> Result<(usize, ParseTota
     // Drawing a fault takes the text around it.
     let input = source.read()?;
     let faults = parse_faults(&input.bytes, parse, |_, _| false);
-    let sheet = Sheet::new(&input.path.display().to_string(), &input.bytes);
-    faults.iter().for_each(|fault| streams::tell(&sheet.draw(&fault.clone().into())));
+    let mut drawings = Drawings::new(&input.path.display().to_string(), &input.bytes);
+    faults.iter().for_each(|fault| streams::tell_drawn(drawings.draw(&fault.clone().into())));
+    drawings.left_out().iter().for_each(streams::remark);
     Ok((input.bytes.len(), parse_totals(&input.bytes, parse)))
 }

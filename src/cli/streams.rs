@@ -80,6 +80,11 @@ pub fn tell(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
+/// Shows what was drawn, if anything was.
+pub fn tell_drawn(drawn: Option<String>) {
+    drawn.iter().for_each(|drawn| tell(drawn));
+}
+
 /// Says something of the run, in one line: a name with a line end in it forges none.
 pub fn remark(message: impl std::fmt::Display) {
     tell(&format!("macroglot: {}\n", shown(&message.to_string())));

@@ -1,5 +1,6 @@
 //! What people and programs are told: one renderer a format, one file each.
 
+mod drawn;
 mod html;
 mod json;
 mod markdown;
@@ -10,6 +11,7 @@ mod text;
 mod totals;
 mod trace;
 
+pub use drawn::Drawings;
 pub use html::conversion as html;
 pub use json::{conversion as json, write_conversion as write_json};
 pub use markdown::conversion as markdown;

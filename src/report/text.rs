@@ -99,6 +99,16 @@ impl Sheet {
         Self { source: Arc::new(Lines { name: shown(name).into(), text, starts }), handler: handler() }
     }
 
+    /// The file's name, as it is drawn.
+    pub fn name(&self) -> &str {
+        &self.source.name
+    }
+
+    /// The line that a diagnostic begins on, from 0.
+    pub fn line(&self, diagnostic: &Diagnostic) -> usize {
+        self.source.line(diagnostic.span.start as usize)
+    }
+
     /// A diagnostic, drawn.
     pub fn draw(&self, diagnostic: &Diagnostic) -> String {
         let (span, text) = (diagnostic.span, &self.source.text);

@@ -58,3 +58,24 @@ fn nothing_acts_on_a_terminal() {
     let html = shop.read("r.html");
     assert!(html.contains("e\\u{202e}f&lt;b&gt;&amp;&#39;.nc") && !html.contains("<script>"));
 }
+
+/// A megabyte of words that no table has: of each line some are drawn, and all are counted.
+#[test]
+fn no_more_is_drawn_than_a_person_reads() {
+    let line = format!("G0 {}\n", "Q1".repeat(125_000));
+    let shop = Shop::with(&[("a.nc", &format!("O1\n{line}{line}{line}{line}M30\n"))]);
+    for (line, hint) in [
+        ("ir a.nc --dialect fanuc", ""),
+        ("convert a.nc --from fanuc --to haas --no-verify", "; `--report FILE.json` has all"),
+    ] {
+        let run = shop.run(line);
+        assert_eq!(run.code, 1, "{line}");
+        assert!(run.err.len() < 64 * 1024, "{line}: {} bytes", run.err.len());
+        let drawn = run.err.matches("[a.nc:").count();
+        assert_eq!(drawn, 40, "{line}: ten of each line");
+        // Every word is one finding.
+        let told =
+            format!("macroglot: a.nc: {0} more findings not drawn: {0} of MG0301{hint}\n", 500_000 - 40);
+        assert!(run.err.contains(&told), "{line}: {}", run.err);
+    }
+}
