@@ -4,10 +4,10 @@ use super::common::{control, controls, dialect_of, doubt, names, own_profile, re
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
-    Files, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, certificate_of, plan, slashed,
-    withheld_of,
+    Files, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots, certificate_of, plan, real_place,
+    slashed, withheld_of,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// One library to convert, and where to.
@@ -76,7 +76,20 @@ pub fn jobs(wish: &Wish<'_>) -> Result<(Vec<Job>, Files), u8> {
             return Err(complain(format!("{} is an input and would be overwritten", place.display())));
         }
     }
+    apart(&jobs)?;
     Ok((jobs, files))
+}
+
+/// Says so where two libraries would be written to one place: the folder of one may lie in that of another.
+fn apart(jobs: &[Job]) -> Result<(), u8> {
+    let (mut spots, mut taken) = (Spots::default(), BTreeSet::new());
+    for place in jobs.iter().filter_map(|job| job.out.as_ref()).flat_map(Out::places) {
+        if !taken.insert(spots.of(&place)) {
+            let what = "two libraries would both be written there; nothing was written. Give each a folder of its own";
+            return Err(complain(format!("{}: {what}", place.display())));
+        }
+    }
+    Ok(())
 }
 
 fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
@@ -151,7 +164,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
 fn hold_all(ways: &[Way<'_>]) -> Result<BTreeMap<PathBuf, Held>, u8> {
     let mut seen: BTreeMap<PathBuf, &Way<'_>> = BTreeMap::new();
     for way in ways {
-        if let Some(other) = seen.insert(real(&way.folder), way) {
+        if let Some(other) = seen.insert(real_place(&way.folder), way) {
             let (folder, name) = (way.folder.display(), way.name);
             let what =
                 format!("{folder}: libraries '{}' and '{name}' would both be written there", other.name);
@@ -159,16 +172,6 @@ fn hold_all(ways: &[Way<'_>]) -> Result<BTreeMap<PathBuf, Held>, u8> {
         }
     }
     seen.into_values().map(|way| Ok((way.folder.clone(), hold(&way.folder)?))).collect()
-}
-
-/// Where a folder really is, whether it is there already or not.
-fn real(folder: &Path) -> PathBuf {
-    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    let there = folder.ancestors().find_map(|above| Some((above, std::fs::canonicalize(above).ok()?)));
-    match there {
-        Some((above, real)) => real.join(folder.strip_prefix(above).unwrap_or(&folder)),
-        None => folder,
-    }
 }
 
 /// Takes an output folder for this run.

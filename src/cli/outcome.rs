@@ -3,11 +3,12 @@
 use super::jobs::{Job, Out};
 use super::streams::{complain, print, remark, tell, tell_drawn};
 use crate::library::{
-    Certificates, Change, Conversion, Files, Held, Kind, Lock, Outcome, ProgramReport, Told, Wanted,
-    certificate_of, changes, publish, same_file, withheld_of, write_file,
+    Certificates, Change, Conversion, Files, Held, Kind, Lock, Outcome, ProgramReport, Spots, Told, Wanted,
+    certificate_of, changes, check, publish, withheld_of, write_file,
 };
 use crate::report::{self, Drawings, Part};
 use crate::verify::Certificate;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A renderer of reports.
@@ -27,30 +28,26 @@ fn renderer(path: &Path) -> Option<Renderer> {
 
 /// Says what is wrong with the places of reports, before anything is done. `read` are the files that the command reads.
 pub fn check_reports(reports: &[PathBuf], jobs: &[Job], read: &Files) -> Result<(), u8> {
-    let places: Vec<PathBuf> = jobs.iter().filter_map(|job| job.out.as_ref()).flat_map(Out::places).collect();
-    for (at, path) in reports.iter().enumerate() {
+    let mut spots = Spots::default();
+    let outs = jobs.iter().filter_map(|job| job.out.as_ref());
+    let kept =
+        |out: &Out| out.manifest.files.keys().map(|name| out.held.folder().join(name)).collect::<Vec<_>>();
+    let places = outs.flat_map(|out| out.places().chain(kept(out)));
+    let mut places: BTreeMap<PathBuf, &str> =
+        places.map(|place| (spots.of(&place), "is where a program goes, or what is kept of it")).collect();
+    for path in reports {
         let wrong = if renderer(path).is_none() {
             "the ending says the format of a report: .json .sarif .md .html .txt"
         } else if read.holds(path) {
             "is an input and would be overwritten"
-        } else if places.iter().any(|place| same_place(place, path)) {
-            "is where a program goes, or what is kept of it"
-        } else if reports[..at].iter().any(|other| same_place(other, path)) {
-            "is named twice"
+        } else if let Some(wrong) = places.insert(spots.of(path), "is named twice") {
+            wrong
         } else {
             continue;
         };
         return Err(complain(format!("{}: {wrong}", path.display())));
     }
     Ok(())
-}
-
-/// True if both paths name one place, whether a file stands there or not.
-fn same_place(a: &Path, b: &Path) -> bool {
-    let folder = |path: &Path| {
-        std::fs::canonicalize(path.parent().filter(|p| *p != Path::new("")).unwrap_or(Path::new("."))).ok()
-    };
-    same_file(a, b) || (a.file_name() == b.file_name() && folder(a).is_some() && folder(a) == folder(b))
 }
 
 /// What a conversion puts into its folder: programs, drafts and certificates.
@@ -99,7 +96,10 @@ pub fn changed<'p>(
     let found = changes(out.held.folder(), &out.manifest, wanted, &sources.collect(), prune);
     let (mut changes, told) = found.map_err(complain)?;
     let mut lock = conversion.lock.clone();
-    lock.files.retain(|file| !told.pruned.contains(file));
+    let is_of = |file: &str, name: &String| {
+        [file, &certificate_of(file), &withheld_of(file)].contains(&name.as_str())
+    };
+    lock.files.retain(|file| !told.pruned.iter().any(|name| is_of(file, name)));
     let lock = lock.print().into_bytes();
     let path = out.held.folder().join(Lock::NAME);
     if out.keeps_lock && std::fs::read(path).ok().is_none_or(|now| now != lock) {
@@ -139,6 +139,8 @@ pub fn publish_all(
             }
         }
     }
+    // No set is published if another one cannot be.
+    sets.iter().try_for_each(|(held, changes)| check(held, changes, force)).map_err(complain)?;
     sets.iter().try_for_each(|(held, changes)| publish(held, changes, force)).map_err(complain)
 }
 

@@ -16,6 +16,7 @@ mod names;
 mod outputs;
 mod parts;
 mod pieces;
+mod places;
 mod project;
 mod publish;
 mod refused_calls;
@@ -29,10 +30,11 @@ pub use detect::{Detected, detect, looks_like};
 pub use inputs::{Files, Found, Input, InputError, Source, gather, same_file, slashed, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
+pub use places::{Spots, real_place};
 pub use project::{Library, Machine, Project, ProjectError};
 pub use publish::{
     Change, Held, Kind, Manifest, ManifestError, OutputError, Recovered, Told, Wanted, abandon, changes,
-    is_pending, publish, write_file,
+    check, is_pending, publish, write_file,
 };
 pub use verified::{Certificates, judge};
 pub use walk::{LeftOut, WhyNot};

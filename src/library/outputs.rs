@@ -1,5 +1,6 @@
 //! Where conversions go, and what goes beside them.
 
+use super::places::Spots;
 use super::{Files, Input, Lock, Manifest, OutputError};
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,45 +8,54 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Checks that every name has a place of its own under `folder`, none of them an
-/// input's, and yields the places in order. Case is ignored where names collide,
-/// because file systems of shop computers ignore it.
+/// input's, and yields the places in order. Names and links that are one place on some
+/// file system of a shop are one here.
 pub fn plan(folder: &Path, names: &[&str], inputs: &[Input]) -> Result<Vec<PathBuf>, OutputError> {
-    let mut taken: BTreeMap<String, &str> = BTreeMap::new();
-    let mut places = Vec::with_capacity(names.len());
     let sources = Files::of(inputs.iter().map(|input| input.path.as_path()));
+    let places: Vec<PathBuf> =
+        names.iter().map(|name| place_of(folder, name)).collect::<Result<_, OutputError>>()?;
+    let (mut spots, mut taken) = (Spots::default(), BTreeMap::new());
+    let mut take = |place: &Path, what: String| {
+        if sources.holds(place) {
+            return Err(OutputError::OverInput(place.to_owned()));
+        }
+        match taken.insert(spots.of(place), what.clone()) {
+            Some(other) => Err(OutputError::Collision(other, what, place.to_owned())),
+            None => Ok(()),
+        }
+    };
     for own in [Lock::NAME, Manifest::NAME] {
-        taken.insert(own.into(), own);
+        take(&folder.join(own), own.into())?;
     }
-    for &name in names {
-        let parts: Vec<&str> = name.split(['/', '\\']).collect();
-        if parts.iter().any(|part| matches!(*part, "" | "." | "..") || part.contains(':')) {
-            return Err(OutputError::Outside(name.into()));
-        }
-        let place = parts.iter().fold(folder.to_owned(), |path, part| path.join(part));
-        if let Some(other) = taken.insert(name.to_lowercase(), name) {
-            return Err(OutputError::Collision(other.into(), name.into(), place));
-        }
-        if sources.holds(&place) {
-            return Err(OutputError::OverInput(place));
-        }
-        places.push(place);
-    }
+    names.iter().zip(&places).try_for_each(|(name, place)| take(place, (*name).into()))?;
     for (name, place) in names.iter().zip(&places) {
         for ending in SIDECARS {
-            let beside = beside(place, ending);
-            if let Some(other) = taken.get(&format!("{name}{ending}").to_lowercase()) {
-                let certificate = format!("the certificate of {name}");
-                return Err(OutputError::Collision(certificate, (*other).into(), beside));
-            }
-            if sources.holds(&beside) {
-                return Err(OutputError::OverInput(beside));
-            }
+            take(&beside(place, ending), format!("the certificate of {name}"))?;
+        }
+    }
+    for (name, place) in names.iter().zip(&places) {
+        // A file has no others in it.
+        let above = |spot: PathBuf| spot.ancestors().skip(1).find_map(|above| taken.get(above)).cloned();
+        if let Some(other) = above(spots.of(place)) {
+            return Err(OutputError::Collision(other, (*name).into(), place.clone()));
         }
     }
     match places.iter().find(|place| leads_out(folder, place)) {
         Some(place) => Err(OutputError::Outside(place.display().to_string())),
         None => Ok(places),
     }
+}
+
+fn place_of(folder: &Path, name: &str) -> Result<PathBuf, OutputError> {
+    let parts: Vec<&str> = name.split(['/', '\\']).collect();
+    if parts.iter().any(|part| matches!(*part, "" | "." | "..")) {
+        return Err(OutputError::Outside(name.into()));
+    }
+    if parts.iter().any(|part| part.contains(':')) {
+        let why = "some file systems take what stands before a colon for a drive, or for another file";
+        return Err(OutputError::Unfit(name.into(), why));
+    }
+    Ok(parts.iter().fold(folder.to_owned(), |path, part| path.join(part)))
 }
 
 /// True if a place in a folder is not there in truth: a link on the way may lead out of it.
@@ -107,6 +117,15 @@ mod tests {
         assert!(matches!(plan(there.path(), &["a.nc"], &[input]), Err(OutputError::OverInput(_))));
         let own = plan(folder, &["macroglot.manifest"], &[]);
         assert!(matches!(own, Err(OutputError::Collision(..))));
+        for names in [
+            ["a\\b.nc", "a/b.nc"],
+            ["a.nc", "A.nc."],
+            ["a.nc", "a.nc/b.nc"],
+            ["a.nc", "a.nc.certificate.json/b"],
+        ] {
+            assert!(matches!(plan(folder, &names, &[]), Err(OutputError::Collision(..))), "{names:?}");
+        }
+        assert!(matches!(plan(folder, &["c:a.nc"], &[]), Err(OutputError::Unfit(..))));
         assert_eq!(plan(folder, &["x/a.nc"], &[]).ok(), Some(vec![PathBuf::from("out/x/a.nc")]));
     }
 }

@@ -49,6 +49,8 @@ impl Held {
     /// # Errors
     /// Those of the disk.
     pub fn take(folder: &Path, wait: impl Fn()) -> Result<(Self, Recovered), OutputError> {
+        // `out/.` cannot be made where `out` is missing.
+        let folder: &Path = &folder.components().collect::<PathBuf>();
         let fault = |error| OutputError::Unwritable(folder.to_owned(), error);
         let lock = loop {
             make(folder).map_err(fault)?;

@@ -89,6 +89,15 @@ pub(super) fn is_staged(path: &Path) -> bool {
     path.file_name().and_then(|name| name.to_str()).is_some_and(|name| name.starts_with(STAGED))
 }
 
+/// Why a file cannot have this path, if it cannot: journals are text, and some names are those of a run under way.
+pub(super) fn unfit(path: &Path) -> Option<&'static str> {
+    if path.to_str().is_none() {
+        return Some("its path is no text in UTF-8");
+    }
+    let is_own = is_staged(path) || path.components().any(|part| part.as_os_str() == FOLDER);
+    is_own.then_some("macroglot itself has such names while it writes")
+}
+
 /// Writes everything aside.
 fn stage(folder: &Path, work: &Path, changes: &[Change<'_>]) -> Result<Journal, OutputError> {
     let fault = |place: &Path, error| OutputError::Unwritable(place.to_owned(), error);

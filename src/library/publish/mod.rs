@@ -44,6 +44,9 @@ pub enum OutputError {
     /// A file that would overwrite an input.
     #[error("{0} is an input and would be overwritten; nothing was written. Name another place for it")]
     OverInput(PathBuf),
+    /// A name that a conversion cannot have.
+    #[error("'{0}' cannot be the name of a conversion: {1}; nothing was written. Rename its source")]
+    Unfit(String, &'static str),
     /// A place outside the output folder.
     #[error("'{0}' would be written outside the output folder; nothing was written")]
     Outside(String),
@@ -65,13 +68,21 @@ pub enum OutputError {
     HalfWay(PathBuf, io::Error, io::Error),
 }
 
+/// Finds what can be found that is wrong with changes before any is made.
+///
+/// # Errors
+/// As of [`publish`].
+pub fn check(held: &Held, changes: &[Change<'_>], force: bool) -> Result<(), OutputError> {
+    changes.iter().try_for_each(|change| fits(held.folder(), change, force))
+}
+
 /// Publishes changes in a folder: all of them, or none.
 ///
 /// # Errors
 /// Those of the disk; what can be found before anything is written is. Read-only files are replaced by `force` alone.
 pub fn publish(held: &Held, changes: &[Change<'_>], force: bool) -> Result<(), OutputError> {
     let folder = held.folder();
-    changes.iter().try_for_each(|change| fits(folder, change, force))?;
+    check(held, changes, force)?;
     if changes.is_empty() {
         return Ok(());
     }
@@ -95,6 +106,9 @@ fn fits(folder: &Path, change: &Change<'_>, force: bool) -> Result<(), OutputErr
     let places = [Some(&change.place), change.aside.as_ref()];
     for place in places.into_iter().flatten().map(|place| folder.join(place)) {
         let fault = |error| Err(OutputError::Unwritable(place.clone(), error));
+        if let Some(what) = journal::unfit(place.strip_prefix(folder).unwrap_or(&place)) {
+            return fault(io::Error::other(what));
+        }
         match fs::symlink_metadata(&place) {
             Ok(facts) if facts.is_dir() => return fault(io::ErrorKind::IsADirectory.into()),
             Ok(facts) if facts.permissions().readonly() && !facts.is_symlink() && !force => {
