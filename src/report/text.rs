@@ -221,7 +221,16 @@ fn folder(out: &mut String, told: &Told) {
         );
     }
     for (name, kept) in &told.kept {
-        let _ = writeln!(out, "kept       {} as {}: it was changed by hand", shown(name), shown(kept));
+        let _ = writeln!(
+            out,
+            "kept       {} as {}: macroglot did not write what stood there",
+            shown(name),
+            shown(kept)
+        );
+    }
+    for (name, at) in &told.replaced {
+        let (name, at) = (shown(name), shown(at));
+        let _ = writeln!(out, "replaced   {name}: it was converted from {at}, which is still there");
     }
     for name in &told.gone {
         let _ = writeln!(

@@ -5,6 +5,7 @@ mod commands;
 #[path = "../support/files.rs"]
 mod files;
 mod help;
+mod hostile;
 mod inputs;
 mod interrupted;
 mod outputs;

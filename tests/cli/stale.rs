@@ -53,7 +53,7 @@ fn what_a_person_changed_is_kept() {
         assert!(looked.err.contains("a.nc: was changed since macroglot wrote it"), "{}", looked.err);
         let run = shop.run(&line);
         assert!(
-            run.out.contains(&format!("kept       a.nc as {kept}: it was changed by hand")),
+            run.out.contains(&format!("kept       a.nc as {kept}: macroglot did not write what stood there")),
             "{}",
             run.out
         );
@@ -107,6 +107,12 @@ fn a_file_of_that_name_that_macroglot_did_not_write_stays() {
     let shop = Shop::with(&[("b.nc", REFUSED), ("out/b.nc", "(SOMEBODY'S)")]);
     assert_eq!(shop.run(&format!("convert b.nc {TO} --out out")).code, 1);
     assert_eq!(shop.read("out/b.nc"), "(SOMEBODY'S)");
+    // A conversion takes its place, and it is not lost.
+    shop.write("b.nc", CLEAN.as_bytes());
+    let run = shop.run(&format!("convert b.nc {TO} --out out"));
+    assert!(run.out.contains("kept       b.nc as b.nc.kept: macroglot did not write"), "{}", run.out);
+    assert!(shop.read("out/b.nc").contains("O1234"));
+    assert_eq!(shop.read("out/b.nc.kept"), "(SOMEBODY'S)");
 }
 
 #[test]

@@ -5,7 +5,8 @@
 
 use super::manifest::{Entry, Kind, Manifest, seen_from};
 use super::{Change, OutputError};
-use crate::library::outputs::{SIDECARS, read_file};
+use crate::library::inputs::same_file;
+use crate::library::outputs::{SIDECARS, leads_out, read_file};
 use crate::verify::sha256;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -33,9 +34,13 @@ pub struct Told {
     /// Conversions of earlier runs that were taken away, as their programs have none now.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub removed: Vec<String>,
-    /// Files that a person changed, and the names under which they are kept.
+    /// Files that are not what macroglot wrote there, and the names under which they are kept.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub kept: BTreeMap<String, String>,
+    /// Conversions that went for this run's, and where their sources stand, seen from the folder: other ones, that are still
+    /// there.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub replaced: BTreeMap<String, String>,
     /// Conversions whose sources are gone.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gone: Vec<String>,
@@ -68,17 +73,15 @@ pub fn changes<'b>(
     let names: BTreeSet<String> = wanted.iter().map(|wanted| wanted.name.clone()).collect();
     let mut plan = Plan { folder, manifest, names: &names, changes: Vec::new(), told: Told::default() };
     let mut next = manifest.clone();
-    let here: Vec<&str> = sources.keys().copied().collect();
-    for gone in manifest.gone(folder, &here) {
-        if prune {
-            plan.take_away(&gone)?;
-            for ending in SIDECARS {
-                plan.take_away(&format!("{gone}{ending}"))?;
-            }
-            plan.told.pruned.push(gone);
-        } else {
-            plan.told.gone.push(gone);
+    for files in manifest.gone(folder, |source| sources.contains_key(source)).into_values() {
+        // The program comes before what stands beside it.
+        let mut first = None;
+        for file in files {
+            let is_there = if prune { plan.take_away(file)? } else { folder.join(file).exists() };
+            first = first.or(is_there.then_some(file));
         }
+        let told = if prune { &mut plan.told.pruned } else { &mut plan.told.gone };
+        told.extend(first.map(str::to_owned));
     }
     for source in sources.keys().filter(|source| !names.contains(**source)) {
         // A file of that name that macroglot did not write is none of its business.
@@ -87,8 +90,10 @@ pub fn changes<'b>(
         }
     }
     for source in sources.keys() {
+        // Nor is what somebody put beside such a file.
+        let is_ours = |name: &str| names.contains(name) || manifest.files.contains_key(name);
         for beside in SIDECARS.iter().map(|ending| format!("{source}{ending}")) {
-            if !names.contains(&beside) {
+            if !names.contains(&beside) && (is_ours(source) || is_ours(&beside)) {
                 plan.take_away(&beside)?;
             }
         }
@@ -109,12 +114,17 @@ pub fn changes<'b>(
         next.files.insert(wanted.name.clone(), entry);
         plan.put(wanted)?;
     }
+    plan.tell_replaced(sources);
     let text = next.print();
     if plan.read(Manifest::NAME)?.is_none_or(|now| now != text.as_bytes()) {
         let place = PathBuf::from(Manifest::NAME);
         plan.changes.insert(0, Change { place, bytes: Some(text.into_bytes().into()), aside: None });
     }
     Ok((plan.changes, plan.told))
+}
+
+fn is_program(kind: Kind) -> bool {
+    matches!(kind, Kind::Program | Kind::Draft)
 }
 
 struct Plan<'p, 'b> {
@@ -127,10 +137,27 @@ struct Plan<'p, 'b> {
 }
 
 impl<'b> Plan<'_, 'b> {
+    /// Notes the sources of what is changed or taken away here, where they are others than those of this run.
+    fn tell_replaced(&mut self, sources: &BTreeMap<&str, &Path>) {
+        let changed = self.changes.iter().filter_map(|change| change.place.to_str());
+        let other = |name: &str| {
+            let (entry, source) = (self.manifest.files.get(name)?, sources.get(name)?);
+            let at = entry.at.as_ref()?;
+            let before = self.folder.join(at);
+            let is_other = before.exists() && !same_file(&before, source);
+            is_other.then(|| (name.to_owned(), at.clone()))
+        };
+        self.told.replaced = changed.filter_map(other).collect();
+    }
+
     /// Removes what stands there; true if anything does.
     fn take_away(&mut self, name: &str) -> Result<bool, OutputError> {
+        let place = self.folder.join(name);
+        if place.parent().is_some_and(|above| above != self.folder && leads_out(self.folder, above)) {
+            return Err(OutputError::Outside(place.display().to_string()));
+        }
         let Some(now) = self.read(name)? else { return Ok(false) };
-        let aside = self.aside(name, &now);
+        let aside = self.aside(name, &now, false);
         self.changes.push(Change { place: name.into(), bytes: None, aside });
         Ok(true)
     }
@@ -141,7 +168,8 @@ impl<'b> Plan<'_, 'b> {
         if now.as_deref() == Some(&*wanted.bytes) {
             return Ok(());
         }
-        let aside = now.and_then(|now| self.aside(&wanted.name, &now));
+        let is_program = is_program(wanted.kind);
+        let aside = now.and_then(|now| self.aside(&wanted.name, &now, is_program));
         self.changes.push(Change { place: wanted.name.into(), bytes: Some(wanted.bytes), aside });
         Ok(())
     }
@@ -155,18 +183,22 @@ impl<'b> Plan<'_, 'b> {
         }
     }
 
-    /// Where a program is kept that stands there otherwise than macroglot wrote it.
-    fn aside(&mut self, name: &str, now: &[u8]) -> Option<PathBuf> {
-        let entry = self.manifest.files.get(name)?;
-        if !matches!(entry.kind, Kind::Program | Kind::Draft) || entry.sha256 == sha256(now) {
+    /// Where a program is kept that stands there otherwise than macroglot wrote it, or where a program of this run goes
+    /// and macroglot wrote nothing.
+    fn aside(&mut self, name: &str, now: &[u8], for_program: bool) -> Option<PathBuf> {
+        let is_foreign = match self.manifest.files.get(name) {
+            Some(entry) => is_program(entry.kind) && entry.sha256 != sha256(now),
+            None => for_program,
+        };
+        if !is_foreign {
             return None;
         }
-        let names =
+        let mut names =
             (1_u32..).map(|n| if n == 1 { format!("{name}.kept") } else { format!("{name}.kept-{n}") });
         let free = |kept: &String| {
             !self.names.contains(kept) && fs::symlink_metadata(self.folder.join(kept)).is_err()
         };
-        let kept = names.take(1000).find(free)?;
+        let kept = names.find(free)?;
         self.told.kept.insert(name.to_owned(), kept.clone());
         Some(kept.into())
     }

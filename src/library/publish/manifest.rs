@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -85,6 +85,12 @@ impl Manifest {
         };
         let manifest: Self = toml::from_str(&text)
             .map_err(|error| ManifestError(path.clone(), error.message().to_string()))?;
+        let is_plain = |name: &str| {
+            !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
+        };
+        if let Some(name) = manifest.files.keys().find(|name| !is_plain(name)) {
+            return Err(ManifestError(path, format!("names '{name}', which is no file of the folder")));
+        }
         if manifest.version != VERSION {
             let why = format!("is of version {}, this macroglot writes version {VERSION}", manifest.version);
             return Err(ManifestError(path, why));
@@ -106,21 +112,24 @@ impl Manifest {
         files.filter(changed).map(|(name, _)| name).collect()
     }
 
-    /// The programs whose source is gone: it is none of `names`, and does not stand where it stood.
-    pub fn gone(&self, folder: &Path, names: &[&str]) -> Vec<String> {
-        let gone = |entry: &Entry| {
-            let is_here = entry.source.as_deref().is_none_or(|source| names.contains(&source));
-            !is_here && entry.at.as_ref().is_some_and(|at| !folder.join(at).exists())
-        };
-        let programs =
-            self.files.iter().filter(|(_, entry)| matches!(entry.kind, Kind::Program | Kind::Draft));
-        programs.filter(|(_, entry)| gone(entry)).map(|(name, _)| name.clone()).collect()
+    /// The files whose source is gone, by its name: it is none of this run, and does not stand where it stood.
+    pub fn gone(&self, folder: &Path, is_of_run: impl Fn(&str) -> bool) -> BTreeMap<&str, Vec<&str>> {
+        let mut gone: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        for (name, entry) in &self.files {
+            let (Some(source), Some(at)) = (entry.source.as_deref(), &entry.at) else { continue };
+            if !is_of_run(source) && !folder.join(at).exists() {
+                gone.entry(source).or_default().push(name);
+            }
+        }
+        gone
     }
 }
 
-/// Where a source stands, seen from a folder; none for standard input, and for what shares no root with it.
+/// Where a source stands, seen from a folder; none for standard input, for what shares no root with it, and for a path
+/// that is no text.
 pub fn seen_from(folder: &Path, source: &Path) -> Option<String> {
     let (folder, source) = (fs::canonicalize(folder).ok()?, fs::canonicalize(source).ok()?);
+    source.to_str()?;
     let shared = folder.components().zip(source.components()).take_while(|(a, b)| a == b).count();
     if shared == 0 {
         return None;
@@ -143,5 +152,12 @@ mod tests {
         fs::write(&program, "M30").unwrap();
         assert_eq!(seen_from(&out, &program).as_deref(), Some("../../in/b/x.nc"));
         assert_eq!(seen_from(&out, Path::new("-")), None);
+        #[cfg(target_os = "linux")]
+        {
+            use std::os::unix::ffi::OsStrExt;
+            let odd = shop.path().join(std::ffi::OsStr::from_bytes(b"in/\xff.nc"));
+            fs::write(&odd, "M30").unwrap();
+            assert_eq!(seen_from(&out, &odd), None);
+        }
     }
 }
