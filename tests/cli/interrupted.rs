@@ -110,3 +110,26 @@ fn what_no_run_left_stays() {
     assert!(run.code == 2 && run.err.contains("it is no folder"), "{}", run.err);
     assert!(!shop.path("nowhere").exists());
 }
+
+/// A file that never went is not put back: in a shared folder it may be another user's, and stay.
+#[cfg(unix)]
+#[test]
+fn what_never_went_is_left_alone() {
+    use std::os::unix::fs::MetadataExt;
+    let shop = Shop::with(&[
+        ("b.nc", CLEAN),
+        ("out/a.nc", "OLD"),
+        ("out/.macroglot/old-0", "OLD"),
+        ("out/.macroglot/old-1", "OLD"),
+    ]);
+    shop.write("out/c.nc", b"NEW");
+    let steps = r#"{"steps":[{"place":"a.nc","new":".macroglot/new-0","old":".macroglot/old-0"},
+        {"place":"c.nc","new":".macroglot/new-1","old":".macroglot/old-1"}]}"#;
+    shop.write("out/.macroglot/back", steps.as_bytes());
+    let number = || std::fs::metadata(shop.path("out/a.nc")).unwrap().ino();
+    let before = number();
+    let run = shop.run(&format!("convert b.nc {TO} --out out"));
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!((number(), shop.read("out/c.nc").as_str()), (before, "OLD"));
+    assert!(!shop.path("out/.macroglot").exists());
+}

@@ -6,6 +6,7 @@
 //! journal has its name has changed nothing; one that is ended after it is finished by the next. A step that fails turns
 //! the journal round: what was done is undone, and that too may be done twice.
 
+use super::super::inputs::same_file;
 use super::super::outputs::{leads_out, read_file};
 use super::{Change, OutputError, disk};
 use serde::{Deserialize, Serialize};
@@ -200,6 +201,8 @@ pub(super) fn undo(folder: &Path, journal: &Journal) -> io::Result<()> {
     for step in &journal.steps {
         let place = folder.join(&step.place);
         match step.old.as_ref().map(|old| folder.join(old)) {
+            // What never went needs no way back: where another's file cannot be replaced there is none.
+            Some(old) if is_same(&old, &place) => {}
             // Without its second name it is back already.
             Some(old) if old.exists() => disk::rename(&old, &place)?,
             Some(_) => {}
@@ -211,6 +214,14 @@ pub(super) fn undo(folder: &Path, journal: &Journal) -> io::Result<()> {
     }
     sync_places(folder, journal)?;
     take_back(folder)
+}
+
+/// True if the same file stands in both places, and no link.
+fn is_same(old: &Path, place: &Path) -> bool {
+    let is_link = old.is_symlink() || place.is_symlink();
+    !is_link
+        && (same_file(old, place)
+            || read_file(old).is_ok_and(|old| read_file(place).is_ok_and(|now| now == old)))
 }
 
 /// Puts the new names on the disk, and forgets how they came there.
