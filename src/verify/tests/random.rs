@@ -318,3 +318,29 @@ fn a_called_program_finds_the_length_that_its_caller_may_have_lost() {
     assert_ne!(found("H2"), Outcome::Different);
     assert_eq!(found("H3"), Outcome::Different);
 }
+
+/// A place along another axis holds no length, which a machine move may have cancelled on one control.
+#[test]
+fn a_position_along_another_axis_asks_for_no_length() {
+    let text = "O1\nG21G90G17G40G49G80G54\nS800M3\nG43H4Z30.\nG53G0Z0.\n#140=#5002\nM5\nM30\n";
+    assert_ne!(run("fanuc", text, "haas", text, &[]).outcome, Outcome::Different);
+    let there = text.replace("#140=#5002", "#140=#5001");
+    assert_eq!(run("fanuc", text, "haas", &there, &[]).outcome, Outcome::Different);
+}
+
+/// A cycle that only keeps its words places nothing by a length that the caller may have lost.
+#[test]
+fn a_cycle_that_is_kept_for_later_asks_for_no_length() {
+    let head = "S800M3\nG1F300.\n";
+    let found = |cycle: &str| {
+        let source = format!(
+            "O1\nG0G90G17G40G49G80E1\n{head}H3Z20.\nG28X0Y0\nM98P2\nM2\nO2\nG82G98Z-4.82R0+2.P250F120.\nG80\nM99\n"
+        );
+        let target = format!(
+            "O1\nG20\nG0G90G17G40G49G80G54\n{head}G43H3Z20.\nG28X0.Y0.\nM98P2\nM2\nO2\n{cycle}\nG80\nM99\n"
+        );
+        programs(("fadal", &source), ("fanuc", &target), &[("R0", 550)])[1].outcome
+    };
+    assert_ne!(found("#550=2\nG82G98Z-4.82R2.P250F120.L0"), Outcome::Different);
+    assert_eq!(found("#550=2\nG82G98X1.Z-4.82R2.P250F120."), Outcome::Different);
+}
