@@ -34,6 +34,8 @@ pub enum WhyNot {
     Empty,
     /// It is no text.
     Binary,
+    /// An output folder: a run of macroglot wrote what it holds.
+    Written,
 }
 
 impl WhyNot {
@@ -46,6 +48,7 @@ impl WhyNot {
             Self::Unknown => "of no known ending",
             Self::Empty => "empty",
             Self::Binary => "binary",
+            Self::Written => "written by macroglot",
         }
     }
 }
@@ -88,6 +91,8 @@ fn look(folder: &Path, endings: &[String], above: bool) -> Result<Walked, InputE
     let mut seen = BTreeSet::new();
     let mut walk = WalkBuilder::new(folder);
     walk.require_git(false).parents(above).git_global(above).git_exclude(above);
+    // What an earlier run wrote into a folder below is no source of the next one.
+    walk.filter_entry(|entry| entry.depth() == 0 || !is_output(entry.path()));
     for entry in walk.sort_by_file_path(Path::cmp).build() {
         let entry = entry.map_err(fault)?;
         let path = entry.path();
@@ -112,11 +117,20 @@ fn look(folder: &Path, endings: &[String], above: bool) -> Result<Walked, InputE
         let path = entry.map_err(fault)?.into_path();
         if !seen.contains(&path) {
             let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-            let why = if is_hidden { WhyNot::Hidden } else { WhyNot::Ignored };
+            let why = match is_hidden {
+                true => WhyNot::Hidden,
+                false if is_output(&path) => WhyNot::Written,
+                false => WhyNot::Ignored,
+            };
             walked.left_out.push(LeftOut { path, why });
         }
     }
     Ok(walked)
+}
+
+/// True for a folder in which macroglot keeps a list of what it wrote.
+fn is_output(path: &Path) -> bool {
+    path.join(Manifest::NAME).is_file()
 }
 
 fn is_program(path: &Path, endings: &[String]) -> bool {

@@ -180,3 +180,19 @@ fn an_ignored_folder_that_is_named_is_read() {
     let run = shop.run("parse . --dialect fanuc");
     assert!(run.out.starts_with("left out: 1 hidden, 1 ignored"), "{}", run.out);
 }
+
+/// A folder is converted into one below it, again and again: what a run wrote there is no source of the next.
+#[test]
+fn an_output_folder_below_is_no_source() {
+    let shop = Shop::with(&[("a.nc", CLEAN), ("sub/b.nc", CLEAN)]);
+    let line = "convert . --from fanuc --to haas --out out --verbose";
+    let first = shop.run(line);
+    assert!(first.code == 0 && !first.out.contains("written by"), "{}", first.out);
+    let told = "out: written by macroglot\n";
+    let again = shop.run(line);
+    assert!(again.code == 0 && again.out.contains(told), "{}", again.out);
+    assert!(again.out.contains("2 programs in 2 files"), "{}", again.out);
+    // Named by hand, it is read.
+    let back = shop.run("convert out --from haas --to fanuc --out back --quiet");
+    assert!(back.code == 0 && shop.read("back/sub/b.nc").contains("O1234"), "{}", back.out);
+}
