@@ -133,14 +133,14 @@ pub fn compare<'r>(
     found
 }
 
-/// How many settings of the source its alarm keeps from doing anything, where the target has no such alarm: it goes on, and
-/// may set them otherwise first.
-fn before_alarm(source: &[Act<'_>], target: &[Act<'_>]) -> usize {
-    let alarm = |acts: &[Act<'_>]| {
-        let settings = acts.iter().take_while(|act| setting(&act.what).is_some()).count();
-        acts.get(settings).is_some_and(|act| matches!(*act.what, Happening::Alarm(_))).then_some(settings)
+/// How many settings stand on each side before an alarm of one of them: it keeps them from doing anything, and the other side
+/// goes on, and may set them otherwise first.
+fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
+    let settings = sides.map(|acts| acts.iter().take_while(|act| setting(&act.what).is_some()).count());
+    let alarm = |side: usize| {
+        sides[side].get(settings[side]).is_some_and(|act| matches!(*act.what, Happening::Alarm(_)))
     };
-    alarm(source).filter(|_| alarm(target).is_none()).unwrap_or(0)
+    if alarm(0) == alarm(1) { [0; 2] } else { settings }
 }
 
 /// Two runs side by side.
@@ -179,10 +179,11 @@ impl<'r> Pairs<'_, 'r> {
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
             let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
-            let unseen = before_alarm(here, there);
-            if unseen > 0 {
-                here.iter().take(unseen).for_each(|act| self.moved(0, act));
-                i += unseen;
+            let unseen = before_alarm([here, there]);
+            if unseen != [0; 2] {
+                here.iter().take(unseen[0]).for_each(|act| self.moved(0, act));
+                there.iter().take(unseen[1]).for_each(|act| self.moved(1, act));
+                (i, j) = (i + unseen[0], j + unseen[1]);
                 continue;
             }
             // What a cycle does to a spindle that may stand on one side has no counterpart on the other.

@@ -208,3 +208,14 @@ fn a_moved_text_moves_the_places_of_its_assumptions() {
     let found = one(source, source, &supposed);
     assert!(found.assumptions[0].broken == Some(0) && found.outcome == Outcome::Same, "{found:#?}");
 }
+
+/// A broken assumption is an alarm on the target; the work offset that the source returns in was there from the start.
+#[test]
+fn a_break_excuses_its_alarm_in_every_state_of_the_machine() {
+    let source = "O1\nG1Z1.F9.\nIF[#142LT9]GOTO10\n#[600+#523]=7\nN10M99\n";
+    let found = one(source, source, &[numbers(source, "#[600+#523]=7", &[(500, 699)])]);
+    assert_ne!(found.outcome, Outcome::Different, "{:?}", found.witness);
+    let there = source.replace("=7", "=8");
+    let found = one(source, &there, &[numbers(source, "#[600+#523]=7", &[(500, 699)])]);
+    assert_eq!(found.outcome, Outcome::Different);
+}
