@@ -36,7 +36,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         false => ModalFacts::with_copies(module, &context.entry),
     };
     let summaries = Summaries::of(module);
-    let mut expansion = Expansion { module: module.clone(), facts, summaries, native, copies: Vec::new() };
+    let locals = carried::numbers(context.source);
+    let mut expansion =
+        Expansion { module: module.clone(), facts, summaries, native, locals, copies: Vec::new() };
     let count = module.programs.len();
     for index in 0..count {
         let program = &module.programs[index];
@@ -114,6 +116,7 @@ struct Expansion {
     facts: ModalFacts,
     summaries: Summaries,
     native: bool,
+    locals: carried::Numbers,
     /// Copies of macros with outer calls in them.
     copies: Vec<Copied>,
 }
@@ -151,7 +154,10 @@ impl Expansion {
                 let site = stmt.site.clone();
                 if !self.native
                     && let Some(place) = stmt.kind.target()
-                    && let Some(var) = before.iter().flatten().find_map(|call| carried::argument(call, place))
+                    && let Some(var) = before
+                        .iter()
+                        .flatten()
+                        .find_map(|call| carried::argument(call, place, &self.locals, |_| true))
                 {
                     context.add(
                         index,
@@ -164,7 +170,7 @@ impl Expansion {
                             let why = "each move calls the macro anew: its arguments are computed and set again each time";
                             context.add(index, Diagnostic::new(Code::Conditional, site.span, why));
                         }
-                        if let Some(var) = carried::changed_by_callee(&self.module, call) {
+                        if let Some(var) = carried::changed_by_callee(&self.module, call, &self.locals) {
                             context.add(
                                 index,
                                 Diagnostic::new(
@@ -357,7 +363,7 @@ impl Expansion {
     /// A local of the callee that it reads as an earlier run of it left it.
     fn carries(&self, call: &Call) -> Option<u32> {
         match &call.callee {
-            Callee::Program(name) if call.level => carried::local(&self.module, name),
+            Callee::Program(name) if call.level => carried::local(&self.module, name, &self.locals),
             _ => None,
         }
     }

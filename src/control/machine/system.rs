@@ -33,7 +33,7 @@ impl Machine {
         }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
             self.place_by_offset(trace);
-            // People who read a place along another axis ask for no length.
+            // A place along another axis holds no length.
             let along = subscripts.last().is_none_or(|axis| *axis == 3);
             if along {
                 self.place_by_length(trace);

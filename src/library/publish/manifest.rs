@@ -7,7 +7,6 @@ use crate::library::outputs::read_text;
 use crate::verify::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
