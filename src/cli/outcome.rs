@@ -69,18 +69,26 @@ pub fn wanted<'p>(
             let is_draft =
                 conversion.programs.iter().any(|program| refused(program) && !program.map.is_empty());
             let kind = if is_draft { Kind::Draft } else { Kind::Program };
-            wanted.push(Wanted { name: name.clone(), kind, source: name, bytes: bytes.into() });
+            let rests_on = Vec::new();
+            wanted.push(Wanted { name: name.clone(), kind, source: name, bytes: bytes.into(), rests_on });
         }
         let mut certificate = |all: Option<&Vec<Option<Certificate>>>, name: String, kind| {
             if let Some(certificate) = all.and_then(|all| all.get(at)).and_then(Option::as_ref) {
                 let bytes = certificate.print().into_bytes().into();
-                wanted.push(Wanted { name, kind, source: &out.names[at], bytes });
+                let rests_on = if kind == Kind::Certificate { rests_on(judged, at, out) } else { Vec::new() };
+                wanted.push(Wanted { name, kind, source: &out.names[at], bytes, rests_on });
             }
         };
         certificate(judged.map(|judged| &judged.written), certificate_of(name), Kind::Certificate);
         certificate(judged.map(|judged| &judged.withheld), withheld_of(name), Kind::Withheld);
     }
     wanted
+}
+
+/// The other conversions that the certificate of a file rests on.
+fn rests_on(judged: Option<&Certificates>, at: usize, out: &Out) -> Vec<String> {
+    let others = judged.and_then(|judged| judged.rest_on.get(at)).into_iter().flatten();
+    others.filter_map(|other| out.names.get(*other).cloned()).collect()
 }
 
 /// What is new in an output folder, and what is told of it.

@@ -87,6 +87,11 @@ fn tell_changed(target: &Path, theirs: &[Input]) -> Result<(), u8> {
         let what = "was changed since macroglot wrote it; its certificate is of the text before";
         remark(format!("{name}: {what}"));
     }
+    let is_target = |name: &str| theirs.iter().any(|input| input.name == name);
+    for (name, outdated) in manifest.outdated_in(folder).into_iter().filter(|(name, _)| is_target(name)) {
+        let what = "its certificate was made when what it calls was another text";
+        remark(format!("{name}: {what}: {}", outdated.others.join(", ")));
+    }
     Ok(())
 }
 

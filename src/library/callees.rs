@@ -128,6 +128,17 @@ impl Callees {
         }
     }
 
+    /// What each program calls: by its name, or in some run.
+    pub fn all(&self) -> BTreeMap<usize, BTreeSet<usize>> {
+        let mut all = self.entered.clone();
+        for link in &self.links {
+            if let Linked::Program { at, .. } = link.callee {
+                all.entry(link.caller).or_default().insert(at);
+            }
+        }
+        all
+    }
+
     /// What is not written and called from a program, or from what it calls.
     fn missing(&self, at: usize) -> BTreeSet<String> {
         let gone = |at: usize| self.refused.contains(&at) || self.withdrawn.contains_key(&at);

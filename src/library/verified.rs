@@ -26,11 +26,18 @@ pub struct Certificates {
     pub written: Vec<Option<Certificate>>,
     /// Of the programs that were converted and are not written: they differ, or call one that does.
     pub withheld: Vec<Option<Certificate>>,
+    /// The other files that the runs of a file's programs may have come through: were they another text, so might be what
+    /// was found.
+    pub rest_on: Vec<BTreeSet<usize>>,
 }
 
 impl Certificates {
     fn none(files: usize) -> Self {
-        Self { written: vec![None; files], withheld: vec![None; files] }
+        Self {
+            written: vec![None; files],
+            withheld: vec![None; files],
+            rest_on: vec![BTreeSet::new(); files],
+        }
     }
 }
 
@@ -125,7 +132,33 @@ pub fn judge(
     callees.tell(conversion);
     withdraw(conversion, &callees.withdrawn);
     let withheld = callees.withdrawn.keys().copied().collect();
-    written(conversion, inputs, verified, found, &withheld)
+    let rest_on = rest_on(conversion, &callees, found.keys().copied());
+    let judged = written(conversion, inputs, verified, found, &withheld);
+    Certificates { rest_on, ..judged }
+}
+
+/// The other files that are written and that the programs of each file call into, however far down.
+fn rest_on(
+    conversion: &Conversion,
+    callees: &Callees,
+    judged: impl Iterator<Item = usize>,
+) -> Vec<BTreeSet<usize>> {
+    let mut files = vec![BTreeSet::new(); conversion.texts.len()];
+    let file = |at: usize| conversion.programs[at].file;
+    let mut by_file: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for at in judged.filter(|at| !callees.withdrawn.contains_key(at)) {
+        by_file.entry(file(at)).or_default().push(at);
+    }
+    let calls = callees.all();
+    for (here, mut work) in by_file {
+        let mut seen: BTreeSet<usize> = work.iter().copied().collect();
+        while let Some(caller) = work.pop() {
+            work.extend(calls.get(&caller).into_iter().flatten().filter(|callee| seen.insert(**callee)));
+        }
+        let others = seen.into_iter().map(file).filter(|other| *other != here);
+        files[here].extend(others.filter(|other| conversion.texts[*other].is_some()));
+    }
+    files
 }
 
 /// What the conversion of a program supposes.

@@ -89,7 +89,7 @@ pub fn written(
     found: BTreeMap<usize, ProgramCertificate>,
     withheld: &BTreeSet<usize>,
 ) -> Certificates {
-    let mut all = Certificates { written: files.clone(), withheld: files };
+    let mut all = Certificates { written: files.clone(), withheld: files, rest_on: Vec::new() };
     for (at, mut program) in found {
         let file = conversion.programs[at].file;
         let is_withheld = withheld.contains(&at);

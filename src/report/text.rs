@@ -232,6 +232,15 @@ fn folder(out: &mut String, told: &Told) {
         let (name, at) = (shown(name), shown(at));
         let _ = writeln!(out, "replaced   {name}: it was converted from {at}, which is still there");
     }
+    for (name, others) in &told.uncertified {
+        let others: Vec<_> = others.iter().map(|other| shown(other)).collect();
+        let _ = writeln!(
+            out,
+            "unverified {}: it calls what is another now than when it was verified: {}; convert them together",
+            shown(name),
+            others.join(", ")
+        );
+    }
     for name in &told.gone {
         let _ = writeln!(
             out,

@@ -26,6 +26,8 @@ pub struct Wanted<'b> {
     pub source: &'b str,
     /// What is to stand there.
     pub bytes: Cow<'b, [u8]>,
+    /// Of a certificate: the names of the other conversions that it rests on.
+    pub rests_on: Vec<String>,
 }
 
 /// What a person is told of a folder.
@@ -41,6 +43,9 @@ pub struct Told {
     /// there.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub replaced: BTreeMap<String, String>,
+    /// Conversions whose certificates were taken away, and the files that they call and that are others now.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub uncertified: BTreeMap<String, Vec<String>>,
     /// Conversions whose sources are gone.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gone: Vec<String>,
@@ -98,6 +103,9 @@ pub fn changes<'b>(
             }
         }
     }
+    let hashes: BTreeMap<String, String> =
+        wanted.iter().map(|wanted| (wanted.name.clone(), sha256(&wanted.bytes))).collect();
+    plan.uncertify(sources, &hashes)?;
     next.files.retain(|name, entry| {
         let is_ours = entry.source.as_deref().is_some_and(|source| sources.contains_key(source));
         let is_taken = plan.changes.iter().any(|change| change.place == Path::new(name));
@@ -109,7 +117,12 @@ pub fn changes<'b>(
             kind: wanted.kind,
             source: Some(wanted.source.to_owned()),
             at,
-            sha256: sha256(&wanted.bytes),
+            sha256: hashes.get(&wanted.name).cloned().unwrap_or_default(),
+            rests_on: wanted
+                .rests_on
+                .iter()
+                .filter_map(|name| Some((name.clone(), hashes.get(name)?.clone())))
+                .collect(),
         };
         next.files.insert(wanted.name.clone(), entry);
         plan.put(wanted)?;
@@ -148,6 +161,30 @@ impl<'b> Plan<'_, 'b> {
             is_other.then(|| (name.to_owned(), at.clone()))
         };
         self.told.replaced = changed.filter_map(other).collect();
+    }
+
+    /// Takes away certificates of programs that are none of this run, where what they call is another text after it, or
+    /// none.
+    fn uncertify(
+        &mut self,
+        sources: &BTreeMap<&str, &Path>,
+        hashes: &BTreeMap<String, String>,
+    ) -> Result<(), OutputError> {
+        let gone: BTreeSet<PathBuf> = self.changes.iter().map(|change| change.place.clone()).collect();
+        let outdated = self.manifest.outdated(|name, before| match hashes.get(name) {
+            Some(now) => now != before,
+            None => gone.contains(Path::new(name)),
+        });
+        for (program, outdated) in outdated {
+            let is_taken = gone.contains(Path::new(&outdated.certificate));
+            if !sources.contains_key(program.as_str())
+                && !is_taken
+                && self.take_away(&outdated.certificate)?
+            {
+                self.told.uncertified.insert(program, outdated.others);
+            }
+        }
+        Ok(())
     }
 
     /// Removes what stands there; true if anything does.

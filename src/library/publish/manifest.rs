@@ -3,7 +3,7 @@
 //! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
 
 use crate::library::inputs::slashed;
-use crate::library::outputs::read_text;
+use crate::library::outputs::{read_file, read_text};
 use crate::verify::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -50,6 +50,19 @@ pub struct Entry {
     pub at: Option<String>,
     /// SHA-256 of the file.
     pub sha256: String,
+    /// Of a certificate: the other conversions that the runs came through, with their SHA-256 then. What earlier versions
+    /// wrote does not say so.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub rests_on: BTreeMap<String, String>,
+}
+
+/// A certificate that is of other texts than those that stand in the folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outdated {
+    /// Its name.
+    pub certificate: String,
+    /// The files that were otherwise when it was made.
+    pub others: Vec<String>,
 }
 
 /// Why a manifest could not be used.
@@ -109,6 +122,26 @@ impl Manifest {
             self.files.get(*name).is_some_and(|entry| entry.sha256 != sha256(bytes))
         };
         files.filter(changed).map(|(name, _)| name).collect()
+    }
+
+    /// The certificates that rest on another text than stands in the folder, by the names of their programs, and the files
+    /// that are others. `differs` says so of a file and the SHA-256 that it had.
+    pub fn outdated(&self, differs: impl Fn(&str, &str) -> bool) -> BTreeMap<String, Outdated> {
+        let mut outdated = BTreeMap::new();
+        for (certificate, entry) in &self.files {
+            let others = entry.rests_on.iter().filter(|(name, sha256)| differs(name, sha256));
+            let others: Vec<String> = others.map(|(name, _)| name.clone()).collect();
+            if let Some(source) = entry.source.as_ref().filter(|_| !others.is_empty()) {
+                outdated.insert(source.clone(), Outdated { certificate: certificate.clone(), others });
+            }
+        }
+        outdated
+    }
+
+    /// The certificates that rest on another text than stands in the folder now.
+    pub fn outdated_in(&self, folder: &Path) -> BTreeMap<String, Outdated> {
+        let now = |name: &str| read_file(&folder.join(name)).ok().map(|bytes| sha256(&bytes));
+        self.outdated(|name, before| now(name).is_none_or(|now| now != before))
     }
 
     /// The files whose source is gone, by its name: it is none of this run, and does not stand where it stood.

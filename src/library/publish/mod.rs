@@ -16,7 +16,7 @@ mod sync;
 
 pub use changes::{Told, Wanted, changes};
 pub use held::{Held, Recovered, abandon};
-pub use manifest::{Kind, Manifest, ManifestError};
+pub use manifest::{Kind, Manifest, ManifestError, Outdated};
 pub use recover::is_pending;
 
 use std::borrow::Cow;
