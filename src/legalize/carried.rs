@@ -1,6 +1,7 @@
 //! What changes while a modal call is open: locals that one run of its macro leaves for the next one, and variables that
 //! its arguments read.
 
+use super::computed_calls::CalledPrograms;
 use super::computed_numbers::constant_part;
 use super::rewrite::{Part, highest_temp, rebuild};
 use crate::dialect::Control;
@@ -8,7 +9,6 @@ use crate::ir::analysis::Cfg;
 use crate::ir::{
     Bank, Block, Call, Callee, Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var,
 };
-use crate::syntax::ProgramName;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
@@ -18,38 +18,40 @@ type Locals = BTreeSet<u32>;
 /// The numbers that locals may have.
 pub type Numbers = RangeInclusive<u32>;
 
-/// A local that a macro may read before it writes it, and writes; none where each run begins alike. A macro that is
-/// not in the library has none: a diagnostic of its own speaks of it.
-pub fn local(module: &Module, name: &ProgramName, numbers: &Numbers) -> Option<u32> {
-    let program = find(module, name)?;
+/// A local that a macro may read before it writes it, and writes; none where each run begins alike.
+pub fn local(module: &Module, called: &CalledPrograms, at: usize, numbers: &Numbers) -> Option<u32> {
     let mut written = Locals::new();
     // What shares the level: subprograms, whatever they call at the same level, and where they return to.
-    let mut shared = BTreeSet::from([name]);
-    let mut work = vec![program];
-    while let Some(one) = work.pop() {
-        written.extend(one.blocks.iter().flat_map(|block| may_write(block, numbers)));
-        for block in &one.blocks {
+    let mut shared = BTreeSet::from([at]);
+    let mut work = vec![at];
+    while let Some(index) = work.pop() {
+        let program = &module.programs[index];
+        written.extend(program.blocks.iter().flat_map(|block| may_write(block, numbers)));
+        for (id, block) in program.ids().zip(&program.blocks) {
             if let TermKind::Call { call, .. } = &block.term.kind
-                && let Callee::Program(name) = &call.callee
                 && !call.level
-                && shared.insert(name)
             {
-                work.extend(find(module, name));
+                work.extend(called.by((index, id), call).iter().filter(|callee| shared.insert(**callee)));
             }
         }
     }
-    let of_others = shared.iter().filter(|other| **other != name).filter_map(|other| find(module, other));
+    let of_others = shared.iter().filter(|other| **other != at).map(|other| &module.programs[*other]);
     let mut read: Locals =
         of_others.flat_map(|other| other.blocks.iter().flat_map(|block| reads(block, numbers))).collect();
-    read.extend(early(program, numbers));
+    read.extend(early(&module.programs[at], numbers));
     read.intersection(&written).next().copied()
 }
 
-/// An argument of an open modal call that a write to this place may change, of those that count.
+/// A variable of the arguments of an open modal call, or of the number it calls, that a write to this place may change, of
+/// those that count.
 pub fn argument(call: &Call, place: &Place, numbers: &Numbers, counts: impl Fn(Var) -> bool) -> Option<Var> {
-    call.arguments.iter().find_map(|argument| {
+    let number = match &call.callee {
+        Callee::Computed(number) => Some(number),
+        _ => None,
+    };
+    call.arguments.iter().map(|argument| &argument.value).chain(number).find_map(|value| {
         let mut found = None;
-        argument.value.variables(&mut |var| {
+        value.variables(&mut |var| {
             let hit = match place {
                 Place::Var(target) => *target == var,
                 Place::Indirect(bank, number) => {
@@ -65,25 +67,27 @@ pub fn argument(call: &Call, place: &Place, numbers: &Numbers, counts: impl Fn(V
     })
 }
 
-/// An argument of a modal call that the macro, or what that calls, may change; its locals are its own.
-pub fn changed_by_callee(module: &Module, call: &Call, numbers: &Numbers) -> Option<Var> {
-    let Callee::Program(name) = &call.callee else { return None };
-    let mut seen = BTreeSet::from([name]);
-    let mut work: Vec<&Program> = find(module, name).into_iter().collect();
-    while let Some(program) = work.pop() {
-        for block in &program.blocks {
+/// An argument of a modal call that the macros it may be meant for, or what those call, may change; their locals are
+/// their own.
+pub fn changed_by_callee(
+    module: &Module,
+    called: &CalledPrograms,
+    macros: &[usize],
+    call: &Call,
+    numbers: &Numbers,
+) -> Option<Var> {
+    let mut seen: BTreeSet<usize> = macros.iter().copied().collect();
+    let mut work = macros.to_vec();
+    while let Some(index) = work.pop() {
+        let program = &module.programs[index];
+        for (id, block) in program.ids().zip(&program.blocks) {
             let mut places = block.stmts.iter().filter_map(|stmt| stmt.kind.target());
             let shared = |var: Var| !call.level || var.class.shared();
             if let Some(var) = places.find_map(|place| argument(call, place, numbers, shared)) {
                 return Some(var);
             }
-            for inner in super::calls_of(block) {
-                if let Callee::Program(name) = &inner.callee
-                    && seen.insert(name)
-                {
-                    work.extend(find(module, name));
-                }
-            }
+            let inner = super::calls_of(block).flat_map(|inner| called.by((index, id), inner));
+            work.extend(inner.filter(|callee| seen.insert(**callee)));
         }
     }
     None
@@ -106,11 +110,20 @@ fn is_held(value: &Expr) -> bool {
     value.constant().is_none() && !value.may_be_vacant()
 }
 
-/// Computes the arguments of modal calls where those are opened.
+/// What a modal call computes: its arguments and its number.
+fn computed(call: &mut Call) -> impl Iterator<Item = &mut Expr> {
+    let number = match &mut call.callee {
+        Callee::Computed(number) => Some(number),
+        _ => None,
+    };
+    call.arguments.iter_mut().map(|argument| &mut argument.value).chain(number).filter(|value| is_held(value))
+}
+
+/// Computes the arguments and the numbers of modal calls where those are opened.
 pub fn hold_arguments(program: &mut Program) {
-    let computed = |call: &Call| call.arguments.iter().any(|argument| is_held(&argument.value));
+    let computes = |call: &Call| computed(&mut call.clone()).next().is_some();
     let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    if !stmts.any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call))) {
+    if !stmts.any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computes(call))) {
         return;
     }
     let mut temp = highest_temp(program);
@@ -118,10 +131,10 @@ pub fn hold_arguments(program: &mut Program) {
         if let Part::Stmt(stmt) = &mut part
             && let StmtKind::ModalCall(call) = &mut stmt.kind
         {
-            for argument in call.arguments.iter_mut().filter(|a| is_held(&a.value)) {
+            for value in computed(call) {
                 temp += 1;
                 let var = Var { class: Class::Temp, number: temp };
-                let value = std::mem::replace(&mut argument.value, Expr::Var(var));
+                let value = std::mem::replace(value, Expr::Var(var));
                 let site = Site { skip: stmt.site.skip, ..Site::default() };
                 builder.push(StmtKind::Assign { target: Place::Var(var), value }, site);
             }
@@ -134,10 +147,6 @@ pub fn hold_arguments(program: &mut Program) {
 pub fn sets(program: &Program, local: Var) -> bool {
     let calls = |block: &Block| matches!(&block.term.kind, TermKind::Call { call, .. } if !call.level);
     program.blocks.iter().any(|block| calls(block) || writes(block).contains(&local.number))
-}
-
-fn find<'m>(module: &'m Module, name: &ProgramName) -> Option<&'m Program> {
-    module.programs.iter().find(|program| program.name.as_ref() == Some(name))
 }
 
 /// What a program may read before it wrote it.

@@ -1,5 +1,6 @@
 //! Going on in another program for good, and returning to a sequence number of the caller.
 
+use super::computed_calls::computed_calls;
 use super::rewrite::{Part, highest_temp, rebuild};
 use super::{Context, calls_of, reachable};
 use crate::canon::Op;
@@ -112,9 +113,12 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
         list.dedup();
     }
     let computed = context.target.statement("goto.computed").is_some();
+    let computed_wants = wanted_by(module, &numbers);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        let by_computed = computed_wants.get(&index);
         let wanted = |call: &Call| match &call.callee {
             Callee::Program(name) => numbers.get(name),
+            Callee::Computed(_) => by_computed,
             _ => None,
         };
         if !program.blocks.iter().flat_map(calls_of).any(|call| wanted(call).is_some()) {
@@ -159,6 +163,22 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
             other => other.keep(builder),
         });
     }
+}
+
+/// By program: the blocks that what its computed calls may run returns to.
+fn wanted_by(module: &Module, numbers: &BTreeMap<ProgramName, Vec<u32>>) -> BTreeMap<usize, Vec<u32>> {
+    let mut wanted: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for ((index, _), callees) in computed_calls(module) {
+        let names = callees.programs.iter().filter_map(|at| module.programs[*at].name.as_ref());
+        for list in names.filter_map(|name| numbers.get(name)) {
+            wanted.entry(index).or_default().extend(list);
+        }
+    }
+    for list in wanted.values_mut() {
+        list.sort_unstable();
+        list.dedup();
+    }
+    wanted
 }
 
 /// The programs that the library calls; none where a call is computed.

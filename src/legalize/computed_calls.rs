@@ -1,19 +1,88 @@
-//! Which programs calls by a computed number may come to.
+//! Which programs calls may come to, those by a computed number too.
 
 use super::calls_of;
 use crate::ir::analysis::{Ranges, Summaries, Values};
-use crate::ir::{Block, BlockId, Callee, Expr, Module, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, StmtKind, TermKind};
 use crate::syntax::ProgramName;
 use std::collections::BTreeMap;
 
 /// What the computed calls of a block may call.
 #[derive(Clone, Debug, Default)]
 pub struct Callees {
-    /// The programs of the library, by index: those with such a number, and where any number may be meant, those that
-    /// return.
+    /// The programs of the library with such a number, by index.
     pub programs: Vec<usize>,
     /// True where it is known to be one of them.
     pub known: bool,
+}
+
+impl Callees {
+    /// Those that the caller's state is taken into: where any number may be meant, those that return.
+    pub fn entered(&self, module: &Module) -> impl Iterator<Item = usize> {
+        let returns = |at: usize| {
+            let mut blocks = module.programs[at].blocks.iter();
+            blocks.any(|block| matches!(block.term.kind, TermKind::Return { .. }))
+        };
+        self.programs.iter().copied().filter(move |at| self.known || returns(*at))
+    }
+}
+
+/// The programs of a library that each of its calls may run.
+pub struct CalledPrograms {
+    by_name: BTreeMap<ProgramName, usize>,
+    computed: BTreeMap<(usize, BlockId), Callees>,
+}
+
+impl CalledPrograms {
+    /// Of a library.
+    pub fn of(module: &Module) -> Self {
+        let names = module.programs.iter().enumerate();
+        let by_name = names.filter_map(|(index, program)| Some((program.name.clone()?, index))).collect();
+        Self { by_name, computed: computed_calls(module) }
+    }
+
+    /// By a call in this block of a program, by index; none where it leaves the library or stays in the program.
+    pub fn by(&self, place: (usize, BlockId), call: &Call) -> &[usize] {
+        match &call.callee {
+            Callee::Program(name) => self.by_name.get(name).map_or(&[], std::slice::from_ref),
+            Callee::Computed(_) => self.computed.get(&place).map_or(&[], |callees| &callees.programs),
+            Callee::Block(_) | Callee::Cycle(_) => &[],
+        }
+    }
+
+    /// True where such a call may run what is not in the library.
+    pub fn may_leave(&self, place: (usize, BlockId), call: &Call) -> bool {
+        match &call.callee {
+            Callee::Computed(_) => self.computed.get(&place).is_none_or(|callees| !callees.known),
+            Callee::Block(_) => false,
+            Callee::Program(_) | Callee::Cycle(_) => self.by(place, call).is_empty(),
+        }
+    }
+
+    /// True where a computed call may run this program, and it is known what that call may run.
+    pub fn is_known(&self, program: usize) -> bool {
+        self.runs(program, true)
+    }
+
+    /// True where a computed call may run this program, or something else.
+    pub fn is_guessed(&self, program: usize) -> bool {
+        self.runs(program, false)
+    }
+
+    fn runs(&self, program: usize, known: bool) -> bool {
+        self.computed.values().any(|callees| callees.known == known && callees.programs.contains(&program))
+    }
+
+    /// Every caller with what it may run.
+    pub fn pairs(&self, module: &Module) -> Vec<(usize, usize)> {
+        let mut pairs = Vec::new();
+        for (index, program) in module.programs.iter().enumerate() {
+            for (id, block) in program.ids().zip(&program.blocks) {
+                let callees = calls_of(block).flat_map(|call| self.by((index, id), call));
+                pairs.extend(callees.map(|callee| (index, *callee)));
+            }
+        }
+        pairs
+    }
 }
 
 /// The computed calls of a library, by program and block.
@@ -65,13 +134,10 @@ fn numbers(block: &Block) -> Vec<(usize, &Expr)> {
 }
 
 fn programs(module: &Module, values: &Values) -> Vec<usize> {
-    let (numbers, known) = (values.numbers(), matches!(values, Values::Few(_)));
-    let meant = |at: &usize| {
-        let program = &module.programs[*at];
-        let returns =
-            || program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Return { .. }));
-        let Some(ProgramName::Number(number)) = program.name else { return false };
-        numbers.contains(number) && (known || returns())
+    let numbers = values.numbers();
+    let meant = |at: &usize| match module.programs[*at].name {
+        Some(ProgramName::Number(number)) => numbers.contains(number),
+        _ => false,
     };
     (0..module.programs.len()).filter(meant).collect()
 }

@@ -1,6 +1,7 @@
 //! Which shared variables a program may read before anything in it, or in what it calls, wrote them.
 
 use super::calls_of;
+use super::computed_calls::CalledPrograms;
 use crate::ir::analysis::{CallGraph, Row, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
@@ -376,6 +377,8 @@ pub fn roots(module: &Module) -> Vec<usize> {
             }
         }
     }
-    let root = |p: &crate::ir::Program| p.name.as_ref().is_none_or(|name| !called.contains(name));
-    module.programs.iter().enumerate().filter(|(_, p)| root(p)).map(|(i, _)| i).collect()
+    let computed = CalledPrograms::of(module);
+    let root = |p: &Program| p.name.as_ref().is_none_or(|name| !called.contains(name));
+    let programs = module.programs.iter().enumerate();
+    programs.filter(|(at, program)| root(program) && !computed.is_known(*at)).map(|(at, _)| at).collect()
 }

@@ -7,14 +7,12 @@
 mod vacant;
 
 use super::Context;
+use super::computed_calls::CalledPrograms;
 use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
 use crate::dialect::{CodeMeaning, Control, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
-use crate::ir::{
-    BinOp, Block, Callee, Class, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind, Var,
-};
-use crate::syntax::ProgramName;
+use crate::ir::{BinOp, Block, Class, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind, Var};
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
 use smallvec::SmallVec;
@@ -39,7 +37,7 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
     let asked = VACANCY.iter().any(|name| control.behaviour(name).is_some_and(|row| !row.origin.confirmed));
     let own = computes && asked && context.source.is("vacancy");
     let summaries = if own { Summaries::of(module) } else { Summaries::default() };
-    let given = given(module);
+    let given = if own { given(module) } else { BTreeMap::new() };
     let none = BTreeSet::new();
     let mut found = Found {
         control,
@@ -57,7 +55,7 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
         found.places = places(program);
         found.seen.clear();
         found.words = [0; WORDS];
-        let given = program.name.as_ref().and_then(|name| given.get(name)).unwrap_or(&none);
+        let given = given.get(&index).unwrap_or(&none);
         let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
         for (at, id) in program.ids().enumerate() {
             let blocks = program.blocks.get(at..).unwrap_or_default();
@@ -76,13 +74,21 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
 }
 
 /// By program: the locals that every call of it in the library sets.
-fn given(module: &Module) -> BTreeMap<&ProgramName, BTreeSet<Var>> {
-    let mut given: BTreeMap<&ProgramName, BTreeSet<Var>> = BTreeMap::new();
-    for call in module.programs.iter().flat_map(|p| &p.blocks).flat_map(super::calls_of) {
-        let Callee::Program(name) = &call.callee else { continue };
-        let sure = call.arguments.iter().filter(|a| call.level && !a.value.may_be_vacant());
-        let sets: BTreeSet<Var> = sure.map(|a| Var { class: Class::Local, number: a.local }).collect();
-        given.entry(name).and_modify(|all| all.retain(|var| sets.contains(var))).or_insert(sets);
+fn given(module: &Module) -> BTreeMap<usize, BTreeSet<Var>> {
+    let called = CalledPrograms::of(module);
+    let mut given: BTreeMap<usize, BTreeSet<Var>> = BTreeMap::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for call in super::calls_of(block) {
+                let sure = call.arguments.iter().filter(|a| call.level && !a.value.may_be_vacant());
+                let sets: BTreeSet<Var> =
+                    sure.map(|a| Var { class: Class::Local, number: a.local }).collect();
+                for callee in called.by((index, id), call) {
+                    let all = given.entry(*callee).or_insert_with(|| sets.clone());
+                    all.retain(|var| sets.contains(var));
+                }
+            }
+        }
     }
     given
 }

@@ -11,6 +11,7 @@
 //! A drilling cycle under a modal call is refused: no source says which of the two runs first, or whether both do.
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
+use super::computed_calls::CalledPrograms;
 use super::registers::name_of;
 use super::rewrite::unless_skipped;
 use super::{Context, Modal, ModalFacts, carried, increments};
@@ -37,8 +38,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     };
     let summaries = Summaries::of(module);
     let locals = carried::numbers(context.source);
+    let called = CalledPrograms::of(module);
     let mut expansion =
-        Expansion { module: module.clone(), facts, summaries, native, locals, copies: Vec::new() };
+        Expansion { module: module.clone(), called, facts, summaries, native, locals, copies: Vec::new() };
     let count = module.programs.len();
     for index in 0..count {
         let program = &module.programs[index];
@@ -113,6 +115,7 @@ struct Copied {
 
 struct Expansion {
     module: Module,
+    called: CalledPrograms,
     facts: ModalFacts,
     summaries: Summaries,
     native: bool,
@@ -170,7 +173,10 @@ impl Expansion {
                             let why = "each move calls the macro anew: its arguments are computed and set again each time";
                             context.add(index, Diagnostic::new(Code::Conditional, site.span, why));
                         }
-                        if let Some(var) = carried::changed_by_callee(&self.module, call, &self.locals) {
+                        let macros = self.called.by((index, id), call);
+                        if let Some(var) =
+                            carried::changed_by_callee(&self.module, &self.called, macros, call, &self.locals)
+                        {
                             context.add(
                                 index,
                                 Diagnostic::new(
@@ -180,7 +186,7 @@ impl Expansion {
                                 ),
                             );
                         }
-                        if let Some(local) = self.carries(call) {
+                        if let Some(local) = self.carries((index, id), call) {
                             let why = format!(
                                 "each move would call the macro anew, and it reads local variable {local} as an earlier run of it left it"
                             );
@@ -361,11 +367,9 @@ impl Expansion {
     }
 
     /// A local of the callee that it reads as an earlier run of it left it.
-    fn carries(&self, call: &Call) -> Option<u32> {
-        match &call.callee {
-            Callee::Program(name) if call.level => carried::local(&self.module, name, &self.locals),
-            _ => None,
-        }
+    fn carries(&self, place: (usize, BlockId), call: &Call) -> Option<u32> {
+        let mut macros = self.called.by(place, call).iter().filter(|_| call.level);
+        macros.find_map(|at| carried::local(&self.module, &self.called, *at, &self.locals))
     }
 }
 

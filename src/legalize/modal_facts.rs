@@ -181,7 +181,7 @@ impl<'m> Analysis<'m> {
             (_, Some(program)) => (program, BlockId(0)),
             (Callee::Computed(_), _) => {
                 let callees = self.computed.get(&(index, id)).cloned().unwrap_or_default();
-                callees.programs.into_iter().for_each(|program| self.flow(program, BlockId(0), state));
+                callees.entered(self.module).for_each(|program| self.flow(program, BlockId(0), state));
                 return Rc::new(Modal::unknown_under(state));
             }
             _ => return Rc::new(Modal::unknown_under(state)),

@@ -10,14 +10,14 @@ mod after;
 
 use super::beside_moves::AFTER_CALL;
 use super::census::Census;
+use super::computed_calls::CalledPrograms;
 use super::modal_facts::ModalFacts;
-use super::{Context, Modal, calls_of};
+use super::{Context, Modal};
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BlockId, Callee, Module, Nc, NcItem, Site, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Module, Nc, NcItem, Site, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use after::After;
-use std::collections::BTreeMap;
 
 /// True where something that may be running is started, or runs from the start: in a piece of a program.
 pub fn concerns(census: &Census, entry: &Modal) -> bool {
@@ -104,22 +104,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 /// For each program, what it, those that it calls, or those that call it start.
 fn started(module: &Module) -> Vec<[bool; 2]> {
-    let programs = &module.programs;
-    let mut found: Vec<[bool; 2]> = (programs.iter())
+    let mut found: Vec<[bool; 2]> = (module.programs.iter())
         .map(|program| {
             let census = Census::of(std::slice::from_ref(program));
             Running::ALL.map(|running| starts_in(&census, running))
         })
         .collect();
-    let names = programs.iter().enumerate().filter_map(|(index, p)| Some((p.name.as_ref()?, index)));
-    let by_name: BTreeMap<_, _> = names.collect();
-    let calls: Vec<(usize, usize)> = (programs.iter().enumerate())
-        .flat_map(|(index, program)| program.blocks.iter().flat_map(calls_of).map(move |call| (index, call)))
-        .filter_map(|(index, call)| match &call.callee {
-            Callee::Program(name) => Some((index, *by_name.get(name)?)),
-            _ => None,
-        })
-        .collect();
+    let calls = CalledPrograms::of(module).pairs(module);
     // First what a program or those that it calls start, then what was started by those that call it.
     spread(&mut found, calls.iter().map(|(caller, callee)| (*callee, *caller)));
     spread(&mut found, calls.iter().copied());

@@ -4,12 +4,12 @@
 //! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
 //! frame no source settles is taken as the work position, with a review diagnostic from lowering.
 
+use super::computed_calls::CalledPrograms;
 use super::{Context, Position, Rewriter, rewrite_program, tool_word};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side};
-use crate::ir::{BinOp, Callee, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
-use crate::syntax::ProgramName;
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 use thin_vec::ThinVec;
@@ -319,18 +319,13 @@ fn write_radius(
 
 /// The programs, and all that call them, directly or not.
 fn callers_of(module: &Module, mut programs: BTreeSet<usize>) -> BTreeSet<usize> {
-    let mut callers: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
-    for (index, program) in module.programs.iter().enumerate() {
-        for call in program.blocks.iter().flat_map(super::calls_of) {
-            if let Callee::Program(name) = &call.callee {
-                callers.entry(name).or_default().push(index);
-            }
-        }
+    let mut callers: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (caller, callee) in CalledPrograms::of(module).pairs(module) {
+        callers.entry(callee).or_default().push(caller);
     }
     let mut work: Vec<usize> = programs.iter().copied().collect();
     while let Some(index) = work.pop() {
-        let name = module.programs[index].name.as_ref();
-        let all = name.and_then(|name| callers.get(name)).into_iter().flatten();
+        let all = callers.get(&index).into_iter().flatten();
         work.extend(all.copied().filter(|caller| programs.insert(*caller)));
     }
     programs

@@ -6,24 +6,24 @@
 //! as the source was; where the target is set to the other unit, its tables must be kept for this one. Both are a
 //! review diagnostic. Two controls of one family that are set alike need nothing.
 
+pub(super) mod left;
+
 use super::census::{Census, Thing};
-use super::codes::numbers;
+use super::computed_calls::CalledPrograms;
 use super::emptied::drop_emptied;
 use super::exposed::roots;
-use super::increments::{names_unit, units_named};
+use super::increments::units_named;
 use super::{Context, ModalFacts, calls_of, reachable};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Units};
-use crate::ir::analysis::Summaries;
+use crate::dialect::Units;
 use crate::ir::{
-    BlockId, Call, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
+    BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
 };
-use crate::syntax::ProgramName;
 use crate::text::Span;
-use std::cell::LazyCell;
-use std::collections::{BTreeMap, BTreeSet};
+use left::Left;
+use std::collections::BTreeSet;
 
 /// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
 pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
@@ -46,18 +46,21 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     if same_family && ours.is_some() && ours == theirs {
         return changed;
     }
-    let one_unit = leaves_one_unit(module, context.source);
     let mut entry = context.entry.clone();
-    entry.one_unit = one_unit;
-    let known = entry.op(Group::Units).is_some() || module.programs.iter().any(names_unit);
+    entry.one_unit = Left::of_library(module, context.source).is_one();
+    let known =
+        entry.op(Group::Units).is_some() || module.programs.iter().flat_map(units_named).next().is_some();
     let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
     let open = open(module, &facts);
     let mut heads = mains(module);
     if let Some(units) = ours.filter(|units| theirs.is_some_and(|theirs| theirs != *units)) {
         heads.extend(lone(module, units));
     }
+    let called = CalledPrograms::of(module);
     for root in heads.into_iter().filter(|&root| open[root]) {
-        let Some(units) = ours.or(checked[root]) else {
+        // One that may also be called has the unit of its caller then.
+        let alone = !(called.is_guessed(root) && returns(&module.programs[root]));
+        let Some(units) = ours.or(checked[root]).filter(|_| alone) else {
             let lost = lost(module, &facts, root);
             let (span, why) =
                 lost.unwrap_or((module.programs[root].site.span, "the program does not name its unit"));
@@ -110,47 +113,6 @@ fn take_checks(program: &mut Program, changed: &mut bool) -> Option<Units> {
     }
 }
 
-/// True where the library names one unit alone: then nothing that it calls or computes leaves another.
-fn leaves_one_unit(module: &Module, source: &Control) -> bool {
-    let summaries = LazyCell::new(|| Summaries::of(module));
-    let names: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
-    let mut named = BTreeSet::new();
-    let mut names_unit = |op: Op| {
-        op.group() == Group::Units && {
-            named.insert(op);
-            named.len() > 1
-        }
-    };
-    let unit = |number| source.code('G', number, &[]).is_some_and(|row| row.op.group() == Group::Units);
-    for program in &module.programs {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            for (at, stmt) in block.stmts.iter().enumerate() {
-                let StmtKind::Nc(nc) = &stmt.kind else { continue };
-                for item in &nc.items {
-                    let other = match item {
-                        NcItem::Op(op) => names_unit(*op),
-                        NcItem::Code('G', value) => numbers(value, program, &summaries, id, at, source)
-                            .is_none_or(|all| all.iter().any(|n| unit(n.number))),
-                        _ => false,
-                    };
-                    if other {
-                        return false;
-                    }
-                }
-            }
-            let known = |call: &Call| match &call.callee {
-                Callee::Block(_) => true,
-                Callee::Program(name) => names.contains(name),
-                _ => false,
-            };
-            if !calls_of(block).all(known) {
-                return false;
-            }
-        }
-    }
-    true
-}
-
 /// Where a program that named its unit no longer knows it, and why.
 fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'static str)> {
     let program = &module.programs[root];
@@ -185,12 +147,7 @@ fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'sta
 
 /// Which programs come to a length while no unit is named, themselves or in what they call then.
 fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
-    let names = module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.as_ref()?, at)));
-    let by_name: BTreeMap<&ProgramName, usize> = names.collect();
-    let callee = |call: &Call| match &call.callee {
-        Callee::Program(name) => by_name.get(name).copied(),
-        _ => None,
-    };
+    let called = CalledPrograms::of(module);
     let mut open = vec![false; module.programs.len()];
     let mut calls: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); open.len()];
     for (index, program) in module.programs.iter().enumerate() {
@@ -205,14 +162,14 @@ fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
                 if before.or(state.op(Group::Units)).is_none() {
                     open[index] |= has_length(&stmt.kind);
                     if let StmtKind::ModalCall(call) = &stmt.kind {
-                        calls[index].extend(callee(call));
+                        calls[index].extend(called.by((index, id), call));
                     }
                 }
             }
             if state.op(Group::Units).is_none() {
                 open[index] |= reads_length(|f| block.term.kind.exprs(f));
                 if let TermKind::Call { call, .. } = &block.term.kind {
-                    calls[index].extend(callee(call));
+                    calls[index].extend(called.by((index, id), call));
                 }
             }
         }
@@ -279,15 +236,20 @@ fn mains(module: &Module) -> Vec<usize> {
     let roots: BTreeSet<usize> = roots(module).into_iter().collect();
     let is_main = |index: &usize| {
         let program = &module.programs[*index];
-        let own = reachable(program, BlockId(0));
-        let (mut end, mut back) = (false, false);
-        for kind in own.into_iter().filter_map(|id| program.block(id)).map(|block| &block.term.kind) {
-            end |= matches!(kind, TermKind::End { .. } | TermKind::Stray);
-            back |= matches!(kind, TermKind::Return { .. });
-        }
-        end && (roots.contains(index) || !back)
+        let ends = |kind: &TermKind| matches!(kind, TermKind::End { .. } | TermKind::Stray);
+        leaves_by(program, ends) && (roots.contains(index) || !returns(program))
     };
     (0..module.programs.len()).filter(is_main).collect()
+}
+
+fn returns(program: &Program) -> bool {
+    leaves_by(program, |kind| matches!(kind, TermKind::Return { .. }))
+}
+
+/// True where a program may end so, outside its subroutines.
+fn leaves_by(program: &Program, ends: impl Fn(&TermKind) -> bool) -> bool {
+    let own = reachable(program, BlockId(0));
+    own.into_iter().filter_map(|id| program.block(id)).any(|block| ends(&block.term.kind))
 }
 
 /// The programs that others call whom the library has not, where nothing in it names another unit than this one: what
