@@ -2,12 +2,17 @@
 //!
 //! Law: n increments are `n * increment` of the unit in force, for an angle of a degree. Side condition: the unit is known, from the
 //! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
+//! A program that names one unit is taken to be in it after what it calls, where nothing of that can leave another.
+//! Counter-example: `G#1`, which puts back the unit of the caller.
 
-use super::{Context, ModalFacts, Setting};
+use super::units::left::Left;
+use super::{Context, Modal, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, Control, Units};
 use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
+use crate::text::Span;
+use std::collections::BTreeMap;
 
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -41,6 +46,15 @@ enum Counted<'m> {
     Call(&'m mut Call),
 }
 
+impl Counted<'_> {
+    fn again(&mut self) -> Counted<'_> {
+        match self {
+            Self::Stmt(kind) => Counted::Stmt(kind),
+            Self::Call(call) => Counted::Call(call),
+        }
+    }
+}
+
 /// Takes what stands in the chosen blocks through `convert`, with the unit that is known there; what it cannot
 /// convert is reported once a program. True where there are such blocks.
 fn each(
@@ -49,52 +63,112 @@ fn each(
     chosen: impl Fn(&Block) -> bool,
     convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
 ) -> bool {
-    let source = context.source;
+    if !module.programs.iter().flat_map(|program| &program.blocks).any(&chosen) {
+        return false;
+    }
+    let left = Left::of(module, context.source);
+    let all = left.iter().copied().fold(Left::default(), Left::join);
+    let facts = facts(module, context, all);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let units = UnitsIn::of(program, index, &facts, &chosen);
+        let guesses = if units.is_known() { None } else { Some(guesses(program, left[index], &chosen)) };
+        // What is in force where no program names a unit, or where all name the machine's.
+        let machine = context.source.units().filter(|units| all.keeps(*units));
+        let (mut unknown, mut guessed) = (None, None);
+        let mut take = |mut counted: Counted<'_>, place: (BlockId, usize), span: Span| {
+            if convert(counted.again(), units.at(place)) {
+                return;
+            }
+            let guess = guesses.as_ref().and_then(|guesses| guesses.at(place)).or(machine);
+            if guess.is_some() && convert(counted, guess) {
+                guessed.get_or_insert(span);
+            } else {
+                unknown.get_or_insert(span);
+            }
+        };
+        for (id, block) in program.ids().zip(&mut program.blocks).filter(|(_, block)| chosen(block)) {
+            for (at, stmt) in block.stmts.iter_mut().enumerate() {
+                take(Counted::Stmt(&mut stmt.kind), (id, at), stmt.site.span);
+            }
+            if let TermKind::Call { call, .. } = &mut block.term.kind {
+                take(Counted::Call(call), (id, block.stmts.len()), block.term.site.span);
+            }
+        }
+        report(index, unknown, guessed.filter(|_| left[index].outside), context);
+    }
+    true
+}
+
+/// Reports the first number whose unit is not known, and the first whose unit rests on what the library has not.
+fn report(index: usize, unknown: Option<Span>, guessed: Option<Span>, context: &mut Context<'_>) {
+    if let Some(span) = unknown {
+        let what = "a number without a decimal point counts increments whose size depends on the unit in force, which is not known here";
+        let help = "name the unit in the program (G20, G21) or in the machine profile of the source";
+        let finding = Diagnostic::new(Code::NoEquivalent, span, what).with_help(help);
+        context.add_once(index, "increments", finding);
+    }
+    if let Some(span) = guessed {
+        let what = "a number without a decimal point is taken in the unit that is named: what is called outside the library must leave that in force";
+        context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+    }
+}
+
+/// What is in force in the library, as far as that is known for sure.
+fn facts(module: &Module, context: &Context<'_>, all: Left) -> ModalFacts {
     let mut entry = context.entry.clone();
-    if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), source.units()) {
+    if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), context.source.units()) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
     }
+    entry.one_unit = all.is_one();
     // Where no program names a unit, it is the machine's all through.
-    let known = context.entry.op(Group::Units).is_some() || module.programs.iter().any(names_unit);
-    let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
-    // The machine's unit is in force all through only where no program of the library names the other one.
-    let machine = source.units().filter(|units| {
-        let mut ops = module.programs.iter().flat_map(units_named);
-        ops.all(|named| named == *units)
-    });
-    let mut changed = false;
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        // A program that names one unit throughout is in it wherever it is entered.
-        let named = unit_named(program);
-        let mut unknown = None;
-        for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| chosen(block)) {
-            changed = true;
-            let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &mut block.stmts {
-                state.step(stmt);
-                let units = unit(&state.of(Group::Units)).or(named).or(machine);
-                if !convert(Counted::Stmt(&mut stmt.kind), units) {
-                    unknown.get_or_insert(stmt.site.span);
-                }
-            }
-            let units = unit(&state.of(Group::Units)).or(named).or(machine);
-            if let TermKind::Call { call, .. } = &mut block.term.kind
-                && !convert(Counted::Call(call), units)
-            {
-                unknown.get_or_insert(block.term.site.span);
-            }
-        }
-        if let Some(span) = unknown {
-            let what = "a number without a decimal point counts increments whose size depends on the unit in force, which is not known here";
-            let help = "name the unit in the program (G20, G21) or in the machine profile of the source";
-            context.add_once(
-                index,
-                "increments",
-                Diagnostic::new(Code::NoEquivalent, span, what).with_help(help),
-            );
-        }
+    let known = context.entry.op(Group::Units).is_some() || all != Left::default();
+    if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() }
+}
+
+/// What a program that names one unit has in force where every way to a place names it, and nothing in the library that
+/// it runs names another.
+fn guesses(program: &Program, left: Left, chosen: &dyn Fn(&Block) -> bool) -> UnitsIn {
+    if left.named().is_none_or(|units| !left.keeps(units)) {
+        return UnitsIn::default();
     }
-    changed
+    let mut entry = Modal::unknown();
+    entry.one_unit = true;
+    let alone = Module { programs: vec![program.clone()], ..Module::default() };
+    UnitsIn::of(program, 0, &ModalFacts::of(&alone, &entry), chosen)
+}
+
+/// The unit that counts in each statement of some blocks of a program, and at their ends.
+#[derive(Default)]
+struct UnitsIn(BTreeMap<BlockId, Vec<Option<Units>>>);
+
+impl UnitsIn {
+    fn of(program: &Program, index: usize, facts: &ModalFacts, chosen: &dyn Fn(&Block) -> bool) -> Self {
+        let blocks = program.ids().zip(&program.blocks).filter(|(_, block)| chosen(block));
+        Self(blocks.map(|(id, block)| (id, Self::in_block(block, facts.at(index, id)))).collect())
+    }
+
+    fn in_block(block: &Block, mut state: Modal) -> Vec<Option<Units>> {
+        let mut found = Vec::with_capacity(block.stmts.len() + 1);
+        for stmt in &block.stmts {
+            // A modal call that the block sets off comes after its words.
+            let mut words = state.clone();
+            if let StmtKind::Nc(nc) = &stmt.kind {
+                words.step_words(nc);
+            }
+            found.push(unit(&words.of(Group::Units)));
+            state.step(stmt);
+        }
+        found.push(unit(&state.of(Group::Units)));
+        found
+    }
+
+    fn is_known(&self) -> bool {
+        self.0.values().flatten().all(Option::is_some)
+    }
+
+    fn at(&self, (block, at): (BlockId, usize)) -> Option<Units> {
+        *self.0.get(&block)?.get(at)?
+    }
 }
 
 /// True where a block has a count of increments.
@@ -117,18 +191,6 @@ fn unit(setting: &Setting) -> Option<Units> {
         Setting::Known(Op::Metric, _) => Some(Units::Metric),
         _ => None,
     }
-}
-
-/// The one unit that a program names.
-fn unit_named(program: &Program) -> Option<Units> {
-    let mut all = units_named(program);
-    let first = all.next()?;
-    all.all(|other| other == first).then_some(first)
-}
-
-/// True where a program selects a unit.
-pub(super) fn names_unit(program: &Program) -> bool {
-    units_named(program).next().is_some()
 }
 
 pub(super) fn units_named(program: &Program) -> impl Iterator<Item = Units> + '_ {
