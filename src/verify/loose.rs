@@ -6,7 +6,6 @@ use super::observe::runs;
 use crate::canon::Running;
 use crate::control::Run;
 use crate::control::trace::{Event, Happening, Place, Told};
-use std::collections::BTreeSet;
 
 /// The order in which the events of a run are looked at.
 #[derive(Clone, Debug)]
@@ -75,13 +74,13 @@ pub struct Found<T> {
 }
 
 /// Compares two runs; where they differ at or before a block with a change that may stand elsewhere, on one side or on
-/// both, it is looked for there, and left there if the runs then go farther together.
+/// both, it is looked for there, and left there if the runs then go farther together. A block may be looked at again: what
+/// was turned first is not what was to be turned.
 pub fn farthest<'r, T>(runs: [&'r Run; 2], mut compare: impl FnMut(&[Order<'r>; 2]) -> Found<T>) -> T {
     let mut orders = runs.map(Order::of);
     let mut best = compare(&orders);
-    let mut tried = BTreeSet::new();
     for _ in 0..TURNS {
-        let Some(pairs) = best.pairs.filter(|_| tried.insert(best.blocks)) else { break };
+        let Some(pairs) = best.pairs else { break };
         let ways = KINDS.into_iter().flat_map(|ours| KINDS.map(|theirs| [ours, theirs]));
         let farther = ways.filter(|ways| !ways.concat().is_empty()).find_map(|ways| {
             let mut other = orders.clone();
