@@ -5,6 +5,7 @@
 //! [`super::Scenario`] itself.
 
 use super::scenario::Axes;
+use crate::canon::Op;
 use serde::{Deserialize, Serialize};
 
 /// What was left in force. What is none is as after power-on.
@@ -15,17 +16,35 @@ pub struct Entry {
     pub work: Option<u32>,
     /// The offset of the tool length that is added.
     pub length: Option<u32>,
+    /// True if it is subtracted.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub length_minus: bool,
     /// True if a return to the reference position may have cancelled it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub length_lost: bool,
+    /// True if a move in machine coordinates may have cancelled it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub length_moved: bool,
+    /// True if neither went along its axis.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub length_across: bool,
     /// The offset of the cutter radius that is compensated to the left.
     pub cutter: Option<u32>,
+    /// True if it is compensated to the right.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub cutter_right: bool,
     /// The feed, millimetres a minute or a turn.
     pub feed: Option<f64>,
     /// Turns a minute of the spindle, which runs counter-clockwise.
     pub spindle: Option<f64>,
-    /// True where flood coolant is on.
+    /// True if it runs clockwise.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub clockwise: bool,
+    /// True where coolant is on.
     pub coolant: bool,
+    /// The coolant that is on, where that is not flood.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coolant_kind: Option<Op>,
     /// A drilling cycle in force.
     pub cycle: Option<Drilling>,
     /// The shift of coordinates by the local-shift code, millimetres.
@@ -36,6 +55,30 @@ pub struct Entry {
     pub scale: Option<f64>,
     /// True where X is mirrored about the origin.
     pub mirror: bool,
+}
+
+impl Entry {
+    /// Keeps what another state has too.
+    pub fn keep_common(&mut self, other: &Self) {
+        if (self.length, self.length_minus) != (other.length, other.length_minus) {
+            (self.length, self.length_minus) = (None, false);
+        }
+        let lost = |entry: &Self| (entry.length_lost, entry.length_moved, entry.length_across);
+        if self.length.is_none() || lost(self) != lost(other) {
+            (self.length_lost, self.length_moved, self.length_across) = (false, false, false);
+        }
+        if (self.cutter, self.cutter_right) != (other.cutter, other.cutter_right) {
+            (self.cutter, self.cutter_right) = (None, false);
+        }
+        if (self.spindle, self.clockwise) != (other.spindle, other.clockwise) {
+            (self.spindle, self.clockwise) = (None, false);
+        }
+        if (self.coolant, self.coolant_kind) != (other.coolant, other.coolant_kind) {
+            (self.coolant, self.coolant_kind) = (false, None);
+        }
+        self.work = self.work.filter(|_| self.work == other.work);
+        self.feed = self.feed.filter(|_| self.feed == other.feed);
+    }
 }
 
 /// A drilling cycle that an earlier program left in force: program coordinates along Z, millimetres.

@@ -130,10 +130,19 @@ impl<'r, 'f> Session<'r, 'f> {
         let file = found.map_or(0, |section| section.file);
         let number = self.programs.len() as u32;
         let modes = self.modes();
-        let (lost_length, no_offset) = (self.machine.lost_length(), self.machine.has_no_offset());
-        self.programs.push(Program { file, name, modes, lost_length, no_offset });
+        let entry = self.machine.in_force(self.trace.open);
+        self.programs.push(Program { file, name, modes, entry });
         self.numbers.insert(section, number);
         number
+    }
+
+    /// Notes that a program was entered, with locals of its own or its caller's.
+    pub fn enter(&mut self, program: u32, level: bool) {
+        let now = self.machine.in_force(self.trace.open);
+        if let Some(entered) = self.programs.get_mut(program as usize) {
+            entered.entry.keep_common(&now);
+        }
+        self.trace.push(Happening::Enter { program, level });
     }
 
     /// What is in force now of what a called program finds as its caller left it.

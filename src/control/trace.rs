@@ -8,6 +8,7 @@ mod happening;
 
 pub use happening::*;
 
+use super::entry::Entry;
 use super::outcome::Stop;
 use crate::canon::{Func, Op};
 use crate::dialect::Row;
@@ -81,12 +82,9 @@ pub struct Program {
     /// What was in force when it was come to first: [`crate::control::machine::GIVEN`].
     #[serde(skip)]
     pub modes: Vec<Op>,
-    /// The offset of a tool length that was in force then, if a return or a machine move may have cancelled it.
+    /// What else was in force each time it was come to.
     #[serde(skip)]
-    pub lost_length: Option<u32>,
-    /// True if no work offset was selected then.
-    #[serde(skip)]
-    pub no_offset: bool,
+    pub entry: Entry,
 }
 
 /// Something that a run computed.

@@ -186,6 +186,13 @@ impl<'r> Pairs<'_, 'r> {
                 (i, j) = (i + unseen[0], j + unseen[1]);
                 continue;
             }
+            if let Some(side) =
+                [here, there].iter().zip([1, 0]).position(|(acts, other)| self.runs[other].ended(acts))
+            {
+                [here, there][side].iter().take(2).for_each(|act| self.moved(side, act));
+                (i, j) = if side == 0 { (i + 2, j) } else { (i, j + 2) };
+                continue;
+            }
             // What a cycle does to a spindle that may stand on one side has no counterpart on the other.
             let cycles = [here, there].map(|acts| acts.first().is_some_and(|act| act.told == Told::Cycle));
             if cycles.contains(&true) && self.runs.iter().any(Runs::may_stand) {

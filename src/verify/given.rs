@@ -3,6 +3,7 @@
 use super::callers::{LOOKS, is_root, scenarios_in};
 use super::program::Job;
 use crate::canon::{Group, Op};
+use crate::control::entry::Entry;
 use crate::control::{ProgramRef, Scenario, trace};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,10 +16,8 @@ pub struct Given {
     /// What is in force at its start whoever calls it: of each group of [`crate::control::machine::GIVEN`] at the most
     /// one.
     pub modes: Vec<Op>,
-    /// The offset of a tool length in force that all of them come in with, if a return may have cancelled it.
-    lost_length: Option<u32>,
-    /// True if all of them come in with no work offset.
-    no_offset: bool,
+    /// What else all of them come in with each time: no work offset, a tool length, a spindle that runs.
+    pub entry: Entry,
     /// The units that they come in, true for inch.
     units: BTreeSet<bool>,
     /// True once anything is known of it.
@@ -29,12 +28,11 @@ pub struct Given {
 
 impl Given {
     /// Takes in what another run gives.
-    fn add(&mut self, modes: &[Op], lost_length: Option<u32>, no_offset: bool) {
+    fn add(&mut self, modes: &[Op], entry: &Entry) {
         if !std::mem::replace(&mut self.any, true) {
-            (self.modes, self.lost_length, self.no_offset) = (modes.to_vec(), lost_length, no_offset);
+            (self.modes, self.entry) = (modes.to_vec(), entry.clone());
         }
-        self.lost_length = self.lost_length.filter(|number| lost_length == Some(*number));
-        self.no_offset &= no_offset;
+        self.entry.keep_common(entry);
         self.modes.retain(|op| modes.contains(op));
         self.units.extend(modes.iter().filter(|op| op.group() == Group::Units).map(|op| *op == Op::Inch));
     }
@@ -79,12 +77,30 @@ impl Given {
     pub fn start(&self, scenario: &mut Scenario) {
         scenario.inch = self.inch().or(scenario.inch);
         scenario.modes = self.unlike_power_on();
-        if let Some(number) = self.lost_length {
-            (scenario.entry.length, scenario.entry.length_lost) = (Some(number), true);
+        scenario.entry = self.entry.clone();
+    }
+
+    /// What is in force on a machine that nobody has started. A work offset that is cancelled, and a tool length that may
+    /// be, stay so: no machine is switched on like that.
+    pub fn unstarted(&self) -> Entry {
+        let Entry { work, length, length_minus, length_lost, length_moved, length_across, .. } = self.entry;
+        let kept = Entry { work, ..Entry::default() };
+        if length_lost || length_moved {
+            return Entry { length, length_minus, length_lost, length_moved, length_across, ..kept };
         }
-        if self.no_offset {
-            scenario.entry.work = Some(0);
-        }
+        kept
+    }
+
+    /// What of it such a machine has not, in words; the feed, which every program has, left out.
+    pub fn started(&self) -> Vec<&'static str> {
+        let (given, entry) = (&self.entry, self.unstarted());
+        let all = [
+            (given.length != entry.length, "a tool length in force"),
+            (given.cutter.is_some(), "cutter compensation in force"),
+            (given.spindle.is_some(), "the spindle running"),
+            (given.coolant, "the coolant on"),
+        ];
+        all.into_iter().filter(|(is_given, _)| *is_given).map(|(_, words)| words).collect()
     }
 }
 
@@ -105,13 +121,13 @@ pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
             let shown = gives(job, *caller, found.get(caller));
             for (to, ran) in shown.met {
                 if !found.contains_key(&to) {
-                    came.entry(to).or_default().add(&ran.modes, ran.lost_length, ran.no_offset);
+                    came.entry(to).or_default().add(&ran.modes, &ran.entry);
                 }
             }
             for to in shown.missed {
                 let given =
                     ended.entry(to).or_insert_with(|| Given { never_come_to: true, ..Given::default() });
-                shown.ends.iter().for_each(|modes| given.add(modes, None, false));
+                shown.ends.iter().for_each(|modes| given.add(modes, &Entry::default()));
             }
         }
         gone.extend(callers);

@@ -80,6 +80,21 @@ impl Runs {
         self.open[spindle] && act.event.open[spindle] && *act.what == self.spindle
     }
 
+    /// True if the next two acts of the other side are what it found running, and the end of that by a stop, where it is
+    /// known to stand here: nobody saw it run.
+    pub fn ended(&self, acts: &[Act<'_>]) -> bool {
+        let [found, end, ..] = acts else { return false };
+        let Some(running) = runs(&found.what) else { return false };
+        let both = found.told == Told::Found && end.told == Told::Implied && runs(&end.what) == Some(running);
+        let stands = match running {
+            Running::Spindle => {
+                matches!(self.spindle, Happening::Spindle { direction: Spindle::Stopped, .. })
+            }
+            Running::Coolant => self.coolant() == Op::CoolantOff,
+        };
+        both && stands && !self.open[running as usize]
+    }
+
     /// True for a new speed alone of a spindle that may stand, if a stop comes before anything else does.
     pub fn is_idle_speed(&self, acts: &[Act<'_>]) -> bool {
         let spindle = Running::Spindle as usize;

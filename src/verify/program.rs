@@ -67,7 +67,7 @@ struct Verifier<'v, 'j> {
     /// What all its callers give it.
     given: Given,
     /// What is in force at the start on the target, where that is not the same as on the source.
-    target_modes: Option<Vec<Op>>,
+    target_given: Option<Given>,
     coverage: Coverage,
     /// The branches of the conversion, those of programs that the source has not among them.
     target_coverage: Coverage,
@@ -116,7 +116,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             program,
             called,
             given: given.flatten().unwrap_or_default(),
-            target_modes: None,
+            target_given: None,
             coverage: Coverage::new(job.source, &[program], false),
             target_coverage: Coverage::new(job.target, &of_target(job, program), true),
             theirs: BTreeMap::new(),
@@ -166,8 +166,8 @@ impl<'v, 'j> Verifier<'v, 'j> {
         // What is called is in the unit of its caller, on both sides.
         let of_caller = self.given.inch().or(if self.called { scenario.inch } else { None });
         out.inch = of_caller.or(out.inch);
-        if let Some(modes) = &self.target_modes {
-            out.modes.clone_from(modes);
+        if let Some(given) = &self.target_given {
+            (out.modes, out.entry) = (given.unlike_power_on(), given.entry.clone());
         }
         out.answers.resize(asked(run).max(scenario.answers.len()), 0.0);
         if is_cut(run) {

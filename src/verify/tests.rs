@@ -11,6 +11,7 @@ mod nesting;
 mod random;
 mod running;
 mod skips;
+mod started;
 
 use super::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Spent, Why, verify};
 use crate::assume::Assumption;
@@ -49,11 +50,8 @@ fn supposing(
 ) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());
     let execute = [from, to].map(|name| registry::find(name).unwrap().execute.unwrap());
-    let parsed: Vec<_> = [source, target]
-        .iter()
-        .zip(&controls)
-        .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse))
-        .collect();
+    let parsed = [(source, &controls[0]), (target, &controls[1])]
+        .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
     // As subprograms are named where the file's name says what they are.
     let ours = [LoadedFile { name: "cycle1.nc", parsed: &parsed[0] }];
     let theirs = [LoadedFile { name: "cycle2.nc", parsed: &parsed[1] }];

@@ -64,7 +64,7 @@ impl Interpreter<'_, '_> {
             self.session.count()?;
             self.at = to;
             let program = self.session.program_number(to.section);
-            self.session.trace.push(Happening::Enter { program, level: false });
+            self.session.enter(program, false);
             while self.step()? == Next::On {}
             self.session.trace.push(Happening::Leave);
             self.session.trace.at = place;

@@ -4,6 +4,7 @@ use super::cycle::Cycle;
 use super::frame::Rotation;
 use super::tooling::LostBy;
 use super::{Machine, Op};
+use crate::canon::Running;
 use crate::control::entry::Entry;
 use crate::control::scenario::AXES;
 use crate::control::trace::{FeedMode, Happening, Plane, Side, Spindle, Told, Trace};
@@ -34,20 +35,24 @@ impl Machine {
         self.select(entry.work.filter(|number| *number > 0 || cancels).unwrap_or(1));
         self.feed = entry.feed.unwrap_or(self.feed);
         if let Some(speed) = entry.spindle {
-            (self.spindle, self.speed) = (Spindle::CounterClockwise, speed);
+            self.speed = speed;
+            self.spindle = if entry.clockwise { Spindle::Clockwise } else { Spindle::CounterClockwise };
         }
         if entry.coolant {
-            self.coolant = Op::Flood;
+            self.coolant = entry.coolant_kind.unwrap_or(Op::Flood);
         }
         if let Some(number) = entry.length {
-            (self.length_op, self.length_offset) = (Op::LengthPlus, number);
+            self.length_op = if entry.length_minus { Op::LengthMinus } else { Op::LengthPlus };
+            self.length_offset = number;
             self.frame.length = self.length_value();
-            if entry.length_lost {
-                self.may_lose_length(LostBy::Reference, true);
+            let lost = [(entry.length_lost, LostBy::Reference), (entry.length_moved, LostBy::MachineMove)];
+            for (_, by) in lost.into_iter().filter(|(is_so, _)| *is_so) {
+                self.may_lose_length(by, !entry.length_across);
             }
         }
         if let Some(number) = entry.cutter {
-            (self.side, self.radius_offset) = (Side::Left, number);
+            self.side = if entry.cutter_right { Side::Right } else { Side::Left };
+            self.radius_offset = number;
         }
         self.shape(entry);
         if let Some(drilling) = entry.cycle {
@@ -87,6 +92,31 @@ impl Machine {
         for what in told.into_iter().flatten() {
             trace.push(what);
             trace.tell(Told::Found);
+        }
+    }
+
+    /// What a called program finds now. What nobody knows to run is left out, and so is a spindle at a surface speed.
+    pub fn in_force(&self, open: [bool; 2]) -> Entry {
+        let runs = |running: Running| self.is_running(running) && !open[running as usize];
+        let turns = runs(Running::Spindle) && !self.surface_speed;
+        let coolant = runs(Running::Coolant);
+        let lost = |by| self.length_lost.is_some_and(|lost| lost.by == by || lost.by_both);
+        let has_length = self.length_op != Op::LengthOff;
+        Entry {
+            work: self.has_no_offset().then_some(0),
+            length: has_length.then_some(self.length_offset),
+            length_minus: self.length_op == Op::LengthMinus,
+            length_lost: lost(LostBy::Reference),
+            length_moved: lost(LostBy::MachineMove),
+            length_across: self.length_lost.is_some_and(|lost| !lost.along),
+            cutter: (self.side != Side::Off).then_some(self.radius_offset),
+            cutter_right: self.side == Side::Right,
+            feed: (self.feed > 0.0).then_some(self.feed),
+            spindle: turns.then_some(self.speed),
+            clockwise: turns && self.spindle == Spindle::Clockwise,
+            coolant,
+            coolant_kind: Some(self.coolant).filter(|op| coolant && *op != Op::Flood),
+            ..Entry::default()
         }
     }
 

@@ -39,7 +39,7 @@ use cycle::Cycle;
 use rounding::Rounding;
 use rules::Rules;
 use std::collections::HashMap;
-use tooling::LostBy;
+use tooling::Lost;
 
 /// The groups of modes that a called program finds as its caller left them.
 pub const GIVEN: [Group; 5] = [Group::Units, Group::Motion, Group::Distance, Group::Plane, Group::FeedMode];
@@ -86,8 +86,8 @@ pub struct Machine {
     tools: Table<Tool>,
     length_op: Op,
     length_offset: u32,
-    /// What may have cancelled the length since the program named it, and whether it did.
-    length_lost: Option<(LostBy, bool)>,
+    /// What may have cancelled the length since the program named it.
+    length_lost: Option<Lost>,
     side: Side,
     radius_offset: u32,
     /// True where the word of the length named it.

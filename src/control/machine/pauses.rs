@@ -36,7 +36,7 @@ impl Machine {
         }
     }
 
-    fn is_running(&self, running: Running) -> bool {
+    pub(super) fn is_running(&self, running: Running) -> bool {
         match running {
             // One that is held at an angle stands.
             Running::Spindle => matches!(self.spindle, Spindle::Clockwise | Spindle::CounterClockwise),

@@ -78,6 +78,19 @@ pub enum LostBy {
     MachineMove,
 }
 
+/// A length that may be cancelled since the program named it.
+#[derive(Clone, Copy, Debug)]
+pub struct Lost {
+    /// What may have done it last.
+    pub by: LostBy,
+    /// True if the other one may have done it before.
+    pub by_both: bool,
+    /// True if it did.
+    pub gone: bool,
+    /// True if the length's own axis was moved.
+    pub along: bool,
+}
+
 fn apply_length(machine: &mut Machine, trace: &mut Trace) {
     machine.length_lost = None;
     let value = machine.length_value();
@@ -128,26 +141,24 @@ impl Machine {
             LostBy::MachineMove => self.rules.length_after_machine_move.peek(),
         };
         let gone = after == LengthAfter::Cancelled || (after == LengthAfter::CancelledAlong && along);
-        let before = self.length_lost.is_some_and(|(_, gone)| gone);
-        self.length_lost = Some((by, gone || before));
+        let before = self.length_lost.take();
+        let was = |what: fn(&Lost) -> bool| before.as_ref().is_some_and(what);
+        let by_both = before.is_some_and(|before| before.by_both || before.by != by);
+        let (gone, along) = (gone || was(|lost| lost.gone), along || was(|lost| lost.along));
+        self.length_lost = Some(Lost { by, by_both, gone, along });
         if gone {
             self.frame.length = 0.0;
         }
     }
 
-    /// The offset of a length in force that may be lost.
-    pub fn lost_length(&self) -> Option<u32> {
-        self.length_lost.map(|_| self.length_offset)
-    }
-
     /// Notes what a length that may be lost rests on, where something is placed by it.
     pub(super) fn place_by_length(&mut self, trace: &mut Trace) {
-        let Some((by, gone)) = self.length_lost.take() else { return };
-        match by {
+        let Some(lost) = self.length_lost.take() else { return };
+        match lost.by {
             LostBy::Reference => self.rules.length_after_reference.ask(trace),
             LostBy::MachineMove => self.rules.length_after_machine_move.ask(trace),
         };
-        if gone {
+        if lost.gone {
             self.length_op = Op::LengthOff;
             trace.push(Happening::ToolLength { offset: 0, value: 0.0 });
         }

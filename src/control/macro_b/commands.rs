@@ -238,7 +238,7 @@ impl<'c> Runner<'c> {
 
     /// Notes that a program was entered, with locals of its own or its caller's.
     pub fn enter(&mut self, program: u32, level: bool) {
-        self.session.trace.push(Happening::Enter { program, level });
+        self.session.enter(program, level);
     }
 }
 

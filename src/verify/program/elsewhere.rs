@@ -2,7 +2,7 @@
 
 use super::Verifier;
 use crate::canon::Op;
-use crate::control::ProgramRef;
+use crate::control::{ProgramRef, Scenario};
 use crate::verify::Job;
 use crate::verify::certificate::Why;
 use crate::verify::given::{Given, given};
@@ -28,8 +28,11 @@ impl Verifier<'_, '_> {
         }
         let is_own = self.given.inch().is_none_or(|given| given == own);
         let is_plain = self.given.never_come_to || self.given.unlike_power_on().is_empty();
-        if self.witness.is_some() || (is_own && is_plain) {
+        if self.witness.is_some() {
             return;
+        }
+        if is_own && is_plain {
+            return self.unstarted(there);
         }
         let Some(witness) = self.begun_as(Given::default(), there).witness else { return };
         let given = in_words(&self.given, own);
@@ -40,6 +43,32 @@ impl Verifier<'_, '_> {
         };
         let text = format!("{given}, {whose}, it does the same; otherwise not: {}", witness.what);
         self.because(Why::NotByItself, &text);
+    }
+
+    /// Runs the telling scenarios on a machine that nobody has started, where all callers give the program a spindle that
+    /// runs, or the like. What differs there alone is for review: that no caller ever leaves it out is not shown.
+    fn unstarted(&mut self, there: ProgramRef) {
+        let unstarted = self.given.unstarted();
+        if self.given.entry == unstarted {
+            return;
+        }
+        let given = match self.given.started() {
+            none if none.is_empty() => "a feed in force".to_owned(),
+            started => started.join(", "),
+        };
+        for (scenario, registers) in self.telling.clone() {
+            self.theirs = registers;
+            self.once_more(&Scenario { entry: unstarted.clone(), ..scenario }, there);
+            if let Some(witness) = self.witness.take() {
+                let text = format!(
+                    "with {given}, as its callers run it, it does the same; otherwise not: {}",
+                    witness.what
+                );
+                self.because(Why::NotByItself, &text);
+                break;
+            }
+        }
+        self.theirs.clear();
     }
 
     /// Looks at a program that no caller comes to: the modes that it was run in are those in which their runs ended, and
@@ -58,8 +87,8 @@ impl Verifier<'_, '_> {
         let Job { source, target, .. } = *self.job;
         let given = target.given.get_or_init(|| given(&Job { source: target, target: source, ..*self.job }));
         let Some(theirs) = given.get(&there).filter(|given| !given.never_come_to) else { return };
-        let modes = theirs.unlike_power_on();
-        if modes == self.given.unlike_power_on() {
+        let begins = |given: &Given| (given.unlike_power_on(), given.entry.clone());
+        if begins(theirs) == begins(&self.given) {
             return;
         }
         let text = format!(
@@ -68,7 +97,7 @@ impl Verifier<'_, '_> {
             in_words(theirs, own)
         );
         let mut other = self.anew(self.given.clone());
-        other.target_modes = Some(modes);
+        other.target_given = Some(theirs.clone());
         other.search(there);
         if other.witness.is_none() {
             self.witness = None;
@@ -112,9 +141,12 @@ fn in_words(given: &Given, own: bool) -> String {
     let unit =
         given.inch().filter(|inch| *inch != own).map(|inch| if inch { "inches" } else { "millimetres" });
     let modes = given.unlike_power_on().iter().map(Op::to_string).collect::<Vec<_>>();
-    let all = unit.map(str::to_owned).into_iter().chain(modes);
-    match all.collect::<Vec<_>>() {
+    let all: Vec<String> = unit.map(str::to_owned).into_iter().chain(modes).collect();
+    let started = given.started();
+    let modes = (!all.is_empty()).then(|| format!("in {}", all.join(", ")));
+    let started = (!started.is_empty()).then(|| format!("with {}", started.join(", ")));
+    match modes.into_iter().chain(started).collect::<Vec<_>>() {
         none if none.is_empty() => "as after power-on".into(),
-        all => format!("in {}", all.join(", ")),
+        all => all.join(" "),
     }
 }

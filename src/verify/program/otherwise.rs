@@ -34,7 +34,7 @@ impl Verifier<'_, '_> {
     }
 
     /// Runs both sides; only what differs is kept, and the ways that they go while they do the same.
-    fn once_more(&mut self, scenario: &Scenario, there: ProgramRef) {
+    pub(super) fn once_more(&mut self, scenario: &Scenario, there: ProgramRef) {
         if self.witness.is_some() {
             return;
         }
