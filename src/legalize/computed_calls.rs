@@ -2,9 +2,9 @@
 
 use super::calls_of;
 use crate::ir::analysis::{Ranges, Summaries, Values};
-use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Call, Callee, Class, Expr, Module, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the computed calls of a block may call.
 #[derive(Clone, Debug, Default)]
@@ -82,6 +82,25 @@ impl CalledPrograms {
             }
         }
         pairs
+    }
+
+    /// By program: the locals that every call of it in the library sets.
+    pub fn given(&self, module: &Module) -> BTreeMap<usize, BTreeSet<Var>> {
+        let mut given: BTreeMap<usize, BTreeSet<Var>> = BTreeMap::new();
+        for (index, program) in module.programs.iter().enumerate() {
+            for (id, block) in program.ids().zip(&program.blocks) {
+                for call in calls_of(block) {
+                    let sure = call.arguments.iter().filter(|a| call.level && !a.value.may_be_vacant());
+                    let sets: BTreeSet<Var> =
+                        sure.map(|a| Var { class: Class::Local, number: a.local }).collect();
+                    for callee in self.by((index, id), call) {
+                        let all = given.entry(*callee).or_insert_with(|| sets.clone());
+                        all.retain(|var| sets.contains(var));
+                    }
+                }
+            }
+        }
+        given
     }
 }
 

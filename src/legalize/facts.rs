@@ -12,7 +12,7 @@ use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
 use crate::dialect::{CodeMeaning, Control, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
-use crate::ir::{BinOp, Block, Class, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind, Var};
+use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
 use smallvec::SmallVec;
@@ -37,7 +37,7 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
     let asked = VACANCY.iter().any(|name| control.behaviour(name).is_some_and(|row| !row.origin.confirmed));
     let own = computes && asked && context.source.is("vacancy");
     let summaries = if own { Summaries::of(module) } else { Summaries::default() };
-    let given = if own { given(module) } else { BTreeMap::new() };
+    let given = if own { CalledPrograms::of(module).given(module) } else { BTreeMap::new() };
     let none = BTreeSet::new();
     let mut found = Found {
         control,
@@ -71,26 +71,6 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
             context.add_once(index, &format!("{side} {fact}"), finding);
         }
     }
-}
-
-/// By program: the locals that every call of it in the library sets.
-fn given(module: &Module) -> BTreeMap<usize, BTreeSet<Var>> {
-    let called = CalledPrograms::of(module);
-    let mut given: BTreeMap<usize, BTreeSet<Var>> = BTreeMap::new();
-    for (index, program) in module.programs.iter().enumerate() {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            for call in super::calls_of(block) {
-                let sure = call.arguments.iter().filter(|a| call.level && !a.value.may_be_vacant());
-                let sets: BTreeSet<Var> =
-                    sure.map(|a| Var { class: Class::Local, number: a.local }).collect();
-                for callee in called.by((index, id), call) {
-                    let all = given.entry(*callee).or_insert_with(|| sets.clone());
-                    all.retain(|var| sets.contains(var));
-                }
-            }
-        }
-    }
-    given
 }
 
 /// The place of the first statement from here on that has one.

@@ -4,14 +4,21 @@
 //! that the source kept is named again in that block. Both say outright what is in force, so that the target's own
 //! answer does not count. Side condition of the second: the number of the length is known from the text. Where the
 //! program names the length again before it counts, as after a tool change, nothing is asked.
+//! Side condition of both: the block surely moves along that axis. A code of the length alone may move it on some
+//! controls, so where the words may be vacant, or the repeat of a cycle none, the difference is told.
+//! Counter-example: `G49 Z#4` with `#4` vacant, which the source makes nothing of.
 
+use super::census::Census;
+use super::computed_calls::CalledPrograms;
 use super::modal::Ways;
 use super::{Context, Modal, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
+use crate::ir::analysis::{Summaries, Vacancy};
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
 use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
 
 const RETURN: &str = "reference.length";
 const MOVE: &str = "machine.move.length";
@@ -48,12 +55,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let facts = ModalFacts::of(module, &context.entry);
+    let absent = absent(module);
+    let drills = Census::of(&module.programs).any_op(Op::is_cycle);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        for (at, block) in program.blocks.iter_mut().enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
-            for stmt in &mut block.stmts {
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let mut state = facts.at(index, id);
+            for (at, stmt) in block.stmts.iter_mut().enumerate() {
                 if !questions(&state).is_empty() {
-                    settle(stmt, &state, index, context);
+                    let absent = absent.get(&(index, id, at)).map_or(&[][..], Vec::as_slice);
+                    settle(stmt, &Place { state: &state, absent, drills }, index, context);
                 }
                 state.step(stmt);
             }
@@ -64,6 +74,55 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+/// By program, block and statement: the axes and planes whose words may not be there, for what they hold may be vacant.
+fn absent(module: &Module) -> BTreeMap<(usize, BlockId, usize), Vec<Role>> {
+    let places = |role: Role| role.is_axis() || role == Role::CycleR;
+    let unsigned = |value: &Expr| match value {
+        Expr::Negate(inner) => Expr::clone(inner),
+        value => value.clone(),
+    };
+    let words = |nc: &Nc| {
+        let words = nc.items.iter().filter_map(|item| match item {
+            NcItem::Word(role, value) if places(*role) => Some((*role, unsigned(value))),
+            _ => None,
+        });
+        words.filter(|(_, value)| value.may_be_vacant()).collect::<Vec<_>>()
+    };
+    let unsure = |program: &Program| {
+        let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+        stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if !words(nc).is_empty()))
+    };
+    let mut found = BTreeMap::new();
+    if !module.programs.iter().any(unsure) {
+        return found;
+    }
+    let (summaries, given) = (Summaries::of(module), CalledPrograms::of(module).given(module));
+    let none = BTreeSet::new();
+    for (index, program) in module.programs.iter().enumerate().filter(|(_, program)| unsure(program)) {
+        let vacancy = Vacancy::of(program, &summaries, given.get(&index).unwrap_or(&none));
+        for (id, block) in program.ids().zip(&program.blocks) {
+            vacancy.forward(id, &mut |at, may| {
+                let Some(StmtKind::Nc(nc)) = block.stmts.get(at).map(|stmt| &stmt.kind) else { return };
+                let vacant = words(nc).into_iter().filter(|(_, value)| may(value));
+                let roles: Vec<Role> = vacant.map(|(role, _)| role).collect();
+                if !roles.is_empty() {
+                    found.insert((index, id, at), roles);
+                }
+            });
+        }
+    }
+    found
+}
+
+/// Where a statement stands.
+struct Place<'p> {
+    state: &'p Modal,
+    /// The words that may not be there.
+    absent: &'p [Role],
+    /// True if some program of the library drills by cycles.
+    drills: bool,
 }
 
 /// The questions that the length in force hangs on.
@@ -79,16 +138,18 @@ fn questions(state: &Modal) -> Vec<Question> {
 }
 
 /// A statement that may be the first to count with the length.
-fn settle(stmt: &mut Stmt, state: &Modal, index: usize, context: &mut Context<'_>) {
-    let span = stmt.site.span;
+fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Context<'_>) {
+    let (state, span) = (place.state, stmt.site.span);
     let mut reads = false;
     stmt.kind.exprs(&mut |e| reads |= reads_depth(e));
     if reads {
         return told(state, index, span, context);
     }
     let StmtKind::Nc(nc) = &mut stmt.kind else { return };
-    if !places(nc, state) {
-        return;
+    match places(nc, place) {
+        Ways::None => return,
+        Ways::Some => return told(state, index, span, context),
+        Ways::Every => {}
     }
     let questions = questions(state);
     rests(&questions, Side::Source, index, span, context);
@@ -121,19 +182,41 @@ fn settle(stmt: &mut Stmt, state: &Modal, index: usize, context: &mut Context<'_
     }
 }
 
-/// True where a block places something along the axis of the length, in coordinates of the program, by the length in
-/// force before it.
-fn places(nc: &Nc, state: &Modal) -> bool {
+/// On which ways a block places something along the axis of the length, in coordinates of the program, by the length in
+/// force before it: with what its words hold, and the cycle that may be in force.
+fn places(nc: &Nc, place: &Place<'_>) -> Ways {
     let aside = |op: Op| {
         matches!(op, Op::MachineOnce | Op::WriteWork | Op::LocalShift | Op::Dwell)
             || op.group() == Group::LengthComp
     };
-    let distance = nc.ops().filter(|op| op.group() == Group::Distance).last();
-    let incremental = distance.or(state.op(Group::Distance)) == Some(Op::Incremental);
-    let depth = nc.word(Role::Z).is_some() && !incremental;
-    (depth || nc.word(Role::CycleR).is_some())
-        && nc.word(Role::LengthOffset).is_none()
-        && !nc.ops().any(aside)
+    let repeats = nc.word(Role::Repeat).map(Expr::constant);
+    // Words that are kept for later place nothing yet.
+    if nc.word(Role::LengthOffset).is_some() || nc.ops().any(aside) || repeats == Some(Some(0.0)) {
+        return Ways::None;
+    }
+    let mut words = place.state.clone();
+    words.step_words(nc);
+    let depth = |role: Role| role == Role::Z && words.op(Group::Distance) != Some(Op::Incremental);
+    let cycle = words.op(Group::Cycle);
+    // A hole is placed by the words of any axis.
+    let hole = |role: Role| role.is_axis() && cycle.map_or(place.drills, Op::is_cycle);
+    let roles = nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(role, _) => Some(*role),
+        _ => None,
+    });
+    let mut ways = Ways::None;
+    for role in roles.filter(|role| *role == Role::CycleR || depth(*role) || hole(*role)) {
+        let known = depth(role) || role == Role::CycleR || cycle.is_some();
+        let sure = known && !place.absent.contains(&role) && repeats.is_none_or(|count| count.is_some());
+        ways = if sure {
+            Ways::Every
+        } else if ways == Ways::None {
+            Ways::Some
+        } else {
+            ways
+        };
+    }
+    ways
 }
 
 /// True where an expression reads a position of the program along the axis of the length.

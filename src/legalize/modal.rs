@@ -2,7 +2,7 @@
 
 use super::tool_word::ToolWord;
 use crate::canon::{Group, Op, Role};
-use crate::ir::{Block, BlockId, Call, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Call, Expr, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -240,9 +240,17 @@ impl Modal {
             // None is in force that the program knows of.
             _ => return,
         };
-        let along = nc.word(Role::Z).is_some();
+        let depth = nc.word(Role::Z);
+        let along = depth.is_some();
         let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2));
         let lost = &mut self.length_lost;
+        // A word whose value is vacant is not there.
+        let unsure = depth.is_some_and(|value| match value {
+            Expr::Negate(inner) => inner.may_be_vacant(),
+            value => value.may_be_vacant(),
+        });
+        let ways = if unsure { Ways::Some } else { ways };
+        lost.by_other_axes = if returns && unsure { Ways::Some } else { lost.by_other_axes };
         match (returns, along || !nc.moves()) {
             (true, true) => lost.by_reference = ways,
             (true, false) => lost.by_other_axes = ways,
