@@ -105,11 +105,17 @@ fn a_spindle_that_is_found_and_stopped_is_none() {
     assert_eq!(found("#3006=1(LOOK)\nM5M9\n"), Different);
 }
 
-/// The callers of the target have the other coolant on, which that machine has alone: each side is begun as its own.
+/// The target has flood alone, which its callers switch on in place of mist: each side is begun as its own callers do.
 #[test]
 fn each_side_finds_what_its_own_callers_started() {
-    let callers = [main(1, "M8\n"), main(1, "M7\n")];
-    let callers = [&*callers[0], &*callers[1]];
-    let (outcome, why) = called("fanuc", callers, "G1X#1F100.\nM8\nX5.\n", "G1X#1F100.\nM7\nX5.\n");
-    assert!(outcome == Outcome::Different || !why.is_empty(), "{outcome:?} {why}");
+    use Outcome::{Different, Undecided};
+    let callers = [main(1, "M7\n"), main(1, "M8\n")];
+    let found = |code: &str| {
+        let [source, target] = ["M7", code].map(|code| format!("G1X#1F100.\n{code}\nX9.\n"));
+        called("fanuc", [&callers[0], &callers[1]], &source, &target)
+    };
+    let (outcome, why) = found("M8");
+    assert_eq!(outcome, Undecided, "{why}");
+    assert!(why.contains("as the callers of each run it, it does the same"), "{why}");
+    assert_eq!(found("M9").0, Different);
 }
