@@ -1,13 +1,15 @@
 //! Which modal state holds where: forward over the ways that control can take.
 
+use super::left::Others;
+use super::set::statement;
 use super::shape::{Goal, Shape, goal};
-use super::state::{DEFAULT_PLACES, MOST_MODAL, Sets, State, Values};
-use super::steps::{Step, parametric, steps};
+use super::state::{MOST_MODAL, State, Values};
+use super::steps::{Step, operand, parametric, steps};
 use super::words::{Codes, word};
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::lower::common::constant;
-use crate::syntax::{Block, Expr, Index, Item, ItemKind, SetOption, VarRef};
+use crate::syntax::{Block, Expr, Item, ItemKind};
 use std::collections::BTreeSet;
 
 /// The modal state at the head of every run of a program.
@@ -16,17 +18,27 @@ pub struct Flow<'b> {
     blocks: &'b [Block],
     control: &'b Control,
     shape: &'b Shape,
-    others: Sets,
+    /// What is known of the file's programs, and which of them this is.
+    others: (&'b Others, usize),
     at: Vec<Option<State>>,
     returned: Vec<Option<State>>,
     modal_subs: Vec<usize>,
+    /// The state where the program returns to its caller.
+    left: Option<State>,
+    /// True where it may end in another way than by a return to behind its call.
+    ends_elsewhere: bool,
     calling: BTreeSet<usize>,
     work: BTreeSet<usize>,
 }
 
 impl<'b> Flow<'b> {
     /// Follows all ways through a program.
-    pub fn new(blocks: &'b [Block], control: &'b Control, shape: &'b Shape, others: Sets) -> Self {
+    pub fn new(
+        blocks: &'b [Block],
+        control: &'b Control,
+        shape: &'b Shape,
+        others: (&'b Others, usize),
+    ) -> Self {
         let mut flow = Self {
             blocks,
             control,
@@ -35,6 +47,8 @@ impl<'b> Flow<'b> {
             at: vec![None; shape.leaders.len()],
             returned: vec![None; shape.subs.len()],
             modal_subs: Vec::new(),
+            left: None,
+            ends_elsewhere: false,
             calling: BTreeSet::new(),
             work: BTreeSet::new(),
         };
@@ -52,6 +66,24 @@ impl<'b> Flow<'b> {
     pub fn at(&self, block: usize) -> Option<State> {
         let run = self.shape.leaders.binary_search(&block).ok()?;
         Some(self.at.get(run).cloned().flatten().unwrap_or_default())
+    }
+
+    /// The state where the program returns to its caller; none where it may come back to another place.
+    pub fn left(self) -> Option<State> {
+        self.left.filter(|_| !self.ends_elsewhere)
+    }
+
+    /// Another program ran, which one is not known.
+    fn called(&self, state: &mut State) {
+        state.called(self.others.0.sets(self.others.1), None);
+    }
+
+    /// The program goes back to its caller.
+    fn leave(&mut self, state: &State) {
+        match &mut self.left {
+            Some(left) => drop(left.join(state)),
+            None => self.left = Some(state.clone()),
+        }
     }
 
     /// The state behind a block that leaves the flow alone.
@@ -84,7 +116,10 @@ impl<'b> Flow<'b> {
             // What stands before the subroutines goes on at the main part.
             None if end < self.shape.main => self.reach(self.shape.main, &state),
             Some(sub) if self.shape.region(end) != Some(sub) => self.give_back(sub, &state),
-            _ => self.reach(end, &state),
+            _ => {
+                self.ends_elsewhere |= end >= self.blocks.len();
+                self.reach(end, &state);
+            }
         }
     }
 
@@ -175,7 +210,8 @@ impl<'b> Flow<'b> {
             match row.op {
                 Op::Absolute => state.incremental = Values::one(false),
                 Op::Incremental => state.incremental = Values::one(true),
-                Op::CallModalOff if state.modal < MOST_MODAL => state.modal = state.modal.saturating_sub(1),
+                Op::CallModalOff if state.modal == 0 => state.modal_program = false,
+                Op::CallModalOff if state.modal < MOST_MODAL => state.modal -= 1,
                 _ => {}
             }
         }
@@ -204,6 +240,9 @@ impl<'b> Flow<'b> {
             state.r = std::array::from_fn(|_| Values::any());
         }
         let modal = codes.has(Op::CallModal);
+        if state.modal_program && moves {
+            self.called(&mut state);
+        }
         for step in steps(items, &codes) {
             match step {
                 Step::Local(value) => {
@@ -220,7 +259,16 @@ impl<'b> Flow<'b> {
                     let again = constant(value).is_none_or(|value| value % 100.0 != 1.0);
                     state = self.call_any(&subs, again, run, state)?;
                 }
-                Step::Program => state.called(&self.others),
+                Step::Program => {
+                    let (others, own) = self.others;
+                    state.modal_program |= modal;
+                    let before = state.clone();
+                    state.called(others.sets(own), others.motion(items, &codes));
+                    let count = operand(items, &codes, Role::CallCount);
+                    if count.is_some_and(|count| constant(count).is_none_or(|count| count < 1.0)) {
+                        state.join(&before);
+                    }
+                }
                 Step::SubEnd => {
                     if let Some((sub, _)) = run.and_then(|(_, at)| Some((self.shape.region(at)?, ()))) {
                         self.give_back(sub, &state);
@@ -228,7 +276,13 @@ impl<'b> Flow<'b> {
                     return None;
                 }
                 Step::Return => {
-                    if let (Some(goal), Some(_)) = (super::calls::return_goal(items, &codes), run) {
+                    let goal = super::calls::return_goal(items, &codes);
+                    if run.is_some() && operand(items, &codes, Role::Sequence).is_none() {
+                        self.leave(&state);
+                    } else {
+                        self.ends_elsewhere = true;
+                    }
+                    if let (Some(goal), Some(_)) = (goal, run) {
                         self.jump(&goal, &state);
                     }
                     if run.is_some() && super::calls::returns_computed(items, &codes) {
@@ -267,7 +321,7 @@ impl<'b> Flow<'b> {
         if subs.is_empty() {
             // A subroutine that the control keeps, or none: refused or reviewed where it is lowered.
             let mut state = state;
-            state.called(&self.others);
+            self.called(&mut state);
             return Some(state);
         }
         let mut behind: Option<State> = None;
@@ -302,63 +356,5 @@ impl<'b> Flow<'b> {
             }
             _ => false,
         }
-    }
-}
-
-fn statement(kind: &ItemKind, state: &mut State) {
-    match kind {
-        ItemKind::Assign { target, value, .. } => {
-            let constant = constant(value).map(f64::to_bits);
-            let copied = parametric(value).filter(|(_, minus)| !minus);
-            let values = match (constant, copied) {
-                (Some(bits), _) => Values::one(bits),
-                (None, Some((number, _))) => {
-                    state.r.get(number as usize).cloned().unwrap_or_else(Values::any)
-                }
-                _ => Values::any(),
-            };
-            set(target, values, state);
-        }
-        ItemKind::Input { targets, .. } => {
-            targets.iter().for_each(|target| set(target, Values::any(), state));
-            state.moved = false;
-        }
-        ItemKind::Wait => state.moved = false,
-        ItemKind::Set(options) => {
-            if options.is_empty() {
-                state.radians = Values::one(false);
-                state.radians_outside = false;
-                state.places = Values::one(DEFAULT_PLACES);
-                state.places_called = false;
-            }
-            for option in options {
-                match option {
-                    SetOption::Degrees | SetOption::Radians => {
-                        state.radians = Values::one(*option == SetOption::Radians);
-                        state.radians_outside = false;
-                    }
-                    SetOption::Round(places) => {
-                        state.places = Values::one(*places);
-                        state.places_called = false;
-                    }
-                    SetOption::Debug | SetOption::Run => {}
-                }
-            }
-        }
-        _ => {}
-    }
-}
-
-fn set(target: &VarRef, values: Values<u64>, state: &mut State) {
-    if target.name != "R" {
-        return;
-    }
-    match target.index {
-        Index::Number(number) => {
-            if let Some(slot) = state.r.get_mut(number as usize) {
-                *slot = values;
-            }
-        }
-        _ => state.r = std::array::from_fn(|_| Values::any()),
     }
 }

@@ -12,8 +12,10 @@ mod condition;
 mod expr;
 mod facts;
 mod flow;
+mod left;
 mod motion;
 mod program;
+mod set;
 mod shape;
 mod state;
 mod statement;
@@ -25,7 +27,7 @@ mod value;
 mod variable;
 mod words;
 
-use self::state::Sets;
+use self::left::Others;
 use super::Lowered;
 use super::common::programs;
 use crate::dialect::Control;
@@ -36,13 +38,8 @@ use std::collections::BTreeMap;
 pub fn lower(parsed: &ParsedFile<'_>, file: usize, _name: &str, control: &Control) -> Lowered {
     let tape = parsed.blocks.iter().flat_map(|block| &block.items).any(|item| item.kind == ItemKind::Tape);
     let texts = programs(&parsed.blocks);
-    let others = |own: usize| {
-        let mut sets = Sets::default();
-        let others = texts.iter().enumerate().filter(|(at, _)| *at != own);
-        others.for_each(|(_, text)| sets.add(text.blocks));
-        sets
-    };
-    let lowered = |(at, text)| program::lower(text, others(at), parsed.source, file, control);
+    let others = Others::of(&texts, control);
+    let lowered = |(at, text)| program::lower(text, (&others, at), parsed.source, file, control);
     let programs = texts.iter().enumerate().map(lowered).collect();
     Lowered { programs, names: BTreeMap::new(), tape }
 }

@@ -1,8 +1,9 @@
 //! One program: its blocks in source order, its subroutines, its jumps.
 
 use super::flow::Flow;
+use super::left::Others;
 use super::shape::Shape;
-use super::state::{Sets, State};
+use super::state::State;
 use super::steps::steps;
 use super::words::Codes;
 use crate::diag::{Code, Diagnostic};
@@ -46,10 +47,10 @@ pub struct Lowering<'b> {
     pub plane_by_word: bool,
 }
 
-/// Lowers a program's text; `others` is what the other programs of its file set.
+/// Lowers a program's text; `others` is what is known of the programs of its file, and which of them this is.
 pub fn lower(
     text: &ProgramText<'_>,
-    others: Sets,
+    others: (&Others, usize),
     source: &[u8],
     file: usize,
     control: &Control,

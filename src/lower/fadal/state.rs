@@ -1,5 +1,6 @@
 //! The modal state that the meaning of later blocks depends on.
 
+use super::left::Motion;
 use crate::syntax::{Block, ItemKind, SetOption, for_each_item};
 
 /// How many values are told apart before the set counts as any.
@@ -14,8 +15,13 @@ pub struct Values<T> {
 
 impl<T> Default for Values<T> {
     fn default() -> Self {
-        Self { list: Vec::new(), any: false }
+        Self::NONE
     }
+}
+
+impl<T> Values<T> {
+    /// No value.
+    pub const NONE: Self = Self { list: Vec::new(), any: false };
 }
 
 impl<T: Copy + Ord> Values<T> {
@@ -69,6 +75,15 @@ pub struct Sets {
 }
 
 impl Sets {
+    /// What nothing sets.
+    pub const NONE: Self = Self { places: Values::NONE, radians: Values::NONE };
+
+    /// What either sets.
+    pub fn join(&mut self, other: &Self) {
+        self.places.join(&other.places);
+        self.radians.join(&other.radians);
+    }
+
     /// Adds what a program sets.
     pub fn add(&mut self, blocks: &[Block]) {
         for block in blocks {
@@ -124,6 +139,8 @@ pub struct State {
     pub modal: u8,
     /// True in a subroutine that a modal call may run.
     pub in_modal: bool,
+    /// True where a modal call of another program may be in force.
+    pub modal_program: bool,
     /// The constants that R0 to R9 may hold, as bits.
     pub r: [Values<u64>; 10],
 }
@@ -160,14 +177,19 @@ impl State {
         self.moved |= other.moved;
         self.modal = self.modal.max(other.modal);
         self.in_modal |= other.in_modal;
+        self.modal_program |= other.modal_program;
         self.r.iter_mut().zip(&other.r).for_each(|(mine, theirs)| mine.join(theirs));
         *self != before
     }
 
-    /// Another program ran: it may have set any variable, or what `others` do, and is taken to leave
-    /// the other modes as they were.
-    pub fn called(&mut self, others: &Sets) {
-        self.motion_called = true;
+    /// Another program ran: it may have set any variable, or what `others` do. It leaves `motion`; where that is not
+    /// known, and of the other modes, it is taken to leave them as they were.
+    pub fn called(&mut self, others: &Sets, motion: Option<&Motion>) {
+        match motion {
+            // Its moves run the subroutine of a modal call, which sets what it likes.
+            Some(motion) if self.modal == 0 && !self.modal_program => motion.give(self),
+            _ => self.motion_called = true,
+        }
         self.places_called = true;
         self.places.join(&others.places);
         self.radians.join(&others.radians);
