@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
+use unicode_normalization::UnicodeNormalization;
 
 /// Where a path really is, whether anything stands there already or not.
 pub fn real_place(path: &Path) -> PathBuf {
@@ -19,8 +20,8 @@ pub fn real_place(path: &Path) -> PathBuf {
     real
 }
 
-/// Tells places apart as the coarsest file system does that a shop may copy them to: without case, and without dots and
-/// blanks at the end of a name.
+/// Tells places apart as the coarsest file system does that a shop may copy them to: without case, without dots and
+/// blanks at the end of a name, and whether `ü` is written as one character or as two.
 #[derive(Debug, Default)]
 pub struct Spots {
     /// Folders that were looked for, and where they really are.
@@ -42,7 +43,12 @@ impl Spots {
 
 fn folded(part: Component<'_>) -> OsString {
     match (part, part.as_os_str().to_str()) {
-        (Component::Normal(_), Some(name)) => name.to_lowercase().trim_end_matches(['.', ' ']).into(),
+        (Component::Normal(_), Some(name)) => {
+            // By way of capitals: these are the same for `ß` and `ss`, and for both small sigmas.
+            let capitals = name.nfd().collect::<String>().to_uppercase();
+            let folded: String = capitals.to_lowercase().nfd().collect();
+            folded.trim_end_matches(['.', ' ']).into()
+        }
         _ => part.as_os_str().to_owned(),
     }
 }
@@ -58,6 +64,17 @@ mod tests {
         assert_eq!(at("A.NC"), at("a.nc"));
         assert_eq!(at("Sub/a.nc. "), at("sub/a.nc"));
         assert_ne!(at("a.nc"), at("sub/a.nc"));
+        // The Unicode Standard, annex 15 (canonical equivalence), and its table CaseFolding.txt.
+        let one = [
+            ("f\u{fc}r.nc", "fu\u{308}r.nc"),
+            ("f\u{fc}r.nc", "FU\u{308}R.NC"),
+            ("\u{1e69}", "s\u{307}\u{323}"),
+            ("stra\u{df}e", "STRASSE"),
+            ("\u{3c2}", "\u{3c3}"),
+            ("\u{212b}", "\u{e5}"),
+        ];
+        one.iter().for_each(|(a, b)| assert_eq!(at(a), at(b)));
+        assert_ne!(at("fur.nc"), at("f\u{fc}r.nc"));
         assert_eq!(at("none/../a.nc"), at("a.nc"));
         #[cfg(unix)]
         {

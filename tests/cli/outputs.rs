@@ -114,6 +114,32 @@ fn two_inputs_for_one_place() {
     shop.fails(&format!("convert in {TO} --out out"), &["a.nc", "A.NC", "nothing was written"]);
 }
 
+/// Some file systems write `ü` as one character, some as two, and some do not tell the two apart. On a screen they look alike.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_look_alike_are_spelled() {
+    let other = CLEAN.replace("O1234", "O1235");
+    let shop = Shop::with(&[("in/f\u{fc}r.nc", CLEAN), ("in/fu\u{308}r.nc", &other)]);
+    let words = ["f\\u{fc}r.nc", "fu\\u{308}r.nc", "nothing was written"];
+    shop.fails(&format!("convert in {TO} --out out"), &words);
+    assert_eq!(shop.run(&format!("convert in/f\u{fc}r.nc {TO} --out out")).code, 0);
+    shop.fails(&format!("convert in/fu\u{308}r.nc {TO} --out out"), &words);
+}
+
+/// A folder never holds two conversions that are one file where it is copied to, whichever runs wrote them.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_conversion_of_an_earlier_run_counts_too() {
+    let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/A.NC", &CLEAN.replace("O1234", "O1235"))]);
+    assert_eq!(shop.run(&format!("convert in/A.NC {TO} --out out")).code, 0);
+    shop.fails(&format!("convert in/a.nc {TO} --out out"), &["a.nc", "A.NC", "--prune"]);
+    // A program that was given another name, too.
+    std::fs::remove_file(shop.path("in/A.NC")).unwrap();
+    shop.fails(&format!("convert in/a.nc {TO} --out out"), &["a.nc", "A.NC", "--prune"]);
+    assert_eq!(shop.run(&format!("convert in/a.nc {TO} --out out --prune")).code, 0);
+    assert!(shop.files().keys().all(|name| !name.starts_with("out/A.NC")));
+}
+
 #[test]
 fn several_programs_need_a_folder() {
     let shop = Shop::with(&[("in/a.nc", CLEAN), ("in/b.nc", REFUSED)]);

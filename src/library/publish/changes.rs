@@ -7,6 +7,7 @@ use super::manifest::{Entry, Kind, Manifest, seen_from};
 use super::{Change, OutputError};
 use crate::library::inputs::same_file;
 use crate::library::outputs::{SIDECARS, leads_out, read_file};
+use crate::library::places::Spots;
 use crate::verify::sha256;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -128,6 +129,7 @@ pub fn changes<'b>(
         plan.put(wanted)?;
     }
     plan.tell_replaced(sources);
+    plan.apart(&next)?;
     let text = next.print();
     if plan.read(Manifest::NAME)?.is_none_or(|now| now != text.as_bytes()) {
         let place = PathBuf::from(Manifest::NAME);
@@ -161,6 +163,21 @@ impl<'b> Plan<'_, 'b> {
             is_other.then(|| (name.to_owned(), at.clone()))
         };
         self.told.replaced = changed.filter_map(other).collect();
+    }
+
+    /// Finds what an earlier run left under a name that is this run's on some file system.
+    fn apart(&self, next: &Manifest) -> Result<(), OutputError> {
+        let (mut spots, mut taken) = (Spots::default(), BTreeMap::new());
+        let programs = next.files.iter().filter(|(_, entry)| is_program(entry.kind));
+        for (name, _) in programs {
+            let Some(other) = taken.insert(spots.of(&self.folder.join(name)), name) else { continue };
+            let [ours, theirs] = if self.names.contains(name) { [name, other] } else { [other, name] };
+            // What earlier runs left together is no matter of this one.
+            if self.names.contains(ours) {
+                return Err(OutputError::Twin(ours.clone(), theirs.clone()));
+            }
+        }
+        Ok(())
     }
 
     /// Takes away certificates of programs that are none of this run, where what they call is another text after it, or

@@ -20,9 +20,11 @@ pub use manifest::{Kind, Manifest, ManifestError, Outdated};
 pub use recover::is_pending;
 
 use std::borrow::Cow;
+use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use unicode_normalization::UnicodeNormalization;
 
 /// A change of a folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +41,13 @@ pub struct Change<'b> {
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// Two files for one place.
-    #[error("{0} and {1} would both be written to {2}; nothing was written")]
+    #[error("{}", Collided(.0, .1, .2))]
     Collision(String, String, PathBuf),
+    /// A file that is to stand beside one of an earlier run, which would be the same on some file systems.
+    #[error(
+        "{}: an earlier run wrote {}, and some file systems do not tell the two apart; nothing was written. Take that away first: --prune does where its source is gone", spelled(.0), spelled(.1)
+    )]
+    Twin(String, String),
     /// A file that would overwrite an input.
     #[error("{0} is an input and would be overwritten; nothing was written. Name another place for it")]
     OverInput(PathBuf),
@@ -66,6 +73,33 @@ pub enum OutputError {
         "{0}: could not be written ({1}), nor brought back to what it was ({2}). Mend that and run the same again: it begins with that"
     )]
     HalfWay(PathBuf, io::Error, io::Error),
+}
+
+/// Two names for one place, in words.
+struct Collided<'a>(&'a str, &'a str, &'a Path);
+
+impl fmt::Display for Collided<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(one, other, place) = self;
+        // Names that look alike are told apart by their characters.
+        let alike = one != other && one.nfc().eq(other.nfc());
+        let name = |name: &str| if alike { spelled(name) } else { name.to_owned() };
+        let place = place.display();
+        write!(f, "{} and {} would both be written to {place}; nothing was written", name(one), name(other))?;
+        if alike {
+            write!(f, ". They look alike, and some file systems do not tell them apart: rename one")?;
+        }
+        Ok(())
+    }
+}
+
+/// A name in which every character shows: `fu\u{308}r.nc`.
+fn spelled(name: &str) -> String {
+    let shown = |c: char| match c.is_ascii() {
+        true => c.to_string(),
+        false => c.escape_unicode().to_string(),
+    };
+    name.chars().map(shown).collect()
 }
 
 /// Finds what can be found that is wrong with changes before any is made.
