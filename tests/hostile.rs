@@ -165,3 +165,28 @@ fn lines_of_megabytes_are_kept_and_not_read() {
         assert!(faults[0].message.contains("1048"), "{}", faults[0].message);
     }
 }
+
+/// A part that is read in two ways is read four times one level deeper: brackets that are never closed show it.
+#[test]
+fn brackets_that_are_not_closed() {
+    let nested = [
+        ("fadal", "#V2=", "V(2+1="),
+        ("fadal", "#IF ", "R(1+"),
+        ("fadal", "#PRINT ", "ABS("),
+        ("fanuc", "#1=", "PRM[1]/["),
+        ("fanuc", "IF[", "#[1+"),
+        ("fanuc", "WHILE[", "ATAN[1]/["),
+        ("haas", "#1=", "ATAN[1]/["),
+        ("haas", "X", "FIX[#["),
+    ];
+    for (dialect, head, part) in nested {
+        let parse = registry::find(dialect).unwrap().parse;
+        let close = if dialect == "fadal" { ")" } else { "]" };
+        for end in [String::new(), close.repeat(39), format!("1{}", close.repeat(40)), close.repeat(40)] {
+            let program = format!("{head}{}{end}\nM30\n", part.repeat(40));
+            let begun = Instant::now();
+            assert_eq!(parse_file(program.as_bytes(), parse).print(), program.as_bytes());
+            assert!(begun.elapsed() < LIMIT, "{program}: {:?}", begun.elapsed());
+        }
+    }
+}
