@@ -22,7 +22,7 @@ use crate::ir::analysis::{self, Ranges, Summaries, Values, values_at};
 use crate::ir::{Bank, Expr, Module};
 use crate::text::Span;
 use found::Found;
-use numbers::Numbers;
+use numbers::{Numbers, Table};
 pub(super) use shift::constant_part;
 use shift::shift;
 use std::cell::LazyCell;
@@ -37,6 +37,8 @@ pub struct Reached {
     pub sure: analysis::Numbers,
     /// What is supposed of the others, by program.
     open: Vec<(usize, Found)>,
+    /// What both controls mean by each number, once it is known.
+    table: Table,
 }
 
 impl Reached {
@@ -44,7 +46,7 @@ impl Reached {
     pub(super) fn everything(&self, source: &Control, target: &Control) -> analysis::Numbers {
         let mut all = analysis::Numbers::default();
         if !self.open.is_empty() {
-            let numbers = Numbers::new(source, target);
+            let numbers = Numbers::new(source, target, self.table.clone());
             self.open.iter().for_each(|(_, found)| all.join(&found.finding.supposed(&numbers)));
         }
         all
@@ -58,8 +60,9 @@ impl Reached {
 
 /// Shifts computed numbers, and notes what they may be.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let mut numbers = Numbers::new(context.source, context.target);
-    context.reached = look(module, &mut numbers, context);
+    let table = Table::default();
+    let mut numbers = Numbers::new(context.source, context.target, table.clone());
+    context.reached = Reached { table, ..look(module, &mut numbers, context) };
     let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
     let shifts = numbers.known.values().any(moves);
     if shifts {
@@ -126,7 +129,7 @@ pub fn report(registers: &Registers, context: &mut Context<'_>) {
     if reached.open.is_empty() {
         return;
     }
-    let numbers = Numbers::new(context.source, context.target);
+    let numbers = Numbers::new(context.source, context.target, reached.table);
     let alike = numbers.all_alike();
     let taken: Vec<u32> = registers.taken().collect();
     for (index, found) in reached.open {

@@ -4,6 +4,7 @@ use super::Input;
 use crate::dialect::{Control, Entry, registry};
 use crate::syntax::{ExprKind, ItemKind, for_each_item, parse_file};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// Bytes of each file that are looked at: of a few files, and of many.
 const HEAD: usize = 16 * 1024;
@@ -103,12 +104,16 @@ fn start(bytes: &[u8], most: usize) -> &[u8] {
     }
 }
 
+/// Every control without a profile.
+static CONTROLS: LazyLock<Vec<(Control, &'static Entry)>> = LazyLock::new(|| {
+    let plain = |entry: &'static Entry| Some((Control::plain(entry.name)?, entry));
+    registry::all().iter().filter_map(plain).collect()
+});
+
 /// How each control reads each file.
 fn scores(inputs: &[Input], most: usize) -> Vec<Vec<(Score, &'static Entry)>> {
-    let plain = |entry: &'static Entry| Some((Control::plain(entry.name)?, entry));
-    let controls: Vec<(Control, &'static Entry)> = registry::all().iter().filter_map(plain).collect();
     let of = |input: &Input| {
-        controls.iter().map(|(c, entry)| (score(c, start(&input.bytes, most)), *entry)).collect()
+        CONTROLS.iter().map(|(c, entry)| (score(c, start(&input.bytes, most)), *entry)).collect()
     };
     inputs.par_iter().map(of).collect()
 }

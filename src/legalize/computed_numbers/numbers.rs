@@ -10,6 +10,7 @@ use crate::ir::Expr;
 use crate::ir::analysis;
 use crate::ir::eval::whole;
 use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
 /// Numbers of axes repeat at this distance.
 const GAP: u32 = 20;
@@ -18,14 +19,27 @@ const GAP: u32 = 20;
 pub(super) struct Numbers<'c> {
     source: &'c Control,
     target: &'c Control,
-    /// By number: true where both mean the same, none where neither means anything.
-    alike: Vec<Option<bool>>,
+    /// Made when it is first asked for: most programs compute no number.
+    table: Table,
     /// By the constant part of a number.
     pub(super) known: BTreeMap<u32, Finding>,
 }
 
+/// By number: true where both controls mean the same, none where neither means anything.
+pub(super) type Table = Arc<OnceLock<Vec<Option<bool>>>>;
+
 impl<'c> Numbers<'c> {
-    pub(super) fn new(source: &'c Control, target: &'c Control) -> Self {
+    /// `table` is of the same two controls.
+    pub(super) fn new(source: &'c Control, target: &'c Control, table: Table) -> Self {
+        Self { source, target, table, known: BTreeMap::new() }
+    }
+
+    fn table(&self) -> &[Option<bool>] {
+        self.table.get_or_init(|| self.compared())
+    }
+
+    fn compared(&self) -> Vec<Option<bool>> {
+        let (source, target) = (self.source, self.target);
         let same = |number: u32| {
             let (here, there) = (meaning(source, number), meaning(target, number));
             let access = |control: &'c Control| {
@@ -41,8 +55,7 @@ impl<'c> Numbers<'c> {
                 _ => Some(here == there && !target.is_reserved("#", number)),
             }
         };
-        let alike = (0..=last_number(source)).map(same).collect();
-        Self { source, target, alike, known: BTreeMap::new() }
+        (0..=last_number(source)).map(same).collect()
     }
 
     /// What is known of a computed number that may be one of some, `exact` where it is each of them; true where they all
@@ -53,12 +66,12 @@ impl<'c> Numbers<'c> {
         may_be: &analysis::Numbers,
         exact: bool,
     ) -> (Option<Finding>, bool) {
-        let known = may_be.last().is_none_or(|last| (last as usize) < self.alike.len());
+        let known = may_be.last().is_none_or(|last| (last as usize) < self.table().len());
         let each = || may_be.runs().iter().flat_map(|(first, last)| *first..=*last);
         let finding = self.of(number).clone();
         let moves = matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
         // What neither control has stops both.
-        let differs = |number: u32| self.alike.get(number as usize).copied().flatten() == Some(false);
+        let differs = |number: u32| self.table().get(number as usize).copied().flatten() == Some(false);
         let other = known.then(|| each().find(|number| differs(*number))).flatten();
         if known && other.is_none() && !moves {
             return (None, true);
@@ -74,13 +87,13 @@ impl<'c> Numbers<'c> {
     }
 
     fn alike(&self, number: u32) -> bool {
-        self.alike.get(number as usize).copied().flatten().unwrap_or(false)
+        self.table().get(number as usize).copied().flatten().unwrap_or(false)
     }
 
     /// True where no number of the source means another thing on the target.
     pub(super) fn all_alike(&self) -> bool {
         let has = |number: usize| meaning(self.source, number as u32).is_some();
-        self.alike.iter().enumerate().all(|(number, alike)| *alike != Some(false) || !has(number))
+        self.table().iter().enumerate().all(|(number, alike)| *alike != Some(false) || !has(number))
     }
 
     /// What is known of a computed number by its constant part: the run that it lies in, or that begins behind it.
@@ -149,7 +162,7 @@ impl<'c> Numbers<'c> {
     fn runs(&self) -> Vec<(u32, u32)> {
         let mut runs: Vec<(u32, u32)> = Vec::new();
         let mut broken = true;
-        for (number, alike) in (0..).zip(&self.alike).skip(1) {
+        for (number, alike) in (0..).zip(self.table()).skip(1) {
             match (alike, runs.last_mut()) {
                 (Some(true), Some((_, last))) if !broken && number - *last < GAP => *last = number,
                 (Some(true), _) => runs.push((number, number)),
@@ -172,7 +185,7 @@ impl<'c> Numbers<'c> {
             matches!(meaning(self.source, *number), Some(Meaning::State(state, axis))
                 if position_length::is_position(state) && axis == [position_length::DEPTH])
         };
-        let depths: Vec<u32> = (0..self.alike.len() as u32).filter(is_depth).collect();
+        let depths: Vec<u32> = (0..self.table().len() as u32).filter(is_depth).collect();
         runs.without(depths)
     }
 }
