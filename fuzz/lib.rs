@@ -5,6 +5,7 @@ use macroglot::dialect::Control;
 use macroglot::library::{Input, Lock, Options, convert, detect};
 use macroglot::syntax::{for_each_expr, for_each_item, parse_file, parse_totals};
 use std::path::PathBuf;
+use std::sync::{LazyLock, Once};
 
 pub mod blocks;
 
@@ -25,12 +26,27 @@ pub fn mutated(data: &mut [u8], size: usize, most: usize, seed: u32) -> usize {
     made.len()
 }
 
-fn control(dialect: &str) -> Control {
-    Control::plain(dialect).expect("the table loads")
+/// The plain controls: to lay one over its table takes longer than to read a small program.
+static CONTROLS: LazyLock<Vec<Control>> = LazyLock::new(|| {
+    ["fadal", "fanuc", "haas", "cc100"].map(|name| Control::plain(name).expect("the table loads")).into()
+});
+
+fn control(dialect: &str) -> &'static Control {
+    CONTROLS.iter().find(|control| control.name() == dialect).expect("a dialect")
+}
+
+/// Keeps all work on the thread that libFuzzer calls: an input is too small to be worth waking another for.
+pub fn on_one_thread() {
+    static DONE: Once = Once::new();
+    DONE.call_once(|| {
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+        one.build_global().expect("nothing has started a pool before");
+    });
 }
 
 /// What was read prints as it was, and its tokens tile it.
 pub fn lossless(dialect: &str, program: &[u8]) {
+    on_one_thread();
     let parse = control(dialect).entry().parse;
     assert_eq!(parse_file(program, parse).print(), program);
     assert!(parse_totals(program, parse).lossless);
@@ -39,6 +55,7 @@ pub fn lossless(dialect: &str, program: &[u8]) {
 /// Nothing that can be written in a file makes a parser, a compiler or an emulated control panic, overflow
 /// its stack or hang.
 pub fn no_panic(dialect: &str, program: &[u8]) {
+    on_one_thread();
     let program = &program[..program.len().min(LONGEST)];
     let source = control(dialect);
     let parsed = parse_file(program, source.entry().parse);
@@ -53,12 +70,12 @@ pub fn no_panic(dialect: &str, program: &[u8]) {
     if let Some(execute) = source.entry().execute {
         let files = [LoadedFile { name: "fuzz.nc", parsed: &parsed }];
         let scenario = Scenario { steps: 500, events: 2000, ..Scenario::default() };
-        execute(&Library::new(&files), ProgramRef::FIRST, &source, &scenario);
+        execute(&Library::new(&files), ProgramRef::FIRST, source, &scenario);
     }
     let inputs = [Input { path: PathBuf::from("fuzz.nc"), name: "fuzz.nc".into(), bytes: program.to_vec() }];
     detect(&inputs);
     // One way of converting an input is enough: its length chooses.
     let target = ["fanuc", "haas"][program.len() % 2];
     let options = Options { draft: program.len() % 4 < 2, ..Options::default() };
-    convert(&inputs, &source, &control(target), Lock::new(dialect, target), options);
+    convert(&inputs, source, control(target), Lock::new(dialect, target), options);
 }
