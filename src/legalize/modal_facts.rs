@@ -2,14 +2,14 @@
 //!
 //! A forward analysis over all programs at once: the state at a program's entry
 //! joins the states at all its calls, and the state behind a call is the
-//! callee's at its returns. A computed call enters every program that it may be
-//! meant for. What a program without a known caller starts in, and what an
+//! callee's at its returns; a return to a sequence number goes on there as well. A
+//! computed call enters every program that it may be meant for. What a program without a known caller starts in, and what an
 //! unknown callee leaves, is not known.
 
 use super::computed_calls::{Callees, computed_calls};
 use super::{Modal, calls_of, reachable};
-use crate::ir::{BlockId, Call, Callee, Module, Stmt, StmtKind, TermKind};
-use crate::syntax::ProgramName;
+use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, TermKind};
+use crate::syntax::{Label, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -169,7 +169,7 @@ impl<'m> Analysis<'m> {
                 let after = self.call(index, id, call, &state);
                 self.flow(index, *next, &after);
             }
-            TermKind::Return { .. } => self.returned(index, id, &state),
+            TermKind::Return { to } => self.returned(index, id, to.as_ref(), &state),
             kind => kind.successors().into_iter().for_each(|to| self.flow(index, to, &state)),
         }
     }
@@ -182,7 +182,11 @@ impl<'m> Analysis<'m> {
             (Callee::Computed(_), _) => {
                 let callees = self.computed.get(&(index, id)).cloned().unwrap_or_default();
                 callees.entered(self.module).for_each(|program| self.flow(program, BlockId(0), state));
-                return Rc::new(Modal::unknown_under(state));
+                let after = Rc::new(Modal::unknown_under(state));
+                if callees.programs.iter().any(|program| comes_back(&self.module.programs[*program])) {
+                    self.come_back(index, None, &after);
+                }
+                return after;
             }
             _ => return Rc::new(Modal::unknown_under(state)),
         };
@@ -202,18 +206,44 @@ impl<'m> Analysis<'m> {
         after
     }
 
-    /// A return leaves every routine that the block belongs to.
-    fn returned(&mut self, index: usize, id: BlockId, state: &Modal) {
+    /// A return leaves every routine that the block belongs to; one to a sequence number goes on there in the callers.
+    fn returned(&mut self, index: usize, id: BlockId, to: Option<&Expr>, state: &Rc<Modal>) {
         let own = (index, BlockId(0))..(index + 1, BlockId(0));
         let routines: Vec<Routine> = self.callers.range(own).map(|(routine, _)| *routine).collect();
         for routine in routines {
             let program = &self.module.programs[index];
             let body = self.reach.entry(routine).or_insert_with(|| reachable(program, routine.1));
-            if body.contains(&id) && self.exits.entry(routine).or_default().join(state) {
+            if !body.contains(&id) {
+                continue;
+            }
+            if self.exits.entry(routine).or_default().join(state) {
                 self.work.extend(self.callers[&routine].iter().copied());
+            }
+            if let Some(to) = to {
+                let callers: BTreeSet<usize> = self.callers[&routine].iter().map(|caller| caller.0).collect();
+                callers.into_iter().for_each(|caller| self.come_back(caller, to.constant(), state));
             }
         }
     }
+
+    /// Goes on in a caller at the blocks of a sequence number; of any where it is not known.
+    fn come_back(&mut self, caller: usize, number: Option<f64>, state: &Rc<Modal>) {
+        let module = self.module;
+        let program = &module.programs[caller];
+        let is_it = |label: &Label| match label {
+            Label::Number(n) => number.is_none_or(|number| number == f64::from(*n)),
+            _ => false,
+        };
+        for (id, _) in program.ids().zip(&program.blocks).filter(|(_, block)| block.labels.iter().any(is_it))
+        {
+            self.flow(caller, id, state);
+        }
+    }
+}
+
+/// True where a program may return to a sequence number of its caller.
+fn comes_back(program: &Program) -> bool {
+    program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Return { to: Some(_) }))
 }
 
 /// Puts others in the place of statements. `change` gets the program, the state before a statement, which it has to
