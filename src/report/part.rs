@@ -54,9 +54,53 @@ impl<'a> Part<'a> {
         let bytes: &[u8] = self.inputs.get(file).map_or(&[], |input| &input.bytes);
         let at = (finding.span.start as usize).min(bytes.len());
         let ends = |byte: &u8| matches!(byte, b'\n' | b'\r');
-        let start = bytes[..at].iter().rposition(ends).map_or(0, |end| end + 1);
-        let stop = bytes[at..].iter().position(ends).map_or(bytes.len(), |end| at + end);
-        let (start, stop) = (start.max(at.saturating_sub(ABOUT)), stop.min(at.saturating_add(ABOUT)));
+        // No farther than is shown: as many places on one line would be looked for as many times along it.
+        let (from, to) = (at.saturating_sub(ABOUT), at.saturating_add(ABOUT).min(bytes.len()));
+        let start = bytes[from..at].iter().rposition(ends).map_or(from, |end| from + end + 1);
+        let stop = bytes[at..to].iter().position(ends).map_or(to, |end| at + end);
         Place { line, column, text: &bytes[start..stop] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Code;
+    use crate::text::Span;
+
+    /// Of a long line what stands about the place is shown, of a short one all.
+    #[test]
+    fn a_place_shows_its_line() {
+        let bytes = format!("O1\r\nM38\r\n{}M38 {}\nM30", "X1.".repeat(100), "Y2.".repeat(100)).into_bytes();
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes }];
+        let conversion = Conversion {
+            programs: Vec::new(),
+            texts: Vec::new(),
+            lock: crate::library::Lock::new("fanuc", "haas"),
+            taken: Default::default(),
+            states_reserved: false,
+            links: Vec::new(),
+        };
+        let part = Part {
+            from: "fanuc",
+            to: "haas",
+            inputs: &inputs,
+            conversion: &conversion,
+            targets: &[],
+            notes: &[],
+            folder: &Told::default(),
+            left_out: &[],
+            verbose: false,
+        };
+        let index = &part.indexes()[0];
+        let shown = |at| {
+            let place = part.place(0, index, &Diagnostic::new(Code::Unmapped, Span::new(at, at + 3), ""));
+            (place.line, place.column, String::from_utf8_lossy(place.text).into_owned())
+        };
+        assert_eq!(shown(4), (2, 1, "M38".into()));
+        assert_eq!(shown(9), (3, 1, "X1.".repeat(67)[..200].into()));
+        let about = format!("1.{}M38 {}", "X1.".repeat(66), &"Y2.".repeat(66)[..196]);
+        assert_eq!(shown(309), (3, 301, about));
+        assert_eq!(shown(4000), (4, 4000 - 613, "M30".into()));
     }
 }
