@@ -118,13 +118,16 @@ fn started(module: &Module) -> Vec<[bool; 2]> {
 }
 
 /// Carries what is started along pairs, until nothing changes.
-fn spread(found: &mut [[bool; 2]], pairs: impl Iterator<Item = (usize, usize)> + Clone) {
-    let mut changes = true;
-    while std::mem::take(&mut changes) {
-        for (from, to) in pairs.clone() {
-            let either = [0, 1].map(|at| found[from][at] || found[to][at]);
-            changes |= found[to] != either;
-            found[to] = either;
+fn spread(found: &mut [[bool; 2]], pairs: impl Iterator<Item = (usize, usize)>) {
+    let mut next = vec![Vec::new(); found.len()];
+    pairs.for_each(|(from, to)| next[from].push(to));
+    let mut work: Vec<usize> = (0..found.len()).collect();
+    while let Some(from) = work.pop() {
+        for to in &next[from] {
+            let either = [0, 1].map(|at| found[from][at] || found[*to][at]);
+            if std::mem::replace(&mut found[*to], either) != either {
+                work.push(*to);
+            }
         }
     }
 }

@@ -5,12 +5,13 @@
 
 use crate::canon::{Group, Op};
 use crate::dialect::{Control, Units};
-use crate::ir::analysis::Summaries;
+use crate::ir::analysis::{CallGraph, Summaries};
 use crate::ir::{Module, NcItem, StmtKind};
 use crate::legalize::calls_of;
 use crate::legalize::codes::numbers;
 use crate::legalize::computed_calls::CalledPrograms;
 use std::cell::LazyCell;
+use std::collections::BTreeSet;
 
 /// What a program may leave in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,14 +44,16 @@ impl Left {
                 }
             }
         }
-        let pairs = called.pairs(module);
-        let mut changes = true;
-        while std::mem::take(&mut changes) {
-            for (caller, callee) in &pairs {
-                let both = left[*caller].join(left[*callee]);
-                changes |= std::mem::replace(&mut left[*caller], both) != both;
-            }
+        let mut callees = vec![BTreeSet::new(); module.programs.len()];
+        for (caller, callee) in called.pairs(module) {
+            callees[caller].insert((callee, false));
         }
+        let graph = CallGraph::new(callees);
+        graph.settle(|index| {
+            let all =
+                graph.callees(index).iter().fold(left[index], |all, (callee, _)| all.join(left[*callee]));
+            std::mem::replace(&mut left[index], all) != all
+        });
         // Whatever moves may run them.
         let macros = macros.into_iter().fold(unknown, |all, at| all.join(left[at]));
         left.iter_mut().for_each(|one| *one = one.join(macros));
