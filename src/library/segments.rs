@@ -11,7 +11,7 @@ use super::convert::{Made, ProgramReport, frames, make, outcome};
 use super::pieces::{Piece, Pieces};
 use super::{Conversion, Input, Lock, Options, Outcome};
 use crate::canon::Op;
-use crate::diag::Diagnostic;
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::Numbers;
 use crate::ir::{Module, Program, TermKind};
@@ -198,8 +198,12 @@ struct Sink {
     text: String,
     /// Where the text of each program starts.
     starts: Vec<usize>,
-    said: BTreeSet<(usize, &'static str, String)>,
     tape: bool,
+}
+
+/// True of what is said once a program, at the first place.
+fn is_said_once(finding: &Diagnostic) -> bool {
+    finding.fact().is_some() || finding.code == Code::LettersReplaced
 }
 
 const FRAME: &str = "%\n";
@@ -209,7 +213,7 @@ impl Sink {
     fn new(expected: usize) -> Self {
         let mut text = String::with_capacity(expected);
         text.push_str(FRAME);
-        Self { programs: Vec::new(), text, starts: Vec::new(), said: BTreeSet::new(), tape: false }
+        Self { programs: Vec::new(), text, starts: Vec::new(), tape: false }
     }
 
     fn add(&mut self, names: Vec<Option<String>>, made: Made, tape: bool) {
@@ -220,11 +224,7 @@ impl Sink {
                 self.starts.push(self.text.len());
             }
             let at = self.programs.len() - 1;
-            // What is said once a program was said for an earlier piece of it.
-            let said = &mut self.said;
-            let fresh =
-                found.into_iter().filter(|d| said.insert((at, d.code.number(), d.message.to_string())));
-            self.programs[at].1.extend(fresh);
+            self.programs[at].1.extend(found);
             parts.iter().for_each(|part| self.text.push_str(&part.text));
         }
     }
@@ -237,6 +237,10 @@ impl Sink {
         // From the last to the first, so that what is taken out moves nothing that is still to be looked at.
         for ((name, mut diagnostics), start) in programs.into_iter().zip(starts).rev() {
             diagnostics.sort_by_key(|d| (d.span.start, d.code));
+            diagnostics.dedup();
+            // What is said once a program was said for an earlier piece of it.
+            let mut said = BTreeSet::new();
+            diagnostics.retain(|d| !is_said_once(d) || said.insert((d.code, d.message.clone())));
             super::echoes::drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut length = 0;
@@ -325,6 +329,35 @@ mod tests {
                     c.programs.iter().map(|p| (p.name.clone(), p.outcome)).collect::<Vec<_>>()
                 };
                 assert_eq!(outcomes(&pieces), outcomes(&whole), "{piece} {}", source.name());
+            }
+        }
+    }
+
+    /// A finding stands at each of its places, in whatever piece that is.
+    #[test]
+    fn pieces_find_what_the_whole_finds() {
+        let controls: Vec<Control> = crate::dialect::registry::all()
+            .iter()
+            .filter(|entry| entry.emit.is_some())
+            .filter_map(|entry| Control::plain(entry.name))
+            .collect();
+        let bytes = program(600).replace("(ONLY WORDS)", "M38").replace("M8\n", "M8 (\u{dc})\n").into_bytes();
+        let many = String::from_utf8_lossy(&bytes).matches("M38").count();
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes }];
+        for (source, target) in [(&controls[0], &controls[1]), (&controls[1], &controls[0])] {
+            let lock = Lock::new(source.name(), target.name());
+            let found = |conversion: Conversion| {
+                let found = conversion.programs.into_iter().flat_map(|program| program.diagnostics);
+                found.map(|d| (d.span, d.code, d.message.to_string())).collect::<Vec<_>>()
+            };
+            let whole =
+                found(super::super::convert(&inputs, source, target, lock.clone(), Options::default()));
+            let errors = whole.iter().filter(|(_, code, _)| *code == Code::NotUnderstood);
+            assert_eq!(errors.count(), many);
+            for piece in [40, 300, 7_000, 1_000_000] {
+                let sizes = Sizes { long: 0, piece };
+                let pieces = convert_in(sizes, &inputs, source, target, &lock, Options::default());
+                assert_eq!(pieces.map(found), Some(whole.clone()), "{piece} {}", source.name());
             }
         }
     }
