@@ -32,6 +32,10 @@ pub struct Callees {
     /// Where each program begins, and what its runs came through.
     places: BTreeMap<usize, Span>,
     entered: BTreeMap<usize, BTreeSet<usize>>,
+    /// By program, what calls it and where: by its name first, then by a computed number in some run.
+    callers: BTreeMap<usize, Vec<(usize, Span)>>,
+    /// By program, why its runs do not show what the library does.
+    missing: BTreeMap<usize, BTreeSet<String>>,
 }
 
 /// The report of each program, where both sides cut its file alike.
@@ -65,6 +69,8 @@ impl Callees {
             refused,
             places: BTreeMap::new(),
             entered: BTreeMap::new(),
+            callers: BTreeMap::new(),
+            missing: BTreeMap::new(),
         }
     }
 
@@ -85,30 +91,32 @@ impl Callees {
 
     /// Withdraws what calls a program that is withdrawn, until nothing more does.
     pub fn withdraw(&mut self) {
+        self.callers = self.called_from();
         let mut work: Vec<usize> = self.withdrawn.keys().copied().collect();
         while let Some(callee) = work.pop() {
-            for (caller, _) in self.callers(callee) {
-                if !self.refused.contains(&caller) && !self.withdrawn.contains_key(&caller) {
-                    self.withdrawn.insert(caller, Withdrawn::Calls(callee));
-                    work.push(caller);
+            for (caller, _) in self.callers.get(&callee).into_iter().flatten() {
+                if !self.refused.contains(caller) && !self.withdrawn.contains_key(caller) {
+                    self.withdrawn.insert(*caller, Withdrawn::Calls(callee));
+                    work.push(*caller);
                 }
             }
         }
+        self.missing = self.find_missing();
     }
 
-    /// What calls a program: by its name, or by a computed number in some run.
-    fn callers(&self, callee: usize) -> Vec<(usize, Span)> {
-        let named = self
-            .links
-            .iter()
-            .filter(|link| matches!(link.callee, Linked::Program { at, .. } if at == callee));
-        let mut all: Vec<(usize, Span)> = named.map(|link| (link.caller, link.span)).collect();
-        for link in self.links.iter().filter(|link| link.callee == Linked::Computed) {
-            if self.entered.get(&link.caller).is_some_and(|entered| entered.contains(&callee)) {
-                all.push((link.caller, link.span));
+    fn called_from(&self) -> BTreeMap<usize, Vec<(usize, Span)>> {
+        let mut callers: BTreeMap<usize, Vec<(usize, Span)>> = BTreeMap::new();
+        for link in &self.links {
+            if let Linked::Program { at, .. } = link.callee {
+                callers.entry(at).or_default().push((link.caller, link.span));
             }
         }
-        all
+        for link in self.links.iter().filter(|link| link.callee == Linked::Computed) {
+            for callee in self.entered.get(&link.caller).into_iter().flatten() {
+                callers.entry(*callee).or_default().push((link.caller, link.span));
+            }
+        }
+        callers
     }
 
     /// Why a program's runs do not show what the library does: what it calls is not written.
@@ -120,7 +128,7 @@ impl Callees {
                 self.names[*callee]
             ));
         } else if !self.withdrawn.contains_key(&at) {
-            texts = self.missing(at);
+            texts.extend(self.missing.get(&at).into_iter().flatten().cloned());
         }
         for text in texts {
             found.reasons.push(Reason { why: Why::Callee, text });
@@ -139,30 +147,39 @@ impl Callees {
         all
     }
 
-    /// What is not written and called from a program, or from what it calls.
-    fn missing(&self, at: usize) -> BTreeSet<String> {
+    /// What is not written and called from a program, or from what it calls. From each call of such a one upwards: so a
+    /// library in which all is written is not walked.
+    fn find_missing(&self) -> BTreeMap<usize, BTreeSet<String>> {
         let gone = |at: usize| self.refused.contains(&at) || self.withdrawn.contains_key(&at);
-        let mut texts = BTreeSet::new();
-        let (mut seen, mut work) = (BTreeSet::from([at]), vec![at]);
-        while let Some(caller) = work.pop() {
-            for link in self.links.iter().filter(|link| link.caller == caller) {
-                match &link.callee {
-                    Linked::Program { at: callee, name, .. } if gone(*callee) => {
-                        let by = if caller == at { "it".to_owned() } else { self.names[caller].clone() };
-                        texts
-                            .insert(format!("{by} calls {name}, which is refused: it was not run with that"));
-                    }
-                    Linked::Program { at: callee, .. } if seen.insert(*callee) => work.push(*callee),
-                    Linked::Program { .. } => {}
-                    Linked::Computed if !self.refused.is_empty() || !self.withdrawn.is_empty() => {
-                        let text = "which program is called is computed, and some programs of the library are refused";
-                        texts.insert(text.to_owned());
-                    }
-                    Linked::Computed => {}
+        let (mut faults, mut above) =
+            (BTreeMap::<usize, Vec<_>>::new(), BTreeMap::<usize, Vec<usize>>::new());
+        for link in &self.links {
+            match &link.callee {
+                Linked::Program { at, name, .. } if gone(*at) => {
+                    faults.entry(link.caller).or_default().push(Some(name))
                 }
+                Linked::Program { at, .. } => above.entry(*at).or_default().push(link.caller),
+                Linked::Computed if self.refused.is_empty() && self.withdrawn.is_empty() => {}
+                Linked::Computed => faults.entry(link.caller).or_default().push(None),
             }
         }
-        texts
+        let mut missing: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+        for (caller, callees) in faults {
+            let (mut seen, mut work) = (BTreeSet::from([caller]), vec![caller]);
+            while let Some(at) = work.pop() {
+                missing.entry(at).or_default().extend(callees.iter().map(|name| match name {
+                    Some(name) => {
+                        let by = if caller == at { "it" } else { &self.names[caller] };
+                        format!("{by} calls {name}, which is refused: it was not run with that")
+                    }
+                    None => "which program is called is computed, and some programs of the library are refused".into(),
+                }));
+                // What is gone is not come through.
+                let ways = above.get(&at).into_iter().flatten();
+                work.extend(ways.filter(|above| seen.insert(**above)));
+            }
+        }
+        missing
     }
 
     /// Says at each call of what is withdrawn why the caller is not written.
@@ -171,10 +188,10 @@ impl Callees {
         for callee in self.withdrawn.keys() {
             let name = &self.names[*callee];
             let what = format!("calls {name}, which is withdrawn because its conversion does something else");
-            for (caller, span) in self.callers(*callee) {
-                if self.withdrawn.contains_key(&caller) && told.insert((caller, *callee)) {
-                    let program = &mut conversion.programs[caller];
-                    program.diagnostics.push(Diagnostic::new(Code::CalleeWithdrawn, span, what.clone()));
+            for (caller, span) in self.callers.get(callee).into_iter().flatten() {
+                if self.withdrawn.contains_key(caller) && told.insert((*caller, *callee)) {
+                    let program = &mut conversion.programs[*caller];
+                    program.diagnostics.push(Diagnostic::new(Code::CalleeWithdrawn, *span, what.clone()));
                     program.outcome = Outcome::Refused;
                 }
             }
