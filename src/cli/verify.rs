@@ -5,16 +5,17 @@ use super::streams::{complain, print, remark};
 use super::{FOUND, WELL};
 use crate::control::LoadedFile;
 use crate::dialect::Control;
-use crate::library::{Files, Input, Lock, Manifest, is_pending, write_file};
+use crate::library::{Files, Home, Input, Lock, Manifest, is_pending, write_file};
 use crate::syntax::{ParsedFile, parse_file};
 use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, Spent, verify};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The source: a file, or a folder of programs
     source: PathBuf,
-    /// Its conversion: a file or a folder. The macroglot.lock beside it says which register is which
+    /// Its conversion: a file or a folder. The macroglot.lock of its output folder says which register is which
     target: PathBuf,
     /// The control the source is written for; recognized where it is left out
     #[arg(long, value_name = "D")]
@@ -44,18 +45,20 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn work(arguments: &Arguments) -> Result<u8, u8> {
     let ours = read(std::slice::from_ref(&arguments.source))?;
     let theirs = read(std::slice::from_ref(&arguments.target))?;
-    let own_files = [beside(&arguments.target, Lock::NAME), beside(&arguments.target, Manifest::NAME)];
+    let theirs_named: Vec<&str> = theirs.iter().map(|input| input.name.as_str()).collect();
+    let home = Home::of(folder_of(&arguments.target), &theirs_named).map_err(complain)?;
+    let own_files = [Lock::NAME, Manifest::NAME].map(|name| home.folder.join(name));
     let programs = ours.iter().chain(&theirs).map(|input| &input.path);
     let read_files = programs.chain(&arguments.machine).chain(&own_files).map(PathBuf::as_path);
     if let Some(path) = arguments.certificate.as_ref().filter(|path| Files::of(read_files).holds(path)) {
         return Err(complain(format!("{} is an input and would be overwritten", path.display())));
     }
-    tell_changed(&arguments.target, &theirs)?;
+    tell_changed(&home, &theirs)?;
     let from = dialect_of(arguments.from.as_deref(), &ours)?;
     let to = dialect_of(arguments.to.as_deref(), &theirs)?;
     let own = own_profile(arguments.from.as_deref(), &ours)?;
     let (source, target) = controls(&from, &to, &arguments.machine, own.as_deref())?;
-    let names = names(&arguments.target, &source, &target)?;
+    let names = names(&home, &source, &target)?;
     let effort = effort(&arguments.time);
     let certificate = certify((&ours, &source), (&theirs, &target), &names, effort)?;
     let text = certificate.print();
@@ -66,41 +69,38 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     Ok(if certificate.outcome == Outcome::Same { WELL } else { FOUND })
 }
 
-/// A file of the folder that the target is, or lies in.
-fn beside(target: &Path, name: &str) -> PathBuf {
-    folder_of(target).join(name)
-}
-
+/// The folder that the target is, or lies in.
 fn folder_of(target: &Path) -> &Path {
     if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) }
 }
 
 /// Says which files were changed since macroglot wrote them: the certificates beside them are of another text.
-fn tell_changed(target: &Path, theirs: &[Input]) -> Result<(), u8> {
-    let folder = folder_of(target);
-    if is_pending(folder) {
+fn tell_changed(home: &Home, theirs: &[Input]) -> Result<(), u8> {
+    if is_pending(&home.folder) {
         let what = "a run that wrote here was interrupted: convert again, which begins with mending that";
-        return Err(complain(format!("{}: {what}", folder.display())));
+        return Err(complain(format!("{}: {what}", home.folder.display())));
     }
-    let manifest = Manifest::load(folder).map_err(complain)?;
-    for name in manifest.changed(theirs.iter().map(|input| (input.name.as_str(), input.bytes.as_slice()))) {
+    let named: BTreeMap<String, &Input> =
+        theirs.iter().map(|input| (home.name(&input.name), input)).collect();
+    let texts = named.iter().map(|(name, input)| (name.as_str(), input.bytes.as_slice()));
+    for name in home.manifest.changed(texts) {
         let what = "was changed since macroglot wrote it; its certificate is of the text before";
         remark(format!("{name}: {what}"));
     }
-    let is_target = |name: &str| theirs.iter().any(|input| input.name == name);
-    for (name, outdated) in manifest.outdated_in(folder).into_iter().filter(|(name, _)| is_target(name)) {
-        let what = "its certificate was made when what it calls was another text";
+    let outdated = home.manifest.outdated_in(&home.folder);
+    for (name, outdated) in outdated.into_iter().filter(|(name, _)| named.contains_key(name)) {
+        let what = "its certificate was made when what it calls, or is called by, was another text";
         remark(format!("{name}: {what}: {}", outdated.others.join(", ")));
     }
     Ok(())
 }
 
-/// What the lock beside the target says.
-fn names(target: &Path, from: &Control, to: &Control) -> Result<Names, u8> {
+/// What the lock of the target's output folder says.
+fn names(home: &Home, from: &Control, to: &Control) -> Result<Names, u8> {
     if from.is_same_machine(to) {
         return Ok(Names::default());
     }
-    let lock = Lock::load(&beside(target, Lock::NAME), from.name(), to.name()).map_err(complain)?;
+    let lock = Lock::load(&home.folder.join(Lock::NAME), from.name(), to.name()).map_err(complain)?;
     Ok(Names {
         variables: lock.variables,
         scratch: lock.scratch.into_iter().collect(),

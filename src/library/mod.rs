@@ -33,8 +33,8 @@ pub use outputs::{certificate_of, plan, withheld_of};
 pub use places::{Spots, real_place};
 pub use project::{Library, Machine, Project, ProjectError};
 pub use publish::{
-    Change, Held, Kind, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted, abandon,
-    changes, check, is_pending, publish, write_file,
+    Change, Held, Home, Kind, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
+    abandon, changes, check, is_pending, publish, write_file,
 };
 pub use verified::{Certificates, judge};
 pub use walk::{LeftOut, WhyNot};

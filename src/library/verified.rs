@@ -26,8 +26,8 @@ pub struct Certificates {
     pub written: Vec<Option<Certificate>>,
     /// Of the programs that were converted and are not written: they differ, or call one that does.
     pub withheld: Vec<Option<Certificate>>,
-    /// The other files that the runs of a file's programs may have come through: were they another text, so might be what
-    /// was found.
+    /// The other files that the runs of a file's programs, and of what calls them, may have come through: were they another
+    /// text, so might be what was found.
     pub rest_on: Vec<BTreeSet<usize>>,
 }
 
@@ -137,7 +137,8 @@ pub fn judge(
     Certificates { rest_on, ..judged }
 }
 
-/// The other files that are written and that the programs of each file call into, however far down.
+/// The other files that are written and that the programs of each file call into, however far down; and for what is
+/// called the same of all that calls it, however far up: it was begun in what their runs give.
 fn rest_on(
     conversion: &Conversion,
     callees: &Callees,
@@ -145,20 +146,30 @@ fn rest_on(
 ) -> Vec<BTreeSet<usize>> {
     let mut files = vec![BTreeSet::new(); conversion.texts.len()];
     let file = |at: usize| conversion.programs[at].file;
-    let mut by_file: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut by_file: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for at in judged.filter(|at| !callees.withdrawn.contains_key(at)) {
-        by_file.entry(file(at)).or_default().push(at);
+        by_file.entry(file(at)).or_default().insert(at);
     }
     let calls = callees.all();
-    for (here, mut work) in by_file {
-        let mut seen: BTreeSet<usize> = work.iter().copied().collect();
-        while let Some(caller) = work.pop() {
-            work.extend(calls.get(&caller).into_iter().flatten().filter(|callee| seen.insert(**callee)));
-        }
-        let others = seen.into_iter().map(file).filter(|other| *other != here);
+    let mut callers: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for (caller, callee) in calls.iter().flat_map(|(caller, all)| all.iter().map(move |at| (*caller, *at))) {
+        callers.entry(callee).or_default().insert(caller);
+    }
+    for (here, programs) in by_file {
+        let all = reached(reached(programs, &callers), &calls);
+        let others = all.into_iter().map(file).filter(|other| *other != here);
         files[here].extend(others.filter(|other| conversion.texts[*other].is_some()));
     }
     files
+}
+
+/// These programs and all that ways lead to from them.
+fn reached(mut seen: BTreeSet<usize>, ways: &BTreeMap<usize, BTreeSet<usize>>) -> BTreeSet<usize> {
+    let mut work: Vec<usize> = seen.iter().copied().collect();
+    while let Some(at) = work.pop() {
+        work.extend(ways.get(&at).into_iter().flatten().filter(|next| seen.insert(**next)));
+    }
+    seen
 }
 
 /// What the conversion of a program supposes.

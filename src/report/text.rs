@@ -236,7 +236,7 @@ fn folder(out: &mut String, told: &Told) {
         let others: Vec<_> = others.iter().map(|other| shown(other)).collect();
         let _ = writeln!(
             out,
-            "unverified {}: it calls what is another now than when it was verified: {}; convert them together",
+            "unverified {}: what it calls, or is called by, is another now than when it was verified: {}; convert them together",
             shown(name),
             others.join(", ")
         );

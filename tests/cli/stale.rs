@@ -238,6 +238,7 @@ fn a_pipe_in_the_output_folder_is_no_file() {
 const MAIN: &str = "O1\nG21 G90 G54 G0 X0 Y0\nM98 P2\nM30\n";
 const CALLED: &str = "O2\nG1 X10. F100.\nM98 P3\nM99\n";
 const DEEPER: &str = "O3\nG1 Y10. F100.\nM99\n";
+const OTHERS: &str = "what it calls, or is called by, is another now than when it was verified";
 const ALONE: &str = "O4\nG21 G90 G54 G0 X5. Y0\nM30\n";
 
 /// Four programs in files of their own, converted: a calls b, b calls c, and d calls nothing.
@@ -253,7 +254,8 @@ fn certified(shop: &Shop) -> Vec<String> {
     programs.filter_map(|name| Some(name.strip_suffix(".nc.certificate.json")?.to_owned())).collect()
 }
 
-/// A certificate says what was found of a program together with what it calls. Where that is another text now, it goes.
+/// A certificate says what was found of a program together with what it calls, and as its callers come to it. Where one of
+/// these is another text now, it goes.
 #[test]
 fn a_certificate_goes_when_what_its_program_calls_is_another() {
     let shop = calling();
@@ -263,8 +265,7 @@ fn a_certificate_goes_when_what_its_program_calls_is_another() {
     shop.write("in/c.nc", DEEPER.replace("Y10.", "Y11.").as_bytes());
     let run = shop.run(&format!("convert in/c.nc {TO} --out out"));
     for name in ["a", "b"] {
-        let told =
-            format!("unverified {name}.nc: it calls what is another now than when it was verified: c.nc; ");
+        let told = format!("unverified {name}.nc: {OTHERS}: c.nc; ");
         assert!(run.out.contains(&told), "{}", run.out);
     }
     assert!(!run.out.contains("d.nc"), "{}", run.out);
@@ -274,6 +275,27 @@ fn a_certificate_goes_when_what_its_program_calls_is_another() {
     assert!(!shop.run(&format!("convert in/c.nc {TO} --out out")).out.contains("unverified"));
     assert_eq!(shop.run(&format!("convert in {TO} --out out")).code, 0);
     assert_eq!(certified(&shop), ["a", "b", "c", "d"]);
+}
+
+/// A called program was begun in what its callers gave it.
+#[test]
+fn a_certificate_goes_when_its_caller_is_another() {
+    let shop = calling();
+    assert!(!shop.run(&format!("convert in/a.nc {TO} --out out")).out.contains("unverified"));
+    shop.write("in/a.nc", MAIN.replace("G90", "G91").as_bytes());
+    let run = shop.run(&format!("convert in/a.nc {TO} --out out"));
+    for name in ["b", "c"] {
+        assert!(run.out.contains(&format!("unverified {name}.nc: {OTHERS}: a.nc; ")), "{}", run.out);
+    }
+    assert_eq!(certified(&shop), ["a", "d"]);
+    // One callee of a caller may leave the machine otherwise to the next.
+    let shop = calling();
+    shop.write("in/a.nc", MAIN.replace("M98", "M98 P4\nM98").as_bytes());
+    shop.write("in/d.nc", b"O4\nG90\nM99\n");
+    assert_eq!(shop.run(&format!("convert in {TO} --out out")).code, 0);
+    shop.write("in/d.nc", b"O4\nG91\nM99\n");
+    shop.run(&format!("convert in/d.nc {TO} --out out"));
+    assert_eq!(certified(&shop), ["d"]);
 }
 
 #[test]
@@ -294,8 +316,12 @@ fn a_certificate_goes_when_what_its_program_calls_goes() {
         };
         let run = shop.run(&format!("convert {path} {TO} --out out --format json {more}"));
         let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
-        assert_eq!(json["folders"][0]["uncertified"], serde_json::json!({ "a.nc": ["b.nc"] }), "{what}");
-        assert_eq!(certified(&shop), ["c", "d"], "{what}");
+        assert_eq!(
+            json["folders"][0]["uncertified"],
+            serde_json::json!({ "a.nc": ["b.nc"], "c.nc": ["b.nc"] }),
+            "{what}"
+        );
+        assert_eq!(certified(&shop), ["d"], "{what}");
     }
 }
 
@@ -307,8 +333,11 @@ fn verify_tells_whose_callees_are_others_now() {
     shop.write("out/b.nc", shop.read("out/b.nc").replace("X10.", "X12.").as_bytes());
     let run = shop.run(&format!("verify in out {TO}"));
     assert!(run.err.contains("b.nc: was changed since macroglot wrote it"), "{}", run.err);
-    let told = "a.nc: its certificate was made when what it calls was another text: b.nc";
-    assert!(run.err.contains(told) && !run.err.contains("d.nc"), "{}", run.err);
+    for name in ["a", "c"] {
+        let told = "its certificate was made when what it calls, or is called by, was another text: b.nc";
+        assert!(run.err.contains(&format!("{name}.nc: {told}")), "{}", run.err);
+    }
+    assert!(!run.err.contains("d.nc"), "{}", run.err);
 }
 
 /// Manifests of earlier versions do not say what certificates rest on.
@@ -321,4 +350,32 @@ fn a_manifest_that_says_nothing_of_callees_is_read() {
     shop.write("in/c.nc", DEEPER.replace("Y10.", "Y11.").as_bytes());
     let run = shop.run(&format!("convert in/c.nc {TO} --out out"));
     assert_eq!((run.code, certified(&shop).len()), (0, 4), "{}", run.err);
+}
+
+/// The lock and the manifest of a conversion stand in its output folder, however deep in that it lies.
+#[test]
+fn verify_finds_the_output_folder_above() {
+    const WAY: &str = "--from fadal --to fanuc";
+    let text = "%\nN1 O1 (A)\nN2 G90 E1\nN3 #R1=V2+1\nN5 G0 X+R1\nN6 M2\n%\n";
+    let shop = Shop::with(&[("in/sub/deep/a.nc", text)]);
+    shop.run(&format!("convert in {WAY} --out out"));
+    let written = shop.read("out/sub/deep/a.nc");
+    shop.write("out/other/a.nc", written.as_bytes());
+    let outcome = |line: &str| {
+        let run = shop.run(&format!("verify {line} {WAY}"));
+        let json: serde_json::Value =
+            serde_json::from_str(&run.out).unwrap_or_else(|_| panic!("{}", run.err));
+        (json["outcome"].as_str().map(str::to_owned), run.err)
+    };
+    // Without the lock, nothing says that #520 is V2.
+    let lines =
+        ["in out", "in/sub out/sub", "in/sub/deep out/sub/../sub/deep", "in/sub/deep/a.nc out/sub/deep/a.nc"];
+    for line in lines {
+        assert_eq!(outcome(line), (Some("undecided".into()), String::new()), "{line}");
+    }
+    // What macroglot did not write there is none of that run's.
+    assert_eq!(outcome("in/sub/deep/a.nc out/other/a.nc").0.as_deref(), Some("different"));
+    shop.write("out/sub/deep/a.nc", written.replace("#521\n", "#521\n(BY HAND)\n").as_bytes());
+    let told = "sub/deep/a.nc: was changed since macroglot wrote it";
+    assert!(outcome("in/sub/deep/a.nc out/sub/deep/a.nc").1.contains(told));
 }

@@ -44,7 +44,8 @@ pub struct Told {
     /// there.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub replaced: BTreeMap<String, String>,
-    /// Conversions whose certificates were taken away, and the files that they call and that are others now.
+    /// Conversions whose certificates were taken away, and the files that they call, or are called by, and that are
+    /// others now.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub uncertified: BTreeMap<String, Vec<String>>,
     /// Conversions whose sources are gone.
@@ -180,8 +181,8 @@ impl<'b> Plan<'_, 'b> {
         Ok(())
     }
 
-    /// Takes away certificates of programs that are none of this run, where what they call is another text after it, or
-    /// none.
+    /// Takes away certificates of programs that are none of this run, where what they call, or are called by, is another
+    /// text after it, or none.
     fn uncertify(
         &mut self,
         sources: &BTreeMap<&str, &Path>,

@@ -5,10 +5,12 @@
 //! - `recover`: what an interrupted run left is finished or taken back.
 //! - `manifest`: which files macroglot wrote, so that a later run knows what is stale and what a person changed.
 //! - `changes`: what a run replaces, takes away and leaves.
+//! - `home`: which output folder a conversion belongs to.
 
 mod changes;
 mod disk;
 mod held;
+mod home;
 mod journal;
 mod manifest;
 mod recover;
@@ -16,6 +18,7 @@ mod sync;
 
 pub use changes::{Told, Wanted, changes};
 pub use held::{Held, Recovered, abandon};
+pub use home::Home;
 pub use manifest::{Kind, Manifest, ManifestError, Outdated};
 pub use recover::is_pending;
 
