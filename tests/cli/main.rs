@@ -1,6 +1,7 @@
 //! The command line, as a user meets it: one module a matter.
 #![allow(missing_docs)]
 
+mod callees;
 mod commands;
 #[path = "../support/files.rs"]
 mod files;

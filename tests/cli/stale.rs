@@ -2,9 +2,9 @@
 
 use super::{CLEAN, REFUSED, Shop, names};
 
-const TO: &str = "--from fanuc --to haas";
+pub const TO: &str = "--from fanuc --to haas";
 
-fn in_out(shop: &Shop) -> Vec<String> {
+pub fn in_out(shop: &Shop) -> Vec<String> {
     let files = shop.files();
     names(&files).into_iter().filter_map(|name| name.strip_prefix("out/")).map(str::to_owned).collect()
 }
@@ -233,123 +233,6 @@ fn a_pipe_in_the_output_folder_is_no_file() {
         assert_eq!(run.code, 2, "{name}: {}", run.err);
         assert!(run.err.contains(name) && run.err.contains("it is no file"), "{name}: {}", run.err);
     }
-}
-
-const MAIN: &str = "O1\nG21 G90 G54 G0 X0 Y0\nM98 P2\nM30\n";
-const CALLED: &str = "O2\nG1 X10. F100.\nM98 P3\nM99\n";
-const DEEPER: &str = "O3\nG1 Y10. F100.\nM99\n";
-const OTHERS: &str = "what it calls, or is called by, is another now than when it was verified";
-const ALONE: &str = "O4\nG21 G90 G54 G0 X5. Y0\nM30\n";
-
-/// Four programs in files of their own, converted: a calls b, b calls c, and d calls nothing.
-fn calling() -> Shop {
-    let shop = Shop::with(&[("in/a.nc", MAIN), ("in/b.nc", CALLED), ("in/c.nc", DEEPER), ("in/d.nc", ALONE)]);
-    assert_eq!(shop.run(&format!("convert in {TO} --out out")).code, 0);
-    assert!(shop.read("out/a.nc.certificate.json").contains("\"outcome\": \"same\""));
-    shop
-}
-
-fn certified(shop: &Shop) -> Vec<String> {
-    let programs = in_out(shop).into_iter();
-    programs.filter_map(|name| Some(name.strip_suffix(".nc.certificate.json")?.to_owned())).collect()
-}
-
-/// A certificate says what was found of a program together with what it calls, and as its callers come to it. Where one of
-/// these is another text now, it goes.
-#[test]
-fn a_certificate_goes_when_what_its_program_calls_is_another() {
-    let shop = calling();
-    // The same text again changes nothing.
-    assert!(!shop.run(&format!("convert in/c.nc {TO} --out out")).out.contains("unverified"));
-    assert_eq!(certified(&shop), ["a", "b", "c", "d"]);
-    shop.write("in/c.nc", DEEPER.replace("Y10.", "Y11.").as_bytes());
-    let run = shop.run(&format!("convert in/c.nc {TO} --out out"));
-    for name in ["a", "b"] {
-        let told = format!("unverified {name}.nc: {OTHERS}: c.nc; ");
-        assert!(run.out.contains(&told), "{}", run.out);
-    }
-    assert!(!run.out.contains("d.nc"), "{}", run.out);
-    assert_eq!(certified(&shop), ["c", "d"]);
-    // The programs themselves stay, and it is told once.
-    assert!(in_out(&shop).contains(&"a.nc".to_owned()));
-    assert!(!shop.run(&format!("convert in/c.nc {TO} --out out")).out.contains("unverified"));
-    assert_eq!(shop.run(&format!("convert in {TO} --out out")).code, 0);
-    assert_eq!(certified(&shop), ["a", "b", "c", "d"]);
-}
-
-/// A called program was begun in what its callers gave it.
-#[test]
-fn a_certificate_goes_when_its_caller_is_another() {
-    let shop = calling();
-    assert!(!shop.run(&format!("convert in/a.nc {TO} --out out")).out.contains("unverified"));
-    shop.write("in/a.nc", MAIN.replace("G90", "G91").as_bytes());
-    let run = shop.run(&format!("convert in/a.nc {TO} --out out"));
-    for name in ["b", "c"] {
-        assert!(run.out.contains(&format!("unverified {name}.nc: {OTHERS}: a.nc; ")), "{}", run.out);
-    }
-    assert_eq!(certified(&shop), ["a", "d"]);
-    // One callee of a caller may leave the machine otherwise to the next.
-    let shop = calling();
-    shop.write("in/a.nc", MAIN.replace("M98", "M98 P4\nM98").as_bytes());
-    shop.write("in/d.nc", b"O4\nG90\nM99\n");
-    assert_eq!(shop.run(&format!("convert in {TO} --out out")).code, 0);
-    shop.write("in/d.nc", b"O4\nG91\nM99\n");
-    shop.run(&format!("convert in/d.nc {TO} --out out"));
-    assert_eq!(certified(&shop), ["d"]);
-}
-
-#[test]
-fn a_certificate_goes_when_what_its_program_calls_goes() {
-    for (text, more, what) in
-        [(REFUSED, "", "refused"), (REFUSED, "--draft", "a draft"), ("", "--prune", "gone")]
-    {
-        let shop = calling();
-        let path = match text {
-            "" => {
-                std::fs::remove_file(shop.path("in/b.nc")).unwrap();
-                "in/d.nc"
-            }
-            _ => {
-                shop.write("in/b.nc", text.as_bytes());
-                "in/b.nc"
-            }
-        };
-        let run = shop.run(&format!("convert {path} {TO} --out out --format json {more}"));
-        let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
-        assert_eq!(
-            json["folders"][0]["uncertified"],
-            serde_json::json!({ "a.nc": ["b.nc"], "c.nc": ["b.nc"] }),
-            "{what}"
-        );
-        assert_eq!(certified(&shop), ["d"], "{what}");
-    }
-}
-
-/// What a person changed in the folder is found by `verify`, in what calls it too.
-#[test]
-fn verify_tells_whose_callees_are_others_now() {
-    let shop = calling();
-    assert!(!shop.run(&format!("verify in out {TO}")).err.contains("certificate"));
-    shop.write("out/b.nc", shop.read("out/b.nc").replace("X10.", "X12.").as_bytes());
-    let run = shop.run(&format!("verify in out {TO}"));
-    assert!(run.err.contains("b.nc: was changed since macroglot wrote it"), "{}", run.err);
-    for name in ["a", "c"] {
-        let told = "its certificate was made when what it calls, or is called by, was another text: b.nc";
-        assert!(run.err.contains(&format!("{name}.nc: {told}")), "{}", run.err);
-    }
-    assert!(!run.err.contains("d.nc"), "{}", run.err);
-}
-
-/// Manifests of earlier versions do not say what certificates rest on.
-#[test]
-fn a_manifest_that_says_nothing_of_callees_is_read() {
-    let shop = calling();
-    let manifest = shop.read("out/macroglot.manifest");
-    let blocks = manifest.split("\n\n").filter(|block| !block.contains("rests_on]"));
-    shop.write("out/macroglot.manifest", blocks.collect::<Vec<_>>().join("\n\n").as_bytes());
-    shop.write("in/c.nc", DEEPER.replace("Y10.", "Y11.").as_bytes());
-    let run = shop.run(&format!("convert in/c.nc {TO} --out out"));
-    assert_eq!((run.code, certified(&shop).len()), (0, 4), "{}", run.err);
 }
 
 /// The lock and the manifest of a conversion stand in its output folder, however deep in that it lies.

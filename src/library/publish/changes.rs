@@ -113,6 +113,9 @@ pub fn changes<'b>(
         let is_taken = plan.changes.iter().any(|change| change.place == Path::new(name));
         !is_ours && !is_taken && folder.join(name).exists()
     });
+    let named: BTreeSet<String> = next.files.values().filter_map(|entry| entry.rests_with.clone()).collect();
+    next.together.retain(|number, _| named.contains(number));
+    let mut sets = next.together.iter().map(|(number, set)| (set.clone(), number.clone())).collect();
     for wanted in wanted {
         let at = sources.get(wanted.source).and_then(|source| seen_from(folder, source));
         let entry = Entry {
@@ -120,11 +123,12 @@ pub fn changes<'b>(
             source: Some(wanted.source.to_owned()),
             at,
             sha256: hashes.get(&wanted.name).cloned().unwrap_or_default(),
-            rests_on: wanted
-                .rests_on
-                .iter()
-                .filter_map(|name| Some((name.clone(), hashes.get(name)?.clone())))
-                .collect(),
+            rests_with: (!wanted.rests_on.is_empty()).then(|| {
+                let all = wanted.rests_on.iter().map(String::as_str).chain([wanted.source]);
+                let all = all.filter_map(|name| Some((name.to_owned(), hashes.get(name)?.clone())));
+                next.together(&mut sets, all.collect())
+            }),
+            rests_on: BTreeMap::new(),
         };
         next.files.insert(wanted.name.clone(), entry);
         plan.put(wanted)?;

@@ -34,6 +34,9 @@ pub struct Manifest {
     /// The files, by their names in the folder.
     #[serde(default)]
     pub files: BTreeMap<String, Entry>,
+    /// Conversions that call one another, with their SHA-256 when they were verified, by a number that entries name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub together: BTreeMap<String, BTreeMap<String, String>>,
 }
 
 /// A file of a manifest.
@@ -50,8 +53,11 @@ pub struct Entry {
     pub at: Option<String>,
     /// SHA-256 of the file.
     pub sha256: String,
-    /// Of a certificate: the other conversions that the runs came through, with their SHA-256 then. What earlier versions
-    /// wrote does not say so.
+    /// Of a certificate: the conversions that it rests on, as they stand in `together`. What earlier versions wrote does
+    /// not say so, or as below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rests_with: Option<String>,
+    /// The same, with their SHA-256, as earlier versions wrote it.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub rests_on: BTreeMap<String, String>,
 }
@@ -112,7 +118,7 @@ impl Manifest {
 
     /// Its text.
     pub fn print(&self) -> String {
-        let this = Self { version: VERSION, files: self.files.clone() };
+        let this = Self { version: VERSION, ..self.clone() };
         format!("{HEAD}{}", toml::to_string(&this).unwrap_or_default())
     }
 
@@ -129,7 +135,10 @@ impl Manifest {
     pub fn outdated(&self, differs: impl Fn(&str, &str) -> bool) -> BTreeMap<String, Outdated> {
         let mut outdated = BTreeMap::new();
         for (certificate, entry) in &self.files {
-            let others = entry.rests_on.iter().filter(|(name, sha256)| differs(name, sha256));
+            let together = entry.rests_with.as_ref().and_then(|number| self.together.get(number));
+            let others = entry.rests_on.iter().chain(together.into_iter().flatten());
+            let others =
+                others.filter(|(name, sha256)| entry.source.as_ref() != Some(*name) && differs(name, sha256));
             let others: Vec<String> = others.map(|(name, _)| name.clone()).collect();
             if let Some(source) = entry.source.as_ref().filter(|_| !others.is_empty()) {
                 outdated.insert(source.clone(), Outdated { certificate: certificate.clone(), others });
@@ -142,6 +151,23 @@ impl Manifest {
     pub fn outdated_in(&self, folder: &Path) -> BTreeMap<String, Outdated> {
         let now = |name: &str| read_file(&folder.join(name)).ok().map(|bytes| sha256(&bytes));
         self.outdated(|name, before| now(name).is_none_or(|now| now != before))
+    }
+
+    /// The number of conversions that call one another: those of one library mostly have one set of them. `sets` has the
+    /// numbers so far.
+    pub fn together(
+        &mut self,
+        sets: &mut BTreeMap<BTreeMap<String, String>, String>,
+        set: BTreeMap<String, String>,
+    ) -> String {
+        if let Some(number) = sets.get(&set) {
+            return number.clone();
+        }
+        let mut numbers = (self.together.len() + 1..).map(|number| number.to_string());
+        let number = numbers.find(|number| !self.together.contains_key(number)).unwrap_or_default();
+        self.together.insert(number.clone(), set.clone());
+        sets.insert(set, number.clone());
+        number
     }
 
     /// The files whose source is gone, by its name: it is none of this run, and does not stand where it stood.
