@@ -85,7 +85,8 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let files = jobs.iter().map(|job| job.inputs.len()).sum();
     // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
     let mut conversions: Vec<Conversion> = common::with_progress(files, || {
-        let made = |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock.clone(), options);
+        let made =
+            |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock(arguments.prune), options);
         rayon::scope(|_| jobs.iter().map(made).collect())
     });
     let certificates = common::with_progress(files, || verified(arguments, &jobs, &mut conversions));

@@ -28,6 +28,21 @@ pub struct Job {
     pub notes: Vec<String>,
 }
 
+impl Job {
+    /// The choices of earlier runs that this one keeps to: those for what it prunes count no more.
+    pub fn lock(&self, prune: bool) -> Lock {
+        let mut lock = self.lock.clone();
+        let Some(out) = self.out.as_ref().filter(|_| prune) else { return lock };
+        let names: BTreeSet<&str> = out.names.iter().map(String::as_str).collect();
+        let gone = out.manifest.gone(out.held.folder(), |source| names.contains(source));
+        // A lock that names no file is an older one.
+        if lock.files.iter().any(|file| !gone.contains_key(file.as_str())) {
+            lock.files.retain(|file| !gone.contains_key(file.as_str()));
+        }
+        lock
+    }
+}
+
 /// The folder that a library's conversions go to. No other run writes there before this one has ended.
 pub struct Out {
     /// The folder.

@@ -262,3 +262,18 @@ fn verify_finds_the_output_folder_above() {
     let told = "sub/deep/a.nc: was changed since macroglot wrote it";
     assert!(outcome("in/sub/deep/a.nc out/sub/deep/a.nc").1.contains(told));
 }
+
+/// What is pruned keeps no register from the programs that stay: the next run has nothing more to change.
+#[test]
+fn a_lock_forgets_what_is_pruned() {
+    let own = |number: u32| format!("%\nO{number}\nG21 G90\n#{number}=5.\nG0 X#{number}\nM30\n%\n");
+    let shop = Shop::with(&[("in/a.nc", &own(100)), ("in/b.nc", &own(102))]);
+    shop.run(&format!("convert in {TO} --out out"));
+    assert!(shop.read("out/macroglot.lock").contains("own = [100, 102]"));
+    std::fs::remove_file(shop.path("in/b.nc")).unwrap();
+    shop.run(&format!("convert in {TO} --out out --prune"));
+    let (files, lock) = (shop.files(), shop.read("out/macroglot.lock"));
+    assert!(lock.contains("files = [\"a.nc\"]") && !lock.contains("102"), "{lock}");
+    shop.run(&format!("convert in {TO} --out out --prune"));
+    assert!(shop.files() == files, "{lock}{}", shop.read("out/macroglot.lock"));
+}
