@@ -1,7 +1,6 @@
 //! Which shared variables a program may read before anything in it, or in what it calls, wrote them.
 
 use super::calls_of;
-use super::computed_calls::CalledPrograms;
 use crate::ir::analysis::{CallGraph, Row, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
@@ -362,7 +361,8 @@ fn read(e: &Expr, f: &mut dyn FnMut(Var)) {
     });
 }
 
-/// The programs that nothing in the library calls: where runs begin, or where callers outside it call.
+/// The programs that nothing in the library calls by name: where runs begin, or where callers outside it call. One that
+/// computed calls run is begun by itself too.
 pub fn roots(module: &Module) -> Vec<usize> {
     let mut called: BTreeSet<&ProgramName> = BTreeSet::new();
     for program in &module.programs {
@@ -377,8 +377,6 @@ pub fn roots(module: &Module) -> Vec<usize> {
             }
         }
     }
-    let computed = CalledPrograms::of(module);
     let root = |p: &Program| p.name.as_ref().is_none_or(|name| !called.contains(name));
-    let programs = module.programs.iter().enumerate();
-    programs.filter(|(at, program)| root(program) && !computed.is_known(*at)).map(|(at, _)| at).collect()
+    module.programs.iter().enumerate().filter(|(_, p)| root(p)).map(|(i, _)| i).collect()
 }

@@ -233,7 +233,7 @@ fn reads_length(each: impl FnOnce(&mut dyn FnMut(&Expr))) -> bool {
 /// The programs that end the run, but for those that others call and that may return to them. What only their
 /// subroutines do, or what nothing reaches, says nothing of them.
 fn mains(module: &Module) -> Vec<usize> {
-    let roots: BTreeSet<usize> = roots(module).into_iter().collect();
+    let roots: BTreeSet<usize> = uncalled(module).into_iter().collect();
     let is_main = |index: &usize| {
         let program = &module.programs[*index];
         let ends = |kind: &TermKind| matches!(kind, TermKind::End { .. } | TermKind::Stray);
@@ -260,7 +260,13 @@ fn lone(module: &Module, units: Units) -> Vec<usize> {
     }
     let mains: BTreeSet<usize> = mains(module).into_iter().collect();
     let is_named = |root: &usize| module.programs[*root].name.is_some();
-    roots(module).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
+    uncalled(module).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
+}
+
+/// The programs that no call runs, by name or surely by a computed number.
+fn uncalled(module: &Module) -> Vec<usize> {
+    let called = CalledPrograms::of(module);
+    roots(module).into_iter().filter(|root| !called.is_known(*root)).collect()
 }
 
 fn head(program: &mut Program, op: Op) {

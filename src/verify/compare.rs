@@ -106,6 +106,7 @@ pub fn compare<'r>(
         let found = Comparison::default();
         let mut pairs = Pairs {
             target: target.0,
+            one_side: std::ptr::eq(source.0, target.0),
             tolerance,
             found,
             at: [None; 2],
@@ -146,6 +147,8 @@ fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
 /// Two runs side by side.
 struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
+    /// True for two runs of one side, of which all that differs is told.
+    one_side: bool,
     tolerance: Tolerance,
     found: Comparison<'r>,
     /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
@@ -186,9 +189,8 @@ impl<'r> Pairs<'_, 'r> {
                 (i, j) = (i + unseen[0], j + unseen[1]);
                 continue;
             }
-            if let Some(side) =
-                [here, there].iter().zip([1, 0]).position(|(acts, other)| self.runs[other].ended(acts))
-            {
+            let ended = |(acts, other): (&&[Act<'r>], usize)| !self.one_side && self.runs[other].ended(acts);
+            if let Some(side) = [here, there].iter().zip([1, 0]).position(ended) {
                 [here, there][side].iter().take(2).for_each(|act| self.moved(side, act));
                 (i, j) = if side == 0 { (i + 2, j) } else { (i, j + 2) };
                 continue;
