@@ -144,6 +144,12 @@ fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
     if alarm(0) == alarm(1) { [0; 2] } else { settings }
 }
 
+/// Where the first of these acts shows: what was found running does at what comes next.
+fn told_at<'r>(acts: &[Act<'r>]) -> Option<&'r Event> {
+    let act = acts.iter().find(|act| act.told != Told::Found).or_else(|| acts.first());
+    act.map(|act| act.event)
+}
+
 /// Two runs side by side.
 struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
@@ -230,7 +236,7 @@ impl<'r> Pairs<'_, 'r> {
             } else if b.is_some_and(|b| self.passes(1, b)) {
                 j += 1;
             } else {
-                let (source, target) = (a.map(|a| a.event), b.map(|b| b.event));
+                let (source, target) = (told_at(here), told_at(there));
                 let difference = Difference::new(source, target, what);
                 match (a, b) {
                     (Some(a), Some(b)) if self.drifts(a, b) => {}
