@@ -219,3 +219,14 @@ fn a_break_excuses_its_alarm_in_every_state_of_the_machine() {
     let found = one(source, &there, &[numbers(source, "#[600+#523]=7", &[(500, 699)])]);
     assert_eq!(found.outcome, Outcome::Different);
 }
+
+/// The spindle that the caller has started is seen when something is done with it: on the source where the program
+/// returns, after the variable that breaks the assumption.
+#[test]
+fn a_break_excuses_what_a_running_spindle_does_after_it() {
+    let source = "O1\nG21G90G17G54\nS800M3\nG65P2\nM5\nM30\nO2\n#105=#[600+#140]\nG0X#105\nM99\n";
+    let (_, supposed) = numbers(source, "#105=#[600+#140]", &[(500, 699)]);
+    let of_o2 = |target: &str| all(source, target, &[], &[(1, supposed.clone())]).remove(1);
+    assert_ne!(of_o2(source).outcome, Outcome::Different, "{:?}", of_o2(source).witness);
+    assert_eq!(of_o2(&source.replace("#105=#[600", "G1X9.F9.\n#105=#[600")).outcome, Outcome::Different);
+}
