@@ -113,7 +113,7 @@ pub fn changes<'b>(
         let is_taken = plan.changes.iter().any(|change| change.place == Path::new(name));
         !is_ours && !is_taken && folder.join(name).exists()
     });
-    let named: BTreeSet<String> = next.files.values().filter_map(|entry| entry.rests_with.clone()).collect();
+    let named: BTreeSet<String> = next.files.values().filter_map(|entry| entry.rests_on.clone()).collect();
     next.together.retain(|number, _| named.contains(number));
     let mut sets = next.together.iter().map(|(number, set)| (set.clone(), number.clone())).collect();
     for wanted in wanted {
@@ -123,12 +123,11 @@ pub fn changes<'b>(
             source: Some(wanted.source.to_owned()),
             at,
             sha256: hashes.get(&wanted.name).cloned().unwrap_or_default(),
-            rests_with: (!wanted.rests_on.is_empty()).then(|| {
+            rests_on: (!wanted.rests_on.is_empty()).then(|| {
                 let all = wanted.rests_on.iter().map(String::as_str).chain([wanted.source]);
                 let all = all.filter_map(|name| Some((name.to_owned(), hashes.get(name)?.clone())));
                 next.together(&mut sets, all.collect())
             }),
-            rests_on: BTreeMap::new(),
         };
         next.files.insert(wanted.name.clone(), entry);
         plan.put(wanted)?;

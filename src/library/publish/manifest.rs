@@ -54,12 +54,9 @@ pub struct Entry {
     /// SHA-256 of the file.
     pub sha256: String,
     /// Of a certificate: the conversions that it rests on, as they stand in `together`. What earlier versions wrote does
-    /// not say so, or as below.
+    /// not say so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rests_with: Option<String>,
-    /// The same, with their SHA-256, as earlier versions wrote it.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub rests_on: BTreeMap<String, String>,
+    pub rests_on: Option<String>,
 }
 
 /// A certificate that is of other texts than those that stand in the folder.
@@ -135,8 +132,8 @@ impl Manifest {
     pub fn outdated(&self, differs: impl Fn(&str, &str) -> bool) -> BTreeMap<String, Outdated> {
         let mut outdated = BTreeMap::new();
         for (certificate, entry) in &self.files {
-            let together = entry.rests_with.as_ref().and_then(|number| self.together.get(number));
-            let others = entry.rests_on.iter().chain(together.into_iter().flatten());
+            let together = entry.rests_on.as_ref().and_then(|number| self.together.get(number));
+            let others = together.into_iter().flatten();
             let others =
                 others.filter(|(name, sha256)| entry.source.as_ref() != Some(*name) && differs(name, sha256));
             let others: Vec<String> = others.map(|(name, _)| name.clone()).collect();
