@@ -206,7 +206,9 @@ fn places(nc: &Nc, place: &Place<'_>) -> Ways {
     });
     let mut ways = Ways::None;
     for role in roles.filter(|role| *role == Role::CycleR || depth(*role) || hole(*role)) {
-        let known = depth(role) || role == Role::CycleR || cycle.is_some();
+        // In increments a hole counts from where the tool stands, but for planes that were given before.
+        let counts = words.op(Group::Distance) != Some(Op::Incremental);
+        let known = depth(role) || counts && (role == Role::CycleR || cycle.is_some());
         let sure = known && !place.absent.contains(&role) && repeats.is_none_or(|count| count.is_some());
         ways = if sure {
             Ways::Every
