@@ -6,11 +6,16 @@
 //! vacant variable leaves nothing to write either, unless the source's table has the word there as 0; where nobody
 //! confirmed that, lowering said so.
 //! Counter-example without it: `G10 L12 P3 R#2` with #2 vacant clears the radius that the source leaves alone.
+//!
+//! Where it ends: an amount that is computed and added under incremental coordinates. Half of an increment that its word
+//! loses is lost again each time.
 
-use super::Context;
+use super::census::Census;
 use super::rewrite::{Part, rebuild};
 use super::state::table_factor;
-use crate::canon::Role;
+use super::{Context, ModalFacts};
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind};
 use std::collections::BTreeSet;
@@ -20,12 +25,43 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if table_factor(context.source, context.target).is_none_or(|factor| factor == 1.0) {
         return;
     }
+    added(module, context);
     let summaries = Summaries::of(module);
     let signs = context.source.behaviour("bracket.vacant.word").is_none_or(|row| row.value != "zero");
     for program in &mut module.programs {
         let places = places(program, &summaries, signs);
         if !places.is_empty() {
             split(program, &places);
+        }
+    }
+}
+
+/// Refuses amounts that are computed and may be added to the table.
+fn added(module: &Module, context: &mut Context<'_>) {
+    let computed = |nc: &Nc| written(nc).is_some_and(|value| value.constant().is_none());
+    let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let any = stmts().any(|stmt| stmt.kind.nc().is_some_and(computed));
+    if !any || !Census::of(&module.programs).any_op(|op| op == Op::Incremental) {
+        return;
+    }
+    let facts = ModalFacts::of(module, &context.entry);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                if let Some(nc) = stmt.kind.nc().filter(|nc| computed(nc)) {
+                    let mut words = state.clone();
+                    words.step_words(nc);
+                    if words.op(Group::Distance) != Some(Op::Absolute) {
+                        let what = "a computed amount may be added here to the cutter table, which holds the double of it or the half on the target: what the last digit loses adds up";
+                        let help =
+                            "write the whole value under G90, or round the amount so that it can be halved";
+                        let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
+                        context.add_once(index, what, finding.with_help(help));
+                    }
+                }
+                state.step(stmt);
+            }
         }
     }
 }
