@@ -11,13 +11,17 @@
 //! loses is lost again each time.
 
 use super::census::Census;
+use super::computed_calls::CalledPrograms;
 use super::rewrite::{Part, rebuild};
 use super::state::table_factor;
-use super::{Context, ModalFacts};
+use super::{Context, ModalFacts, calls_of};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::analysis::{Summaries, Vacancy};
-use crate::ir::{BlockId, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind};
+use crate::ir::analysis::{Cfg, Summaries, Vacancy};
+use crate::ir::{
+    BlockId, Call, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind,
+};
+use crate::text::Span;
 use std::collections::BTreeSet;
 
 /// Writes such blocks twice.
@@ -36,7 +40,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
-/// Refuses amounts that are computed and may be added to the table.
+/// Tells of amounts that are computed and may be added to the table.
 fn added(module: &Module, context: &mut Context<'_>) {
     let computed = |nc: &Nc| written(nc).is_some_and(|value| value.constant().is_none());
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
@@ -44,6 +48,8 @@ fn added(module: &Module, context: &mut Context<'_>) {
     if !any || !Census::of(&module.programs).any_op(|op| op == Op::Incremental) {
         return;
     }
+    let called: BTreeSet<usize> =
+        CalledPrograms::of(module).pairs(module).into_iter().map(|(_, callee)| callee).collect();
     let facts = ModalFacts::of(module, &context.entry);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
@@ -53,17 +59,38 @@ fn added(module: &Module, context: &mut Context<'_>) {
                     let mut words = state.clone();
                     words.step_words(nc);
                     if words.op(Group::Distance) != Some(Op::Absolute) {
-                        let what = "a computed amount may be added here to the cutter table, which holds the double of it or the half on the target: what the last digit loses adds up";
-                        let help =
-                            "write the whole value under G90, or round the amount so that it can be halved";
-                        let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
-                        context.add_once(index, what, finding.with_help(help));
+                        let again = called.contains(&index) || runs_again(program, id);
+                        report(index, stmt.site.span, again, context);
                     }
                 }
                 state.step(stmt);
             }
         }
     }
+}
+
+/// One that the library may add again is refused; what is added once in a run is off by half an increment at the most.
+fn report(index: usize, span: Span, again: bool, context: &mut Context<'_>) {
+    let (code, what) = if again {
+        let what = "a computed amount may be added here again and again to the cutter table, which holds the double of it or the half on the target: what the last digit loses adds up";
+        (Code::NoEquivalent, what)
+    } else {
+        let what = "a computed amount may be added here to the cutter table, which holds the double of it or the half on the target: half an increment may be lost in each run of the program";
+        (Code::Conditional, what)
+    };
+    let help = "write the whole value under G90, or round the amount so that it can be halved";
+    context.add_once(index, what, Diagnostic::new(code, span, what).with_help(help));
+}
+
+/// True where a block may come again in one run of the program.
+fn runs_again(program: &Program, block: BlockId) -> bool {
+    let cfg = Cfg::of(program);
+    let calls_itself = |call: &Call| matches!(call.callee, Callee::Block(_)) || call.count.is_some();
+    let (mut seen, mut work) = (BTreeSet::new(), vec![block]);
+    while let Some(at) = work.pop() {
+        work.extend(cfg.succs(at).iter().copied().filter(|to| seen.insert(*to)));
+    }
+    seen.contains(&block) || program.blocks.iter().flat_map(calls_of).any(calls_itself)
 }
 
 /// The statements whose value may be vacant; with `signs` behind a sign too.
