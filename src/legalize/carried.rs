@@ -18,7 +18,7 @@ type Locals = BTreeSet<u32>;
 /// The numbers that locals may have.
 pub type Numbers = RangeInclusive<u32>;
 
-/// A local that a macro may read before it writes it, and writes; none where each run begins alike.
+/// A local that a macro writes, and may read before that: one run leaves it to the next. None if each run begins alike.
 pub fn local(module: &Module, called: &CalledPrograms, at: usize, numbers: &Numbers) -> Option<u32> {
     let mut written = Locals::new();
     // What shares the level: subprograms, whatever they call at the same level, and where they return to.

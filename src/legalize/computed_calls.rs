@@ -40,7 +40,7 @@ impl CalledPrograms {
         Self { by_name, computed: computed_calls(module) }
     }
 
-    /// By a call in this block of a program, by index; none where it leaves the library or stays in the program.
+    /// The programs that a call in this block may run, by index; none if it leaves the library or stays in its program.
     pub fn by(&self, place: (usize, BlockId), call: &Call) -> &[usize] {
         match &call.callee {
             Callee::Program(name) => self.by_name.get(name).map_or(&[], std::slice::from_ref),
