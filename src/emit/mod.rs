@@ -18,7 +18,7 @@ pub use naming::{Index, Naming, Register, last_sequence};
 
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
-use crate::ir::Program;
+use crate::ir::Valid;
 use crate::text::Span;
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub type Emit = for<'a> fn(names: &'a Naming, control: &'a Control) -> Writer<'a
 
 /// Writes a program. What it cannot write exactly comes back as diagnostics, all of them at once,
 /// and then there is no text.
-pub type Writer<'a> = Box<dyn Fn(&Program) -> Result<Emitted, Vec<Diagnostic>> + Sync + 'a>;
+pub type Writer<'a> = Box<dyn Fn(Valid<'_>) -> Result<Emitted, Vec<Diagnostic>> + Sync + 'a>;
 
 /// A program as the target reads it.
 #[derive(Clone, Debug, Default, PartialEq)]

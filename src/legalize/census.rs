@@ -59,7 +59,7 @@ pub enum Thing {
 }
 
 /// A census of programs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Census {
     ops: [u64; 4],
     roles: [u64; 4],

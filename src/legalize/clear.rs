@@ -25,7 +25,8 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 }
 
 /// Expands the clearing of a class; needs the registers, so it runs behind their allocation.
-pub fn run(module: &mut Module, registers: &Registers) {
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let registers = &context.registers;
     for program in &mut module.programs {
         rebuild(program, &mut |builder, part| match part {
             Part::Stmt(Stmt { kind: StmtKind::ClearAll(class), site }) => {

@@ -14,7 +14,6 @@ mod shift;
 
 use super::Context;
 use super::banks::{all_numbers, each_index};
-use super::registers::Registers;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
@@ -124,14 +123,14 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -
 }
 
 /// Says what is supposed of computed numbers, now that registers are taken.
-pub fn report(registers: &Registers, context: &mut Context<'_>) {
+pub fn report(_: &Module, context: &mut Context<'_>) {
     let reached = std::mem::take(&mut context.reached);
     if reached.open.is_empty() {
         return;
     }
     let numbers = Numbers::new(context.source, context.target, reached.table);
     let alike = numbers.all_alike();
-    let taken: Vec<u32> = registers.taken().collect();
+    let taken: Vec<u32> = context.registers.taken().collect();
     for (index, found) in reached.open {
         let supposed = found.finding.supposed(&numbers);
         let safe = supposed.without(taken.iter().copied());

@@ -3,9 +3,13 @@
 use super::Modal;
 use super::census::Census;
 use super::computed_numbers::Reached;
+use super::locked::Locked;
+use super::program_numbers::ProgramNumbers;
+use super::registers::Registers;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Row, Side};
+use crate::opt::Level;
 use crate::text::Span;
 use foldhash::{HashMap, HashSet};
 use std::cell::OnceCell;
@@ -26,8 +30,16 @@ pub struct Context<'a> {
     pub origins: Vec<usize>,
     /// What computed numbers of variables reach, until registers are taken.
     pub(super) reached: Reached,
-    /// What stood in the library behind the last pass, where it was counted then.
-    pub(super) census: Option<Census>,
+    /// What stands in the library, as it was last counted: perhaps less by now, never more.
+    pub(super) census: Census,
+    /// How much is optimized.
+    pub level: Level,
+    /// What earlier runs chose.
+    pub locked: Locked<'a>,
+    /// The register of each variable, from the pass `registers` on.
+    pub registers: Registers,
+    /// The number of each program, from the pass `program-numbers` on.
+    pub numbers: ProgramNumbers,
     /// The operations that the target has M codes for, once they were asked for.
     pub(super) m_codes: OnceCell<BTreeSet<Op>>,
     /// The operations that the target has codes for.
@@ -57,7 +69,11 @@ impl<'a> Context<'a> {
             faults: Vec::new(),
             origins: (0..programs).collect(),
             reached: Reached::default(),
-            census: None,
+            census: Census::default(),
+            level: Level::default(),
+            locked: Locked::default(),
+            registers: Registers::default(),
+            numbers: ProgramNumbers::default(),
             m_codes: OnceCell::new(),
             had: OnceCell::new(),
             findings,

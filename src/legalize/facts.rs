@@ -7,6 +7,7 @@
 mod vacant;
 
 use super::Context;
+use super::census::Thing;
 use super::computed_calls::CalledPrograms;
 use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
@@ -19,8 +20,12 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use vacant::VACANCY;
 
-/// Reports the unconfirmed facts of the target that programs rest on; `computes` is false where all values are constants.
-pub fn of_target(module: &Module, computes: bool, context: &mut Context<'_>) {
+/// Reports the unconfirmed facts of the target that programs rest on.
+pub fn of_target(module: &Module, context: &mut Context<'_>) {
+    // All values are constants if nothing of these stood there: what was put in since was put in for one of them.
+    let source = [Thing::Computed, Thing::Variable, Thing::Temp, Thing::Clear, Thing::Call, Thing::LocalCall];
+    let asked = [Thing::Input, Thing::Print, Thing::Message];
+    let computes = source.into_iter().chain(asked).any(|thing| context.census.has(thing));
     look(module, computes, context, context.target, Side::Target);
 }
 

@@ -5,6 +5,7 @@
 //! beginning, too. Side condition: a number that is a label stays with the block that it finds. Counter-example:
 //! `#101=0`, `N8 #504=#101`, of which a start at N8 leaves out the first.
 
+use super::Context;
 use crate::ir::{Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var};
 use crate::syntax::Label;
 
@@ -12,7 +13,7 @@ use crate::syntax::Label;
 type At = (usize, usize);
 
 /// Moves the numbers.
-pub fn run(module: &mut Module) {
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
     for program in &mut module.programs {
         for ((block, stmt), number) in moves(program) {
             let Some(block) = program.blocks.get_mut(block) else { continue };

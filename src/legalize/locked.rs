@@ -15,11 +15,16 @@ use crate::ir::analysis::Numbers;
 use crate::ir::{Bank, Module, Var};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// No names.
+static NONE: BTreeMap<String, u32> = BTreeMap::new();
+
 /// The choices of earlier runs.
 #[derive(Clone, Debug)]
 pub struct Locked<'l> {
     /// Registers by the variable's name on the source.
     pub variables: &'l BTreeMap<String, u32>,
+    /// Numbers of programs by what names the program on the source.
+    pub programs: &'l BTreeMap<String, u32>,
     /// Registers of temporaries.
     pub scratch: &'l [u32],
     /// Numbers that programs of earlier runs use themselves.
@@ -28,6 +33,13 @@ pub struct Locked<'l> {
     pub reached: Numbers,
     /// Files of earlier runs that this run does not convert anew.
     pub others: &'l [String],
+}
+
+impl Default for Locked<'_> {
+    fn default() -> Self {
+        let reached = Numbers::default();
+        Self { variables: &NONE, programs: &NONE, scratch: &[], own: &[], reached, others: &[] }
+    }
 }
 
 /// The choices that hold in this run.

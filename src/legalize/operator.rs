@@ -14,10 +14,16 @@ use crate::ir::{Class, Expr, Module, OutputPart, Place, PrintPart, Program, Site
 const DIGITS: (u32, u32) = (4, 4);
 
 /// Replaces questions; needs the registers, so it runs behind their allocation.
-pub fn questions(module: &mut Module, registers: &Registers, context: &mut Context<'_>) {
+pub fn questions(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("input").is_some() {
         return;
     }
+    let registers = std::mem::take(&mut context.registers);
+    ask_all(module, &registers, context);
+    context.registers = registers;
+}
+
+fn ask_all(module: &mut Module, registers: &Registers, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         for block in &mut program.blocks {
             let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());

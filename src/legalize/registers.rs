@@ -65,8 +65,14 @@ fn is_own(var: &Var, register: &Register) -> bool {
     var.class.nullable() && var.number == register.number
 }
 
+/// Gives every variable its register. Nothing changes the variables of the module after this.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let (census, locked) = (context.census, context.locked.clone());
+    context.registers = allocate(module, &census, &locked, context);
+}
+
 /// Chooses registers for everything in the library, after the choices of earlier runs.
-pub fn allocate(
+fn allocate(
     module: &mut Module,
     census: &Census,
     locked: &Locked<'_>,

@@ -14,7 +14,13 @@ use foldhash::{HashMap, HashMapExt};
 use std::sync::Arc;
 
 /// Reports variables whose life differs.
-pub fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let registers = std::mem::take(&mut context.registers);
+    check(module, &registers, context);
+    context.registers = registers;
+}
+
+fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     let differing = |var: &Var, register: &Register| {
         let there =
             context.target.variable_class(&register.name, register.number).and_then(|row| row.retained);

@@ -4,13 +4,14 @@
 //! can. A temporary that is alive across a call, or a move where a modal call may be open, must not share with any of the callee's, so each such one
 //! gets a number that no other has.
 
+use super::Context;
 use crate::ir::analysis::{Cfg, Temps, Transfer, behind, live_before};
 use crate::ir::{Block, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeSet;
 
 /// Gives temporaries their colours.
-pub fn run(module: &mut Module) {
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
     let mut shared = 0;

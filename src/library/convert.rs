@@ -1,24 +1,18 @@
 //! A library from one control to another: read, lower, link, legalize, emit.
 
-use super::names::{naming, number_programs, report_twins};
+use super::compile::make;
 use super::parts::lower;
+use super::prepare::{Prepared, prepare};
 use super::refused_calls::{self, Link};
-use super::{Input, Lock, machine_kind};
-use crate::diag::{Code, Diagnostic, Severity};
+use super::{Input, Lock};
+use crate::diag::{Diagnostic, Severity};
 use crate::dialect::Control;
-use crate::emit::{Emitted, Writer};
+use crate::emit::Emitted;
 use crate::ir::analysis::Numbers;
-use crate::ir::validate::{Invalid, breaches};
-use crate::ir::{Module, Program};
-use crate::legalize::{Context, Modal, assign_registers, legalize};
-use crate::lower::Lowered;
+use crate::legalize::Modal;
 use crate::opt;
-use crate::syntax::{ProgramName, parse_faults};
 use crate::text::Span;
 use crate::verify;
-use rayon::prelude::*;
-use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// What became of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -77,13 +71,6 @@ pub struct Options {
     pub draft: bool,
 }
 
-/// A file of the source, lowered.
-struct File {
-    tape: bool,
-    /// Indexes of its programs in the module.
-    programs: std::ops::Range<usize>,
-}
-
 /// Converts a library.
 pub fn convert(
     inputs: &[Input],
@@ -99,25 +86,7 @@ pub fn convert(
     if let Some(done) = super::segments::convert(inputs, source, target, &lock, options) {
         return done;
     }
-    let lowered: Vec<Lowered> =
-        inputs.par_iter().enumerate().map(|(at, input)| lower(at, input, source)).collect();
-    let mut module = Module::default();
-    let mut found: Vec<Vec<Diagnostic>> = Vec::new();
-    let mut files = Vec::with_capacity(inputs.len());
-    for file in lowered {
-        let first = module.programs.len();
-        for (program, diagnostics) in file.programs {
-            module.programs.push(program);
-            found.push(diagnostics);
-        }
-        module.names.extend(file.names);
-        files.push(File { tape: file.tape, programs: first..module.programs.len() });
-    }
-    let written: Vec<Option<String>> =
-        module.programs.iter().map(|p| p.name.as_ref().map(ToString::to_string)).collect();
-    name_the_nameless(&mut module, inputs, source, target);
-    report_twins(&module, inputs, &mut found);
-    machine_kind::report(&module, inputs, source, &mut found);
+    let Prepared { module, found, files, written } = prepare(inputs, source, target);
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];
     let original = options.draft.then(|| (module.clone(), found.clone()));
@@ -192,157 +161,8 @@ pub fn convert(
     Conversion { programs: reports, texts, lock, taken, states_reserved: target.states_reserved(), links }
 }
 
-fn same_family(source: &Control, target: &Control) -> bool {
+pub(super) fn same_family(source: &Control, target: &Control) -> bool {
     source.dialect().family == target.dialect().family
-}
-
-/// On a control that knows programs by number each needs one. Programs without a name get that of their
-/// file, and a number by it; within a family a program without a number stays what it is.
-fn name_the_nameless(module: &mut Module, inputs: &[Input], source: &Control, target: &Control) {
-    if same_family(source, target) {
-        return;
-    }
-    for program in module.programs.iter_mut().filter(|program| program.name.is_none()) {
-        let file = inputs.get(program.file).map(|input| input.name.clone());
-        program.name = file.map(ProgramName::Name);
-    }
-}
-
-/// A library through the passes, by program of the source.
-pub(super) struct Made {
-    pub found: Vec<Vec<Diagnostic>>,
-    pub parts: Vec<Vec<Emitted>>,
-    lock: Lock,
-    pub taken: Numbers,
-    links: Vec<Link>,
-}
-
-pub(super) fn make(
-    mut module: Module,
-    mut found: Vec<Vec<Diagnostic>>,
-    source: &Control,
-    target: &Control,
-    mut lock: Lock,
-    level: opt::Level,
-    entry: Modal,
-) -> Made {
-    let count = module.programs.len();
-    let mut context = Context::new(source, target, count);
-    context.entry = entry;
-    let fault = |d: &&Diagnostic| d.severity() == Severity::Error;
-    context.faults = found.iter().map(|list| list.iter().filter(fault).map(|d| d.span).collect()).collect();
-    let mut fault = opt::run(&mut module, opt::Options { level, ..Default::default() }).err();
-    legalize(&mut module, &mut context);
-    let tidied = opt::run(&mut module, opt::Options { level, legalized: true, ..Default::default() });
-    fault = fault.or(tidied.err());
-    let registers = assign_registers(&mut module, &lock.locked(), &mut context);
-    let names = number_programs(&module, &mut lock, target, &mut context);
-    lock.take(&registers);
-    let taken = Numbers::of(registers.taken().map(|number| (number, number)));
-    let mut naming = naming(&module, &registers, &names);
-    let origins = context.origins.clone();
-    let legal = context.into_findings();
-    found.resize_with(count, Vec::new);
-    found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
-    let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
-    if let Some(fault) = fault {
-        found.iter_mut().for_each(|all| {
-            all.push(Diagnostic::new(Code::Internal, Span::default(), fault.to_string()));
-        });
-    }
-    // A return to any block must not find one that is numbered here: it stops before, where there is such a block.
-    if let (Some(floor), Some(emit)) = (naming.returns_floor(target.text().sequence_max), target.entry().emit)
-    {
-        let write = emit(&naming, target);
-        if module.programs.par_iter().any(|program| write(program).is_ok_and(|made| made.invents)) {
-            drop(write);
-            naming.set_guard(floor);
-        }
-    }
-    let write = target.entry().emit.map(|emit| emit(&naming, target));
-    let links = refused_calls::links(&module, &origins);
-    // Each program is checked when it is at hand, and dropped when it is written.
-    let programs = std::mem::take(&mut module.programs);
-    let emitted = programs.into_par_iter().enumerate().map(|(at, program)| {
-        let broken = breaches(&program, at);
-        let findings = origins.get(at).and_then(|origin| found.get(*origin)).map_or(&[][..], Vec::as_slice);
-        if broken.is_empty() { Ok(emit(&program, write.as_ref(), target, findings)) } else { Err(broken) }
-    });
-    let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
-    let broken: Vec<String> =
-        emitted.iter().filter_map(|made| made.as_ref().err()).flatten().map(ToString::to_string).collect();
-    if broken.is_empty() {
-        for (origin, result) in origins.into_iter().zip(emitted.into_iter().flatten()) {
-            match result {
-                Ok(mut text) => {
-                    found[origin].append(&mut text.findings);
-                    parts[origin].push(text);
-                }
-                Err(diagnostics) => found[origin].extend(diagnostics),
-            }
-        }
-        refused_calls::report(&links, &mut found);
-    } else {
-        // What one program of a library is broken by may have touched the others.
-        for all in &mut found {
-            all.push(Diagnostic::new(Code::Internal, Span::default(), broken.join("; ")));
-        }
-    }
-    Made { found, parts, lock, taken, links }
-}
-
-/// Adds findings but for facts of the source that lowering has told already.
-fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
-    let facts = all.iter().filter(|finding| finding.code == Code::UnconfirmedFact);
-    let told: BTreeSet<Arc<str>> = facts.map(|finding| finding.message.clone()).collect();
-    let is_told = |d: &Diagnostic| d.code == Code::UnconfirmedFact && told.contains(&d.message);
-    all.reserve_exact(more.len());
-    all.extend(more.into_iter().filter(|finding| !is_told(finding)));
-}
-
-/// Emits a program, and reads the text back: what the target's own grammar refuses is never written, but for what
-/// `findings` tell of the source, which is an alarm there too.
-fn emit(
-    program: &Program,
-    write: Option<&Writer<'_>>,
-    target: &Control,
-    findings: &[Diagnostic],
-) -> Result<Emitted, Vec<Diagnostic>> {
-    let Some(write) = write else {
-        let what = format!("programs cannot be written for {}", target.dialect().title);
-        return Err(vec![Diagnostic::new(Code::NoEquivalent, program.site.span, what)]);
-    };
-    let mut emitted = write(program)?;
-    emitted.text.shrink_to_fit();
-    emitted.blocks.shrink_to_fit();
-    let entry = target.entry();
-    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), entry.parse, entry.is_sound)
-        .into_iter()
-        .filter(|fault| fault.code.severity() == Severity::Error)
-        .filter_map(|fault| {
-            let at = fault.span.start as usize;
-            let source = emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
-            let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
-            let line = emitted.text[line..].lines().next().unwrap_or_default();
-            let (code, what) = match fault.code {
-                Code::DivisionByZero | Code::FunctionDomain if alarms_in(findings, source) => return None,
-                // Constants that were computed out of the domain: so would they be on the machine.
-                Code::DivisionByZero | Code::FunctionDomain => (fault.code, "this would become"),
-                _ => (Code::Internal, "the target would not read"),
-            };
-            let what = format!("{what} '{line}': {}", fault.message);
-            Some(Diagnostic::new(code, source.unwrap_or(program.site.span), what))
-        })
-        .collect();
-    if faults.is_empty() { Ok(emitted) } else { Err(faults) }
-}
-
-/// True where the source has an alarm behind a condition in this block.
-fn alarms_in(findings: &[Diagnostic], block: Option<Span>) -> bool {
-    let inside = |block: Span, span: Span| block.start <= span.start && span.end <= block.end;
-    findings.iter().any(|finding| {
-        finding.code == Code::AlarmIfRun && block.is_some_and(|block| inside(block, finding.span))
-    })
 }
 
 pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {

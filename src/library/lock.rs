@@ -104,8 +104,9 @@ impl Lock {
         self
     }
 
-    /// Takes over what a run chose.
-    pub fn take(&mut self, registers: &Registers) {
+    /// Takes over what a run chose: registers, and numbers of programs.
+    pub fn take(&mut self, registers: &Registers, programs: BTreeMap<String, u32>) {
+        self.programs.extend(programs);
         let freed = |name: &String, _: &mut u32| !registers.freed.contains(name);
         self.variables.retain(freed);
         self.variables.extend(registers.chosen.clone());
@@ -122,6 +123,7 @@ impl Lock {
     pub fn locked(&self) -> Locked<'_> {
         Locked {
             variables: &self.variables,
+            programs: &self.programs,
             scratch: &self.scratch,
             own: &self.own,
             reached: Numbers::of(self.reached.iter().copied()),

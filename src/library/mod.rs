@@ -5,6 +5,7 @@
 //! of it, kept in `macroglot.lock` so that the next run makes the same choices.
 
 mod callees;
+mod compile;
 mod convert;
 mod detect;
 mod draft;
@@ -15,8 +16,10 @@ mod machine_kind;
 mod names;
 mod outputs;
 mod parts;
+mod partway;
 mod pieces;
 mod places;
+mod prepare;
 mod project;
 mod publish;
 mod refused_calls;
@@ -30,6 +33,7 @@ pub use detect::{Detected, detect, looks_like};
 pub use inputs::{Files, Found, Input, InputError, Source, gather, same_file, slashed, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
+pub use partway::{Partway, partway};
 pub use places::{Spots, real_place};
 pub use project::{Library, Machine, Project, ProjectError};
 pub use publish::{

@@ -7,7 +7,8 @@
 //! comments and program ends only; one control family, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
-use super::convert::{Made, ProgramReport, frames, make, outcome};
+use super::compile::{Made, make};
+use super::convert::{ProgramReport, frames, outcome};
 use super::pieces::{Piece, Pieces};
 use super::{Conversion, Input, Lock, Options, Outcome};
 use crate::canon::Op;

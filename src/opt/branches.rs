@@ -17,7 +17,7 @@ use crate::ir::eval::{Memory, holds};
 use crate::ir::{Block, BlockId, Callee, Cond, Expr, Program, Site, StmtKind, TermKind};
 
 /// The pass.
-pub(super) struct Branches;
+pub struct Branches;
 
 impl Pass for Branches {
     fn name(&self) -> &'static str {

@@ -16,7 +16,7 @@ use crate::ir::{Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The pass.
-pub(super) struct Copies;
+pub struct Copies;
 
 impl Pass for Copies {
     fn name(&self) -> &'static str {

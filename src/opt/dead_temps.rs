@@ -13,11 +13,11 @@ use crate::ir::{Block, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use std::cell::Cell;
 
 /// The pass.
-pub(super) struct DeadTemps;
+pub struct DeadTemps;
 
 impl Pass for DeadTemps {
     fn name(&self) -> &'static str {
-        "dead.temps"
+        "dead-temps"
     }
 
     fn run(&self, program: &mut Program, library: &Library, _: Level) {

@@ -14,7 +14,7 @@ use crate::ir::eval::{AtanRange, Memory, eval};
 use crate::ir::{Class, Expr, Place, Program, Site, Stmt, StmtKind, Var};
 
 /// The pass.
-pub(super) struct Fold;
+pub struct Fold;
 
 /// Digits that every control keeps.
 const DIGITS: usize = 8;

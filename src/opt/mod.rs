@@ -17,8 +17,14 @@ mod random;
 mod retarget;
 mod unreachable;
 
+pub use branches::Branches;
+pub use copies::Copies;
+pub use dead_temps::DeadTemps;
+pub use fold::Fold;
 pub use fold::fold;
-pub use pass::{Dump, Level, Library, OptError, Options, PASSES, Pass, When, apply, find, run};
+pub use pass::{Level, Library, PASSES, Pass, find, run};
+pub use retarget::Retarget;
+pub use unreachable::Unreachable;
 
 #[cfg(test)]
 mod tests;

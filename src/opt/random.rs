@@ -1,6 +1,6 @@
 //! Random programs do the same before and behind all passes, at every level.
 
-use super::{Level, Options, run};
+use super::{Level, PASSES, run};
 use crate::ir::eval::{self, Ending, Memory, Trace};
 use crate::ir::text::parse;
 use crate::ir::{Class, Module, Var, validate};
@@ -95,7 +95,7 @@ proptest! {
         prop_assert!(validate(&before).is_ok());
         for level in [Level::O1, Level::O2] {
             let mut after = before.clone();
-            run(&mut after, Options { level, ..Options::default() }).unwrap();
+            run(&mut after, PASSES, level).unwrap();
             for start in [(None, 0.0), (Some(1.0), 2.5), (Some(-0.5), -1.0)] {
                 for switches in [&[][..], &[1]] {
                     let (old, new) = (observe(&before, start, switches), observe(&after, start, switches));

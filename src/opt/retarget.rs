@@ -13,7 +13,7 @@ use crate::ir::{BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use std::collections::BTreeSet;
 
 /// The pass.
-pub(super) struct Retarget;
+pub struct Retarget;
 
 impl Pass for Retarget {
     fn name(&self) -> &'static str {

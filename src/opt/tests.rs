@@ -43,7 +43,7 @@ fn folding_keeps_every_value() {
 fn folding_stops_short_of_what_no_literal_says() {
     let folded = |text: &str| {
         let mut module = parse(&format!("program O1 {{\nblock0:\n tmp.1 = {text}\n end\n}}")).unwrap();
-        apply(find("fold").unwrap(), &mut module, Level::O1);
+        run(&mut module, &[&Fold], Level::O1).unwrap();
         let text = print(&module);
         text.lines().nth(2).and_then(|line| line.split(" = ").nth(1)).unwrap_or_default().to_owned()
     };
@@ -89,7 +89,7 @@ fn constant_conditions_settle_as_they_hold() {
                     "program O1 {{\nblock0:\n branch {cond} ? block1 : block2\nblock1:\n end\nblock2:\n stray\n}}"
                 );
                 let mut module = parse(&text).unwrap();
-                apply(find("branches").unwrap(), &mut module, Level::O1);
+                run(&mut module, &[&Branches], Level::O1).unwrap();
                 assert!(print(&module).contains(&format!("jump block{way}")), "{cond}");
             }
         }
@@ -102,39 +102,14 @@ fn sample() -> Module {
 }
 
 #[test]
-fn the_manager_runs_what_it_is_told() {
-    let ran = |options| {
+fn passes_make_a_program_tidier_but_at_level_0() {
+    let ran = |level| {
         let mut module = sample();
-        let ran = run(&mut module, options).unwrap();
-        (ran, print(&module))
+        run(&mut module, PASSES, level).unwrap();
+        print(&module)
     };
-    assert_eq!(ran(Options { level: Level::O0, ..Options::default() }), (vec![], print(&sample())));
-    let (names, text) = ran(Options::default());
-    assert_eq!(names, PASSES.iter().map(|pass| pass.name()).collect::<Vec<_>>());
-    assert_eq!(text, "program O1 file 0 {\nblock0:\n    global.5 = 5\n    end\n}\n");
-    assert_eq!(ran(Options { first: Some(2), ..Options::default() }).0, ["copies", "fold"]);
-    assert_eq!(ran(Options { stop_after: Some("retarget"), ..Options::default() }).0.len(), 3);
-    let (names, _) = ran(Options { legalized: true, ..Options::default() });
-    assert!(!names.contains(&"copies") && names.contains(&"fold"));
-}
-
-#[test]
-fn the_manager_dumps_before_and_after() {
-    let mut seen = Vec::new();
-    let mut dump = |pass: &str, when: When, module: &Module| {
-        seen.push((pass.to_owned(), when, module.programs[0].blocks.len()));
-    };
-    let options = Options { dump: Some(&mut dump), stop_after: Some("unreachable"), ..Options::default() };
-    run(&mut sample(), options).unwrap();
-    let last: Vec<_> = seen.iter().rev().take(2).map(|(p, w, n)| (p.as_str(), *w, *n)).collect();
-    assert_eq!(last, [("unreachable", When::After, 1), ("unreachable", When::Before, 2)]);
-}
-
-#[test]
-fn an_unknown_pass_is_an_error_that_lists_the_known() {
-    let error = run(&mut sample(), Options { stop_after: Some("foldd"), ..Options::default() }).unwrap_err();
-    let known = "copies, fold, retarget, branches, unreachable, dead.temps";
-    assert_eq!(error.to_string(), format!("no pass is named 'foldd'; there are {known}"));
+    assert_eq!(ran(Level::O0), print(&sample()));
+    assert_eq!(ran(Level::O1), "program O1 file 0 {\nblock0:\n    global.5 = 5\n    end\n}\n");
 }
 
 #[test]
@@ -147,6 +122,6 @@ fn large_programs_come_to_an_end() {
         ));
     }
     let mut module = parse(&format!("{text}block50000:\n end\n}}")).unwrap();
-    run(&mut module, Options { level: Level::O2, ..Options::default() }).unwrap();
+    run(&mut module, PASSES, Level::O2).unwrap();
     assert!(module.programs[0].blocks.iter().all(|block| block.stmts.len() <= 1));
 }

@@ -14,7 +14,7 @@ use crate::ir::{Block, BlockId, Callee, Program, Site, StmtKind, TermKind};
 use crate::syntax::Label;
 
 /// The pass.
-pub(super) struct Unreachable;
+pub struct Unreachable;
 
 impl Pass for Unreachable {
     fn name(&self) -> &'static str {

@@ -9,6 +9,7 @@ mod help;
 mod hostile;
 mod inputs;
 mod interrupted;
+mod ir;
 mod outputs;
 mod profiles;
 mod project;

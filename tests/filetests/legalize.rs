@@ -4,10 +4,10 @@
 
 use crate::machine::machine;
 use crate::{Case, claims};
-use macroglot::ir::analysis::Numbers;
 use macroglot::ir::text::{parse, print};
 use macroglot::ir::validate;
-use macroglot::legalize::{Context, Locked, PASSES, Pass, Registers, assign_registers};
+use macroglot::legalize::pipeline::{GROUPS, Pass};
+use macroglot::legalize::{Context, Locked, Registers};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -23,17 +23,12 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
     }
 
     let mut after = before;
+    let variables = locked(options)?;
     let mut context = Context::new(&source, &target, after.programs.len());
     let registers = if pass == "registers" {
-        let variables = locked(options)?;
-        let locked = Locked {
-            variables: &variables,
-            scratch: &[],
-            own: &[],
-            reached: Numbers::default(),
-            others: &[],
-        };
-        assign_registers(&mut after, &locked, &mut context)
+        context.locked = Locked { variables: &variables, ..Locked::default() };
+        of_groups(REGISTERS).for_each(|pass| pass.apply(&mut after, &mut context));
+        std::mem::take(&mut context.registers)
     } else {
         named(pass)?.iter().for_each(|pass| pass.apply(&mut after, &mut context));
         Registers::default()
@@ -53,10 +48,32 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
     Ok(Some(out + &print(&after)))
 }
 
+/// The groups of passes that run before variables have registers, but for those that only tidy.
+pub const LEGALIZE: &[&str] = &[
+    "source",
+    "structure",
+    "blocks",
+    "calls",
+    "moves",
+    "variables",
+    "cycles",
+    "codes",
+    "expressions",
+    "entry",
+];
+
+/// Those that give them, and need them.
+const REGISTERS: &[&str] = &["registers", "operator", "layout"];
+
+/// The passes of some groups.
+pub fn of_groups(names: &'static [&'static str]) -> impl Iterator<Item = &'static Pass> {
+    GROUPS.iter().filter(|group| names.contains(&group.name)).flat_map(|group| group.passes)
+}
+
 /// The passes of a name such as `link+outline`; `all` are all of them.
 fn named(names: &str) -> Result<Vec<&'static Pass>, String> {
     let wanted: Vec<&str> = names.split('+').collect();
-    let passes: Vec<_> = PASSES.iter().filter(|p| names == "all" || wanted.contains(&p.name)).collect();
+    let passes: Vec<_> = of_groups(LEGALIZE).filter(|p| names == "all" || wanted.contains(&p.name)).collect();
     let found = names == "all" || passes.len() == wanted.len();
     found.then_some(passes).ok_or_else(|| format!("no such passes: {names}"))
 }

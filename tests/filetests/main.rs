@@ -62,7 +62,7 @@ fn every_pass_has_a_file_that_it_acts_on_and_one_that_it_leaves() {
         let (_, case) = read(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
         seen.extend(legalize::acts(&case).unwrap_or_else(|error| panic!("{}: {error}", file.display())));
     }
-    for pass in macroglot::legalize::PASSES {
+    for pass in legalize::of_groups(legalize::LEGALIZE) {
         assert!(
             seen.contains(&(pass.name, true)),
             "no filetest gives the pass '{}' anything to do",

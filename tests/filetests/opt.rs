@@ -6,22 +6,18 @@ use crate::{Case, claims};
 use macroglot::ir::eval::{Ending, Memory, Trace, run};
 use macroglot::ir::text::{parse, print};
 use macroglot::ir::{Class, Module, Var, validate};
-use macroglot::opt::{self, Level, Options};
+use macroglot::opt::{self, Level};
 
 pub fn drive(case: &Case) -> Result<Option<String>, String> {
     let before = parse(&case.text).map_err(|e| e.to_string())?;
     validate(&before).map_err(|all| all[0].to_string())?;
     let level = if case.options.iter().any(|o| o == "-O2") { Level::O2 } else { Level::O1 };
     let mut after = before.clone();
-    match case.options.first().map(String::as_str) {
-        Some("all") => {
-            opt::run(&mut after, Options { level, ..Options::default() }).map_err(|e| e.to_string())?;
-        }
-        name => {
-            let pass = opt::find(name.unwrap_or_default()).map_err(|e| e.to_string())?;
-            opt::apply(pass, &mut after, level);
-        }
-    }
+    let passes = match case.options.first().map_or("", String::as_str) {
+        "all" => opt::PASSES.to_vec(),
+        name => vec![opt::find(name).ok_or_else(|| format!("no pass '{name}'"))?],
+    };
+    opt::run(&mut after, &passes, level).map_err(|(pass, first)| format!("{pass}: {first}"))?;
     validate(&after).map_err(|all| format!("broken: {}", all[0]))?;
     claims::check(&case.text, &before)?;
     claims::check(&case.text, &after)?;

@@ -6,7 +6,7 @@ use macroglot::dialect::{Control, Profile, registry};
 use macroglot::ir::eval::{Ending, Memory, Trace, Value, run};
 use macroglot::ir::text::parse;
 use macroglot::ir::{Class, Expr, Module, Var, validate};
-use macroglot::legalize::{Context, PASSES};
+use macroglot::legalize::{Context, pipeline};
 
 /// The operands of the programs: two locals, which may be vacant.
 pub const OPERANDS: [Var; 2] =
@@ -48,7 +48,7 @@ pub fn legalized(
 ) -> (Module, Vec<Diagnostic>) {
     let mut module = module.clone();
     let mut context = Context::new(source, target, module.programs.len());
-    let pass = PASSES.iter().find(|p| p.name == pass).unwrap();
+    let (_, pass) = pipeline::passes().find(|(_, p)| p.name == pass).unwrap();
     pass.apply(&mut module, &mut context);
     validate(&module).unwrap_or_else(|all| panic!("broken: {}\n{module}", all[0]));
     (module, context.into_findings().concat())

@@ -4,7 +4,8 @@ use super::{Expectation, Move, difference, difference_by, expectations, moves};
 use crate::support::root;
 use macroglot::dialect::{Control, Profile, registry};
 use macroglot::ir::Module;
-use macroglot::legalize::{Context, PASSES};
+use macroglot::legalize::Context;
+use macroglot::legalize::pipeline::{self, Pass};
 use macroglot::library::{Conversion, Input, Lock, Options, Outcome, convert};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -52,7 +53,7 @@ fn acting(expectation: &Expectation, source: &Control, target: &Control) -> BTre
     }
     let mut context = Context::new(source, target, module.programs.len());
     let mut acted = BTreeSet::new();
-    for pass in PASSES {
+    for pass in legalization() {
         let before = module.clone();
         pass.apply(&mut module, &mut context);
         if module != before {
@@ -86,11 +87,17 @@ fn of_target(
     }
 }
 
+/// The passes that run before variables have registers.
+fn legalization() -> impl Iterator<Item = &'static Pass> {
+    let passes = pipeline::passes().take_while(|(group, _)| group.name != "tidy-legal");
+    passes.filter(|(group, _)| group.name != "tidy").map(|(_, pass)| pass)
+}
+
 /// The passes of `chain.rs` or `functions/modulo.rs`; none of a file that runs with others.
 fn passes_of(file: &str) -> Vec<&'static str> {
     let first = file.split('/').next().unwrap_or(file).trim_end_matches(".rs").replace('_', "-");
     let named = |name: &&str| *name == first || (first == "chain" && *name == "return-to");
-    PASSES.iter().map(|pass| pass.name).filter(named).collect()
+    legalization().map(|pass| pass.name).filter(named).collect()
 }
 
 #[test]

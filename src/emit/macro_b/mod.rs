@@ -46,9 +46,9 @@ pub struct Style {
 /// Writes programs in the family's text; see [`super::Emit`].
 pub fn emit<'a>(names: &'a Naming, control: &'a Control, style: &'static Style) -> Writer<'a> {
     let spellings = Spellings::of(control);
-    Box::new(move |program| {
+    Box::new(move |valid| {
         let mut emitter = Emitter {
-            program,
+            program: valid.program(),
             names,
             control,
             style,

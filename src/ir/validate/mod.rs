@@ -1,6 +1,6 @@
 //! The validator: what it passes keeps the contract of [`crate::ir`].
 //!
-//! Its product is [`Valid`], which only [`validate`] makes and which emitters take: IR that
+//! Its product is [`Valid`], which only [`Valid::of`] makes and which emitters take: a program that
 //! nobody checked has no type that can be printed in a control's language.
 
 mod block;
@@ -10,14 +10,22 @@ use super::{BlockId, Class, Module, Program, Var};
 use crate::canon::{Func, Group, Role};
 use crate::syntax::ProgramName;
 
-/// A module that keeps the contract.
+/// A program that keeps the contract.
 #[derive(Clone, Copy, Debug)]
-pub struct Valid<'m>(&'m Module);
+pub struct Valid<'p>(&'p Program);
 
-impl std::ops::Deref for Valid<'_> {
-    type Target = Module;
+impl<'p> Valid<'p> {
+    /// Checks a program that stands at `index` in its module.
+    ///
+    /// # Errors
+    /// All breaches.
+    pub fn of(program: &'p Program, index: usize) -> Result<Self, Vec<Invalid>> {
+        let found = breaches(program, index);
+        if found.is_empty() { Ok(Self(program)) } else { Err(found) }
+    }
 
-    fn deref(&self) -> &Module {
+    /// The program.
+    pub fn program(self) -> &'p Program {
         self.0
     }
 }
@@ -108,15 +116,18 @@ pub enum Problem {
     NoLevel,
 }
 
-/// Checks a module. All breaches are listed.
-pub fn validate(module: &Module) -> Result<Valid<'_>, Vec<Invalid>> {
+/// Checks a module.
+///
+/// # Errors
+/// All breaches.
+pub fn validate(module: &Module) -> Result<(), Vec<Invalid>> {
     let mut found = Vec::new();
     module.programs.iter().enumerate().for_each(|(at, program)| found.extend(breaches(program, at)));
-    if found.is_empty() { Ok(Valid(module)) } else { Err(found) }
+    if found.is_empty() { Ok(()) } else { Err(found) }
 }
 
 /// The breaches of one program, which stands at `index` in its module.
-pub fn breaches(program: &Program, index: usize) -> Vec<Invalid> {
+fn breaches(program: &Program, index: usize) -> Vec<Invalid> {
     let mut found = Vec::new();
     let mut check = Check { program, index, block: None, statement: None, found: &mut found };
     if program.blocks.is_empty() {

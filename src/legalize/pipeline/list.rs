@@ -1,0 +1,350 @@
+//! The passes, in the order they run in.
+
+use super::{Group, Pass};
+use crate::canon::{Op, Role};
+use crate::legalize::census::Thing;
+use crate::legalize::{
+    active_offsets, alarms, banks, bare_arcs, beside_moves, blanks, chain, clear, codes, computed_numbers,
+    conditions, constants, cycle_here, cycle_words, dwell, external, facts, functions, heads, increments,
+    kept_length, lathe, length_radius, letters, link, lookahead, machine_codes, matters, messages, missing,
+    modal_calls, modal_off, nesting, offset_rows, operator, outline, oversize, pauses, polar, ports,
+    position_length, probe_points, program_numbers, rapid_once, reference, registers, repeats, retention,
+    set_position, shaped, shift, state, substitutes, tapping, temporaries, tool_word, truth, units, vacancy,
+    vacant_writes,
+};
+use crate::opt::{Branches, Copies, DeadTemps, Fold, Retarget, Unreachable};
+
+/// The passes from lowering to emission.
+pub const GROUPS: &[Group] = &[
+    Group { name: "tidy", heading: "What lowering put in, tidier", passes: TIDY },
+    Group { name: "source", heading: "What the programs rest on at the source", passes: SOURCE },
+    Group {
+        name: "structure",
+        heading: "Programs and subroutines that the target can hold",
+        passes: STRUCTURE,
+    },
+    Group { name: "blocks", heading: "When the codes of a block act", passes: BLOCKS },
+    Group { name: "calls", heading: "Calls, repeats and returns", passes: CALLS },
+    Group { name: "moves", heading: "Moves, coordinates and units", passes: MOVES },
+    Group { name: "variables", heading: "Computed variables and the machine's state", passes: VARIABLES },
+    Group { name: "cycles", heading: "Stops, waits and drilling cycles", passes: CYCLES },
+    Group { name: "codes", heading: "Codes that the target lacks", passes: CODES },
+    Group { name: "expressions", heading: "Expressions that the target can read", passes: EXPRESSIONS },
+    Group { name: "entry", heading: "What must be done at the start of programs", passes: ENTRY },
+    Group { name: "tidy-legal", heading: "What legalization put in, tidier", passes: TIDY_LEGAL },
+    Group { name: "registers", heading: "Registers for all variables of the library", passes: REGISTERS },
+    Group { name: "operator", heading: "What the operator reads and answers", passes: OPERATOR },
+    Group { name: "layout", heading: "Numbers of blocks and programs", passes: LAYOUT },
+];
+
+const TIDY: &[Pass] = &[
+    Pass::tidies(
+        &Copies,
+        "copies",
+        "reads of a temporary that only holds another value become reads of that value",
+    ),
+    Pass::tidies(&Fold, "fold", "values that can be computed here are"),
+    Pass::tidies(
+        &Retarget,
+        "retarget",
+        "a value goes straight to the variable that the temporary was copied to",
+    ),
+    Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps"),
+    Pass::tidies(&Unreachable, "unreachable", "blocks that nothing comes to go"),
+    Pass::tidies(&DeadTemps, "dead-temps", "temporaries that nothing reads go"),
+];
+
+const SOURCE: &[Pass] = &[
+    Pass::reports(
+        "source-facts",
+        "tells unconfirmed facts of the source that vacant variables rest on",
+        facts::of_source,
+    )
+    .when(|c, _| c.has(Thing::Computed)),
+    Pass::reports("lathe", "refuses programs of the other kind of machine", lathe::run).when(lathe::concerns),
+    Pass::reports("matters", "notes what holds only for some values of a run", matters::run)
+        .when(|c, _| matters::concerns(c)),
+];
+
+const STRUCTURE: &[Pass] = &[
+    Pass::rewrites("blanks", "empty blocks of another family go", blanks::run)
+        .when(|_, context| !context.same_family()),
+    Pass::edits("link", "tells calls that leave the library", link::run)
+        .when(|c, _| c.has(Thing::Call) || c.has(Thing::Chain)),
+    Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)
+        .when(|c, _| c.has(Thing::LocalCall))
+        .needs(&["link"])
+        .adds_programs(),
+];
+
+const BLOCKS: &[Pass] = &[
+    Pass::reports("codes", "looks up codes that are known by number only", codes::run)
+        .when(|c, _| c.has(Thing::Code)),
+    Pass::rewrites(
+        "beside-moves",
+        "spindle, coolant and tool change get blocks of their own",
+        beside_moves::run,
+    )
+    .when(|c, _| beside_moves::concerns(c))
+    .needs(&["codes"]),
+    Pass::rewrites("pauses", "what the source ends at a stop is ended before it", pauses::run)
+        .when(|c, context| pauses::concerns(c, &context.entry))
+        .needs(&["beside-moves"]),
+];
+
+const CALLS: &[Pass] = &[
+    Pass::rewrites("chain", "going on in another program becomes a call and an end", chain::chain)
+        .when(|c, _| c.has(Thing::Chain))
+        .needs(&["link"])
+        .changes_flow(),
+    Pass::rewrites("repeats", "repeated moves become loops", repeats::run)
+        .when(|c, _| c.role(Role::Repeat))
+        .changes_flow(),
+    Pass::rewrites("modal-off", "ends of modal calls where none is open go", modal_off::run)
+        .when(|c, context| c.has(Thing::Modal) && !context.same_family())
+        .needs(&["chain"]),
+    Pass::rewrites("modal-calls", "modal calls become a call after each move", modal_calls::run)
+        .when(|c, _| c.has(Thing::Modal))
+        .adds_programs()
+        .needs(&["outline", "repeats", "modal-off"]),
+    // The calls that modal calls become must look at the register too.
+    Pass::rewrites(
+        "return-to",
+        "returns to a sequence number go by a register that the caller looks at",
+        chain::return_to,
+    )
+    .when(|c, _| c.has(Thing::ReturnTo))
+    .needs(&["modal-calls"])
+    .changes_flow(),
+    Pass::reports("nesting", "tells calls that nest deeper than the target takes", nesting::run)
+        .when(|c, _| c.has(Thing::Call) || c.has(Thing::LocalCall))
+        .needs(&["outline", "chain", "modal-calls"]),
+];
+
+const MOVES: &[Pass] = &[
+    Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
+        .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
+    Pass::reports("bare-arcs", "looks at arcs without centre or radius", bare_arcs::run)
+        .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
+    Pass::reports(
+        "active-offsets",
+        "looks at work offsets that are written while selected",
+        active_offsets::run,
+    )
+    .when(|c, _| c.has(Thing::System)),
+    Pass::reports("set-position", "looks at work offsets selected after a set position", set_position::run)
+        .when(|c, context| c.op(Op::SetPosition) && c.op(Op::SelectWork) && !context.same_family()),
+    Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
+        .when(|c, _| c.has(Thing::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
+    Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
+        .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
+    Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
+        .when(|c, _| c.has(Thing::Increments)),
+    Pass::edits("units", "programs that name no unit are told it", units::run)
+        .when(units::concerns)
+        .needs(&["increments", "modal-calls"]),
+    Pass::rewrites(
+        "rapid-once",
+        "the interpolation is said again after a rapid move that keeps it",
+        rapid_once::run,
+    )
+    .when(|c, _| c.op(Op::RapidOnce)),
+    Pass::rewrites(
+        "length-radius",
+        "radii that a tool length picks stay where they count",
+        length_radius::run,
+    )
+    .when(|c, _| c.role(Role::RadiusOffset)),
+    Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
+    Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)
+        .when(|c, _| c.op(Op::ReferenceReturn)),
+    Pass::rewrites("kept-length", "the tool length after a return is said outright", kept_length::run)
+        .when(|c, _| {
+            c.role(Role::LengthOffset)
+                && c.any_op(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce))
+        })
+        .needs(&["reference", "increments"]),
+    Pass::rewrites(
+        "shift",
+        "moves under a cancelled zero shift become moves in machine coordinates",
+        shift::run,
+    )
+    .when(|c, _| c.op(Op::ShiftCancel))
+    .needs(&["modal-calls"]),
+];
+
+const VARIABLES: &[Pass] = &[
+    Pass::reports("banks", "looks up computed numbers of a space of their own", banks::run)
+        .when(|c, _| c.has(Thing::Indirect)),
+    Pass::edits(
+        "computed-numbers",
+        "computed numbers of variables reach what they reached",
+        computed_numbers::run,
+    )
+    .when(|c, _| c.has(Thing::Indirect)),
+    Pass::rewrites(
+        "vacant-writes",
+        "words that may be vacant stay away from tables in diameters",
+        vacant_writes::run,
+    )
+    .when(|c, _| (c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear)) && c.has(Thing::Variable))
+    .changes_flow(),
+    Pass::rewrites("probe-points", "touch points by number are kept in registers", probe_points::run)
+        .changes_flow()
+        .when(|c, _| c.role(Role::ProbePoint)),
+    Pass::rewrites("position-length", "positions hold the tool length as they did", position_length::run)
+        .when(|c, _| c.has(Thing::System) || c.has(Thing::Indirect))
+        .needs(&["computed-numbers"]),
+    Pass::reports("tool-word", "looks whether the last tool word is the tool in the spindle", tool_word::run)
+        .when(|c, _| c.has(Thing::System)),
+    Pass::rewrites(
+        "offset-rows",
+        "work offsets by a computed number are found in the target's runs",
+        offset_rows::run,
+    )
+    .when(|c, _| c.has(Thing::System))
+    .changes_flow(),
+    Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
+        .when(|c, _| c.has(Thing::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
+        .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows"]),
+];
+
+const CYCLES: &[Pass] = &[
+    Pass::reports("alarms", "looks at alarm numbers that the target does not take", alarms::run)
+        .when(|c, _| c.has(Thing::Message)),
+    Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
+        .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
+    Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)
+        .when(|c, _| c.has(Thing::Wait) || c.has(Thing::Emptied)),
+    Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
+        .when(|c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere)),
+    Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
+        .when(|c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)))
+        .needs(&["dwell", "cycle-here"]),
+];
+
+const CODES: &[Pass] = &[
+    Pass::each("substitutes", "operations become near relatives, for review", substitutes::run)
+        .when(|c, _| substitutes::concerns(c)),
+    Pass::each("machine-codes", "a block has no more M codes than the target takes", machine_codes::run)
+        .when(machine_codes::concerns)
+        .needs(&["substitutes", "beside-moves", "pauses"]),
+    // What is left without a row in the target's table is refused.
+    Pass::each("missing", "refuses operations that the target has no code for", missing::run)
+        .when(missing::concerns)
+        .needs(&[
+            "substitutes",
+            "machine-codes",
+            "polar",
+            "shift",
+            "rapid-once",
+            "tapping",
+            "state",
+            "cycle-words",
+        ]),
+];
+
+const EXPRESSIONS: &[Pass] = &[
+    Pass::each("functions", "functions and operators become those of the target", functions::run)
+        .when(|c, _| c.has(Thing::Function))
+        .changes_flow(),
+    Pass::each("truth", "comparisons as values become branches", truth::run)
+        .when(truth::concerns)
+        .needs(&["functions"])
+        .changes_flow(),
+    Pass::each("conditions", "AND, OR and NOT of conditions become branches", conditions::run)
+        .when(|c, _| c.has(Thing::Compound))
+        .needs(&["truth"])
+        .changes_flow(),
+    Pass::each("constants", "constants of many digits become sums", constants::run)
+        .when(|c, _| c.has(Thing::Long))
+        .needs(&["functions"]),
+    Pass::each("printed-values", "values to be printed go to temporaries", operator::hold_values)
+        .when(|c, _| c.has(Thing::Print)),
+    Pass::each("oversize", "expressions are cut to the target's brackets and line", oversize::run)
+        .when(|c, _| c.has(Thing::Computed))
+        .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
+];
+
+const ENTRY: &[Pass] = &[
+    Pass::rewrites("ports", "output ports are opened and closed", ports::run)
+        .when(|c, _| c.has(Thing::Output)),
+    Pass::rewrites("vacancy", "variables that are never vacant are set to 0 if they are", vacancy::run)
+        .when(vacancy::concerns)
+        .changes_flow(),
+];
+
+/// Only passes that keep a module such as the target can say it.
+const TIDY_LEGAL: &[Pass] = &[
+    Pass::tidies(&Fold, "fold", "values that can be computed here are"),
+    Pass::tidies(
+        &Retarget,
+        "retarget",
+        "a value goes straight to the variable that the temporary was copied to",
+    ),
+    Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps"),
+    Pass::tidies(&Unreachable, "unreachable", "blocks that nothing comes to go"),
+    Pass::tidies(&DeadTemps, "dead-temps", "temporaries that nothing reads go"),
+];
+
+// What these put in, they put in for something that stood there before.
+const REGISTERS: &[Pass] = &[
+    Pass::rewrites("temporaries", "temporaries that are never alive together share one", temporaries::run)
+        .when(|c, _| c.has(Thing::Temp))
+        .brings_nothing(),
+    Pass::rewrites("registers", "every variable gets its register", registers::run)
+        .needs(&["temporaries", "computed-numbers"])
+        .brings_nothing(),
+    Pass::reports(
+        "reached",
+        "tells computed numbers that reach a register of another variable",
+        computed_numbers::report,
+    )
+    .needs(&["registers"]),
+    Pass::rewrites("clear", "clearing of a class becomes zeros and loops", clear::run)
+        .when(clear::concerns)
+        .needs(&["registers"])
+        .brings_nothing()
+        .changes_flow(),
+    Pass::reports("retention", "tells variables that one control keeps over power-off", retention::run)
+        .needs(&["registers"]),
+];
+
+const OPERATOR: &[Pass] = &[
+    Pass::rewrites(
+        "letters",
+        "letters that the target may not show become what looks like them",
+        letters::run,
+    )
+    .brings_nothing(),
+    // A question names its register, and takes up the print before it.
+    Pass::rewrites(
+        "questions",
+        "questions become stops at which the operator sets the register",
+        operator::questions,
+    )
+    .when(|c, _| c.has(Thing::Input))
+    .needs(&["registers", "letters"])
+    .brings_nothing(),
+    Pass::rewrites("prints", "prints become formatted output", operator::prints)
+        .when(|c, _| c.has(Thing::Print))
+        .needs(&["questions", "letters"])
+        .brings_nothing(),
+    Pass::rewrites("messages", "messages are cut to what the target shows", messages::run)
+        .when(|c, _| c.has(Thing::Message) || c.has(Thing::Input))
+        .needs(&["questions"])
+        .brings_nothing(),
+];
+
+const LAYOUT: &[Pass] = &[
+    Pass::rewrites("heads", "sequence numbers stand at the head of what became of their blocks", heads::run)
+        .brings_nothing(),
+    Pass::reports(
+        "target-facts",
+        "tells unconfirmed facts of the target that programs rest on",
+        facts::of_target,
+    )
+    .needs(&["missing", "oversize", "registers", "prints", "messages"]),
+    Pass::reports("program-numbers", "every program gets a number of the target", program_numbers::run)
+        .needs(&["outline", "chain"]),
+];

@@ -1,0 +1,167 @@
+//! A library of one lowered module through the passes and the emitter, and what was written read back.
+
+use super::Lock;
+use super::names::naming;
+use super::refused_calls::{self, Link};
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::dialect::Control;
+use crate::emit::{Emitted, Writer};
+use crate::ir::analysis::Numbers;
+use crate::ir::validate::Invalid;
+use crate::ir::{Module, Valid};
+use crate::legalize::{Context, Locked, Modal, pipeline};
+use crate::opt;
+use crate::syntax::parse_faults;
+use crate::text::Span;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// A library through the passes, by program of the source.
+pub(super) struct Made {
+    pub found: Vec<Vec<Diagnostic>>,
+    pub parts: Vec<Vec<Emitted>>,
+    pub lock: Lock,
+    pub taken: Numbers,
+    pub links: Vec<Link>,
+}
+
+pub(super) fn make(
+    mut module: Module,
+    mut found: Vec<Vec<Diagnostic>>,
+    source: &Control,
+    target: &Control,
+    mut lock: Lock,
+    level: opt::Level,
+    entry: Modal,
+) -> Made {
+    let count = module.programs.len();
+    let mut context = context(&found, source, target, level, lock.locked(), entry);
+    let fault = pipeline::run(&mut module, &mut context).err();
+    let registers = std::mem::take(&mut context.registers);
+    let numbers = std::mem::take(&mut context.numbers);
+    let origins = std::mem::take(&mut context.origins);
+    let legal = context.into_findings();
+    lock.take(&registers, numbers.chosen);
+    let taken = Numbers::of(registers.taken().map(|number| (number, number)));
+    let mut naming = naming(&module, &registers, &numbers.of);
+    found.resize_with(count, Vec::new);
+    found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
+    let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];
+    if let Some(fault) = fault {
+        found.iter_mut().for_each(|all| {
+            all.push(Diagnostic::new(Code::Internal, Span::default(), fault.to_string()));
+        });
+    }
+    // A return to any block must not find one that is numbered here: it stops before, where there is such a block.
+    if let (Some(floor), Some(emit)) = (naming.returns_floor(target.text().sequence_max), target.entry().emit)
+    {
+        let write = emit(&naming, target);
+        let invents = |(at, program)| {
+            Valid::of(program, at).is_ok_and(|valid| write(valid).is_ok_and(|made| made.invents))
+        };
+        if module.programs.par_iter().enumerate().any(invents) {
+            drop(write);
+            naming.set_guard(floor);
+        }
+    }
+    let write = target.entry().emit.map(|emit| emit(&naming, target));
+    let links = refused_calls::links(&module, &origins);
+    // Each program is checked when it is at hand, and dropped when it is written.
+    let programs = std::mem::take(&mut module.programs);
+    let emitted = programs.into_par_iter().enumerate().map(|(at, program)| {
+        let findings = origins.get(at).and_then(|origin| found.get(*origin)).map_or(&[][..], Vec::as_slice);
+        Valid::of(&program, at).map(|valid| emit(valid, write.as_ref(), target, findings))
+    });
+    let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
+    let broken: Vec<String> =
+        emitted.iter().filter_map(|made| made.as_ref().err()).flatten().map(ToString::to_string).collect();
+    if broken.is_empty() {
+        for (origin, result) in origins.into_iter().zip(emitted.into_iter().flatten()) {
+            match result {
+                Ok(mut text) => {
+                    found[origin].append(&mut text.findings);
+                    parts[origin].push(text);
+                }
+                Err(diagnostics) => found[origin].extend(diagnostics),
+            }
+        }
+        refused_calls::report(&links, &mut found);
+    } else {
+        // What one program of a library is broken by may have touched the others.
+        for all in &mut found {
+            all.push(Diagnostic::new(Code::Internal, Span::default(), broken.join("; ")));
+        }
+    }
+    Made { found, parts, lock, taken, links }
+}
+
+/// What the passes are given, for a library in which this was found when it was lowered.
+pub(super) fn context<'a>(
+    found: &[Vec<Diagnostic>],
+    source: &'a Control,
+    target: &'a Control,
+    level: opt::Level,
+    locked: Locked<'a>,
+    entry: Modal,
+) -> Context<'a> {
+    let mut context = Context::new(source, target, found.len());
+    (context.entry, context.level, context.locked) = (entry, level, locked);
+    let fault = |d: &&Diagnostic| d.severity() == Severity::Error;
+    context.faults = found.iter().map(|list| list.iter().filter(fault).map(|d| d.span).collect()).collect();
+    context
+}
+
+/// Adds findings but for facts of the source that lowering has told already.
+pub(super) fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
+    let facts = all.iter().filter(|finding| finding.code == Code::UnconfirmedFact);
+    let told: BTreeSet<Arc<str>> = facts.map(|finding| finding.message.clone()).collect();
+    let is_told = |d: &Diagnostic| d.code == Code::UnconfirmedFact && told.contains(&d.message);
+    all.reserve_exact(more.len());
+    all.extend(more.into_iter().filter(|finding| !is_told(finding)));
+}
+
+/// Emits a program, and reads the text back: what the target's own grammar refuses is never written, but for what
+/// `findings` tell of the source, which is an alarm there too.
+fn emit(
+    program: Valid<'_>,
+    write: Option<&Writer<'_>>,
+    target: &Control,
+    findings: &[Diagnostic],
+) -> Result<Emitted, Vec<Diagnostic>> {
+    let Some(write) = write else {
+        let what = format!("programs cannot be written for {}", target.dialect().title);
+        return Err(vec![Diagnostic::new(Code::NoEquivalent, program.program().site.span, what)]);
+    };
+    let mut emitted = write(program)?;
+    emitted.text.shrink_to_fit();
+    emitted.blocks.shrink_to_fit();
+    let entry = target.entry();
+    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), entry.parse, entry.is_sound)
+        .into_iter()
+        .filter(|fault| fault.code.severity() == Severity::Error)
+        .filter_map(|fault| {
+            let at = fault.span.start as usize;
+            let source = emitted.blocks.iter().find(|(_, range)| range.contains(&at)).map(|(span, _)| *span);
+            let line = emitted.text[..at.min(emitted.text.len())].rfind('\n').map_or(0, |i| i + 1);
+            let line = emitted.text[line..].lines().next().unwrap_or_default();
+            let (code, what) = match fault.code {
+                Code::DivisionByZero | Code::FunctionDomain if alarms_in(findings, source) => return None,
+                // Constants that were computed out of the domain: so would they be on the machine.
+                Code::DivisionByZero | Code::FunctionDomain => (fault.code, "this would become"),
+                _ => (Code::Internal, "the target would not read"),
+            };
+            let what = format!("{what} '{line}': {}", fault.message);
+            Some(Diagnostic::new(code, source.unwrap_or(program.program().site.span), what))
+        })
+        .collect();
+    if faults.is_empty() { Ok(emitted) } else { Err(faults) }
+}
+
+/// True where the source has an alarm behind a condition in this block.
+fn alarms_in(findings: &[Diagnostic], block: Option<Span>) -> bool {
+    let inside = |block: Span, span: Span| block.start <= span.start && span.end <= block.end;
+    findings.iter().any(|finding| {
+        finding.code == Code::AlarmIfRun && block.is_some_and(|block| inside(block, finding.span))
+    })
+}
