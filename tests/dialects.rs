@@ -1,7 +1,7 @@
 //! The shipped tables and machine profiles load, and say what the manuals say.
 
 use macroglot::canon::{Func, Op, Role, Sys};
-use macroglot::dialect::{BareLength, Control, faults_as_text, matrix, page, registry};
+use macroglot::dialect::{BareLength, Control, Question, faults_as_text, matrix, page, registry};
 
 #[test]
 fn every_table_loads() {
@@ -178,8 +178,8 @@ fn fanuc_codes_are_those_of_the_manual() {
     assert!(mill.variable_class("#", 34).is_none());
     assert_eq!(mill.function(Func::Atan, 2).unwrap().form.as_deref(), Some("slash"));
     assert_eq!(mill.function_named("sqr").unwrap().function, Func::Sqrt);
-    assert!(!mill.is("vacant.eq.zero"));
-    assert!(mill.is("mod.rounds.operands"));
+    assert!(!mill.is(Question::VacantEqZero));
+    assert!(mill.is(Question::ModRoundsOperands));
     assert!(mill.operator("modulo").unwrap().rank > mill.operator("add").unwrap().rank);
 }
 
@@ -208,11 +208,11 @@ fn the_0i_profile_calls_the_seminars_programs() {
 #[test]
 fn parameters_change_behaviours() {
     let nat = |value: u8| profile(&format!("dialect = \"fanuc\"\n[parameters]\n6004.0 = {value}"));
-    assert_eq!(nat(0).behaviour("atan2.range").unwrap().value, "0..360");
-    assert_eq!(nat(1).behaviour("atan2.range").unwrap().value, "-180..180");
-    assert_eq!(nat(1).behaviour("asin.range").unwrap().value, "-90..90");
-    assert!(!profile("dialect = \"fanuc\"\n[parameters]\n6008.7 = 1").is("arguments.order.ijk"));
-    assert!(!profile("dialect = \"fanuc\"\n[parameters]\n6000.4 = 1").is("goto.forward.first"));
+    assert_eq!(nat(0).behaviour(Question::Atan2Range).unwrap().value, "0..360");
+    assert_eq!(nat(1).behaviour(Question::Atan2Range).unwrap().value, "-180..180");
+    assert_eq!(nat(1).behaviour(Question::AsinRange).unwrap().value, "-90..90");
+    assert!(!profile("dialect = \"fanuc\"\n[parameters]\n6008.7 = 1").is(Question::ArgumentsOrderIjk));
+    assert!(!profile("dialect = \"fanuc\"\n[parameters]\n6000.4 = 1").is(Question::GotoForwardFirst));
     assert_eq!(profile("dialect = \"fanuc\"\n[parameters]\n6008.0 = 1").numbers().arithmetic, "decimal8");
     assert_eq!(profile("dialect = \"haas\"\n[settings]\n162 = 1").bare_length(), BareLength::Units);
 }
@@ -227,9 +227,9 @@ fn profiles_state_options_variables_and_facts() {
     let few = profile("dialect = \"fanuc\"\nvariables = [\"#100-#120\"]");
     assert!(few.variable_class("#", 120).is_some() && few.variable_class("#", 121).is_none());
     let fact = "behaviour:m99.p.jumps.here";
-    assert!(!control("fanuc").behaviour("m99.p.jumps.here").unwrap().origin.confirmed);
+    assert!(!control("fanuc").behaviour(Question::M99PJumpsHere).unwrap().origin.confirmed);
     let sure = profile(&format!("dialect = \"fanuc\"\nconfirm = [\"{fact}\"]"));
-    assert!(sure.behaviour("m99.p.jumps.here").unwrap().origin.confirmed);
+    assert!(sure.behaviour(Question::M99PJumpsHere).unwrap().origin.confirmed);
     let site =
         profile("dialect = \"cc100\"\n[[site]]\ncode = \"M20\"\nop = \"spindle.cw\"\ntext = \"drill on\"");
     means(&site, "M20", Op::SpindleCw);
@@ -238,12 +238,13 @@ fn profiles_state_options_variables_and_facts() {
 #[test]
 fn what_rests_on_an_unstated_setting_is_unconfirmed() {
     let plain = control("fanuc");
-    let range = plain.behaviour("atan2.range").unwrap();
+    let range = plain.behaviour(Question::Atan2Range).unwrap();
     assert!(!range.origin.confirmed && range.origin.note.as_ref().unwrap().contains("parameter.6004.0"));
     let stated = profile("dialect = \"fanuc\"\n[parameters]\n6004.0 = 0");
-    assert!(stated.behaviour("atan2.range").unwrap().origin.confirmed);
+    assert!(stated.behaviour(Question::Atan2Range).unwrap().origin.confirmed);
     assert!(
-        !stated.is("goto.forward.first") || !stated.behaviour("goto.forward.first").unwrap().origin.confirmed
+        !stated.is(Question::GotoForwardFirst)
+            || !stated.behaviour(Question::GotoForwardFirst).unwrap().origin.confirmed
     );
     let haas = |text: &str| profile(text).code('G', 52.0, &[]).unwrap().origin.confirmed;
     assert!(!haas("dialect = \"haas\""));
@@ -312,8 +313,12 @@ fn haas_tables_are_those_of_the_class() {
     holds(&haas, "#", Some(7382), Sys::WorkOffset, &[120, Y]); // G129
     assert_eq!(haas.variable_class("#", 100).unwrap().retained, Some(true));
     assert!(haas.variable_class("#", 700).is_none());
-    assert!(haas.is("m99.p.jumps.here") && haas.is("comparison.is.value") && haas.is("then.words"));
-    assert_eq!(haas.behaviour("m.codes.per.block").unwrap().value, "1");
+    assert!(
+        haas.is(Question::M99PJumpsHere)
+            && haas.is(Question::ComparisonIsValue)
+            && haas.is(Question::ThenWords)
+    );
+    assert_eq!(haas.behaviour(Question::MCodesPerBlock).unwrap().value, "1");
     let alias = profile("dialect = \"haas\"\n[parameters]\n82 = 50\n91 = 200");
     assert_eq!(alias.alias('M', 50.0).map(|a| (a.program, a.arguments)), Some((9001, false)));
     assert_eq!(alias.alias('G', 200.0).map(|a| (a.program, a.arguments)), Some((9010, true)));
@@ -410,10 +415,10 @@ fn cc100_tables_are_those_of_the_course() {
     assert_eq!(cc.letter_class("V", 'Z').unwrap().class, "letter");
     assert_eq!(cc.variable_class("V", 99).unwrap().class, "common");
     assert!(cc.variable_class("V", 100).is_none());
-    assert!(cc.is("condition.register"));
-    assert_eq!(cc.behaviour("angle.limit").unwrap().value, "360");
-    assert_eq!(cc.behaviour("arc.radius.negative").unwrap().value, "short");
-    assert_eq!(cc.behaviour("repeat.counts").unwrap().value, "extra");
+    assert!(cc.is(Question::ConditionRegister));
+    assert_eq!(cc.behaviour(Question::AngleLimit).unwrap().value, "360");
+    assert_eq!(cc.behaviour(Question::ArcRadiusNegative).unwrap().value, "short");
+    assert_eq!(cc.behaviour(Question::RepeatCounts).unwrap().value, "extra");
     assert_eq!(cc.limit("operators"), Some(1));
     holds(&cc, "COR R", Some(10), Sys::RadiusGeometry, &[10]);
     holds(&cc, "TRF=G54 X", None, Sys::WorkOffset, &[1, X]);

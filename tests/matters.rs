@@ -3,10 +3,10 @@
 mod support;
 
 use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario, trace::Happening};
-use macroglot::dialect::{Control, Profile, matters, registry};
+use macroglot::dialect::{Control, Profile, Question, matters, registry};
 use macroglot::syntax::parse_file;
 use std::collections::BTreeSet;
-use support::{rust_files, text};
+use support::{asks, rust_files, text};
 
 /// The string literals behind a call of these names.
 fn literals(text: &str, calls: &[&str]) -> Vec<String> {
@@ -24,10 +24,8 @@ fn named() -> BTreeSet<String> {
     let mut all = BTreeSet::new();
     for (path, text) in rust_files("src/control").into_iter().filter(|(path, _)| !path.contains("tests")) {
         all.extend(literals(&text, &[".doubt("]));
-        let behaviours =
-            [".rest_on(", "yes(control,", "fact(control,", "Answer::new(control,", "rest_on_behaviour("];
-        let names = literals(&text, &behaviours).into_iter();
-        all.extend(names.filter(|name| !name.is_empty()).map(|name| format!("behaviour:{name}")));
+        let asked = Question::ALL.iter().filter(|question| asks(&text, **question));
+        all.extend(asked.map(|question| question.fact().to_owned()));
         assert!(!text.contains("doubt(format"), "{path}: a fact has a name that stands in the source");
     }
     all

@@ -24,18 +24,6 @@ impl Auxiliary {
     pub const ALL: [Self; 6] =
         [Self::Change, Self::Speed, Self::Forward, Self::Start, Self::Other, Self::Stop];
 
-    /// The question of behaviour that asks when it acts.
-    pub const fn question(self) -> &'static str {
-        match self {
-            Self::Change => "m.change.acts",
-            Self::Speed => "s.acts",
-            Self::Forward => "m.forward.acts",
-            Self::Start => "m.start.acts",
-            Self::Other => "m.other.acts",
-            Self::Stop => "m.stop.acts",
-        }
-    }
-
     /// True for what waits for the move where nothing else is known: what stops or changes something.
     pub const fn waits(self) -> bool {
         matches!(self, Self::Change | Self::Other | Self::Stop)

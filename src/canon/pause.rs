@@ -30,18 +30,4 @@ impl Running {
 impl Pause {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Stop, Self::Message, Self::Change, Self::End];
-
-    /// The question of behaviour that asks whether it stops what is running.
-    pub const fn question(self, running: Running) -> &'static str {
-        match (self, running) {
-            (Self::Stop, Running::Spindle) => "stop.ends.spindle",
-            (Self::Stop, Running::Coolant) => "stop.ends.coolant",
-            (Self::Message, Running::Spindle) => "message.ends.spindle",
-            (Self::Message, Running::Coolant) => "message.ends.coolant",
-            (Self::Change, Running::Spindle) => "change.ends.spindle",
-            (Self::Change, Running::Coolant) => "change.ends.coolant",
-            (Self::End, Running::Spindle) => "end.ends.spindle",
-            (Self::End, Running::Coolant) => "end.ends.coolant",
-        }
-    }
 }

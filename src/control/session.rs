@@ -9,7 +9,7 @@ use super::trace::{Happening, Place, Program, Trace};
 use super::words::Increments;
 use crate::canon::{Op, Pause};
 use crate::diag::Severity;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::syntax::{Block, ItemKind, ProgramName};
 use crate::text::Span;
 use std::collections::{BTreeMap, HashMap};
@@ -225,7 +225,7 @@ impl<'r, 'f> Session<'r, 'f> {
     /// The least increments that computed words are rounded to where the scenario has it so and no source says whether
     /// they are, in the units in force.
     pub fn unstated_increments(&self) -> Option<Increments> {
-        let stated = self.control.behaviour("word.rounds.to.increment");
+        let stated = self.control.behaviour(Question::WordRoundsToIncrement);
         if !self.scenario.rounds_words || stated.is_some_and(|row| row.value != "unknown") {
             return None;
         }
@@ -240,17 +240,17 @@ impl<'r, 'f> Session<'r, 'f> {
     }
 
     /// Notes an answer to a question of behaviour that mattered, where nobody confirmed it.
-    pub fn rest_on(&mut self, behaviour: &str) {
-        match self.control.behaviour(behaviour) {
+    pub fn rest_on(&mut self, question: Question) {
+        match self.control.behaviour(question) {
             Some(row) if row.origin.confirmed => {}
-            _ => self.trace.doubt(&format!("behaviour:{behaviour}")),
+            _ => self.trace.doubt(question.fact()),
         }
     }
 
     /// The halt of a jump to a label or number that no block has, on a control of which no source says that it is an
     /// alarm.
     pub fn no_label(&mut self, text: &str) -> Halt {
-        self.rest_on("goto.missing.alarms");
+        self.rest_on(Question::GotoMissingAlarms);
         Halt::Alarm(Stop::no_label("", text))
     }
 

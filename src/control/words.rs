@@ -5,7 +5,7 @@ use super::outcome::Stop;
 use super::session::Session;
 use super::trace::Trace;
 use crate::canon::{Group, Op, Role};
-use crate::dialect::{CodeMeaning, Control};
+use crate::dialect::{CodeMeaning, Control, Question};
 use smallvec::SmallVec;
 
 /// A word whose value is known.
@@ -166,12 +166,12 @@ fn value<'c>(
         read.command.ops.extend(usual.op);
     }
     let mut value = control.canonical(row, role, word.value);
-    if role == Role::Speed && control.is("spindle.range.suffix") {
+    if role == Role::Speed && control.is(Question::SpindleRangeSuffix) {
         // The fraction picks the gear range.
         value = value.trunc();
     }
     if role.is_integer() && value.fract() != 0.0 {
-        if let Some(row) = control.behaviour("integer.word.rounds") {
+        if let Some(row) = control.behaviour(Question::IntegerWordRounds) {
             trace.rest_on(row);
         }
         value = value.round();

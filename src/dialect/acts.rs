@@ -1,13 +1,13 @@
 //! When a control does what stands beside a move.
 
-use super::Control;
+use super::{Control, Question};
 use crate::canon::{Auxiliary, Pause, Running};
 
 /// When something acts that stands beside a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Acts {
     /// The question that asks for it.
-    pub question: &'static str,
+    pub question: Question,
     /// True when the move is done, false with its start: as the table has it, or as in the trade.
     pub late: bool,
     /// True where a source says so.
@@ -19,20 +19,33 @@ impl Control {
     pub fn acts(&self, kind: Auxiliary) -> Acts {
         // Few controls tell the spindle's two directions apart.
         let kind = match kind {
-            Auxiliary::Forward if self.behaviour(kind.question()).is_none() => Auxiliary::Start,
+            Auxiliary::Forward if self.behaviour(Question::MForwardActs).is_none() => Auxiliary::Start,
             kind => kind,
         };
-        let row = self.behaviour(kind.question());
+        let question = when(kind);
+        let row = self.behaviour(question);
         let late = row.and_then(|row| match row.value.as_str() {
             "start" => Some(false),
             "end" => Some(true),
             _ => None,
         });
         Acts {
-            question: kind.question(),
+            question,
             late: late.unwrap_or(kind.waits()),
             known: late.is_some() && row.is_some_and(|row| row.origin.confirmed),
         }
+    }
+}
+
+/// The question that asks when an operation of a kind acts.
+const fn when(kind: Auxiliary) -> Question {
+    match kind {
+        Auxiliary::Change => Question::MChangeActs,
+        Auxiliary::Speed => Question::SActs,
+        Auxiliary::Forward => Question::MForwardActs,
+        Auxiliary::Start => Question::MStartActs,
+        Auxiliary::Other => Question::MOtherActs,
+        Auxiliary::Stop => Question::MStopActs,
     }
 }
 
@@ -40,7 +53,7 @@ impl Control {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ends {
     /// The question that asks for it.
-    pub question: &'static str,
+    pub question: Question,
     /// The answer; none where nobody knows.
     pub answer: Option<bool>,
     /// True where a source says so.
@@ -50,10 +63,26 @@ pub struct Ends {
 impl Control {
     /// Whether a stop of this control ends what is running then.
     pub fn ends(&self, pause: Pause, running: Running) -> Ends {
-        let question = pause.question(running);
+        let question = Question::ends(pause, running);
         let row = self.behaviour(question);
         let answer = row.and_then(|row| row.value.parse().ok());
         let known = answer.is_some() && row.is_some_and(|row| row.origin.confirmed);
         Ends { question, answer, known }
+    }
+}
+
+impl Question {
+    /// The question that asks whether a stop ends what is running.
+    pub const fn ends(pause: Pause, running: Running) -> Self {
+        match (pause, running) {
+            (Pause::Stop, Running::Spindle) => Question::StopEndsSpindle,
+            (Pause::Stop, Running::Coolant) => Question::StopEndsCoolant,
+            (Pause::Message, Running::Spindle) => Question::MessageEndsSpindle,
+            (Pause::Message, Running::Coolant) => Question::MessageEndsCoolant,
+            (Pause::Change, Running::Spindle) => Question::ChangeEndsSpindle,
+            (Pause::Change, Running::Coolant) => Question::ChangeEndsCoolant,
+            (Pause::End, Running::Spindle) => Question::EndEndsSpindle,
+            (Pause::End, Running::Coolant) => Question::EndEndsCoolant,
+        }
     }
 }

@@ -4,8 +4,8 @@
 use super::overlay;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Function, InUse, Limit, Operator, Row, Setting, Statement,
-    SystemVariable, VariableClass, WordMeaning, behaviours,
+    Argument, Behaviour, CodeMeaning, Function, InUse, Limit, Operator, Question, Row, Setting, Statement,
+    SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
 
@@ -31,14 +31,14 @@ pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.operators, |row| format!("{} {}", row.spelling, row.meaning));
     duplicates(reader, &tables.functions, |row| format!("{}/{}", row.spelling, row.arguments));
     duplicates(reader, &tables.statements, |row| row.name.clone());
-    duplicates(reader, &tables.behaviours, |row| row.name.clone());
+    duplicates(reader, &tables.behaviours, |row| row.question.name().into());
     duplicates(reader, &tables.arguments, |row| row.letter.to_string());
     duplicates(reader, &tables.arguments, |row| format!("local {}", row.local));
     duplicates(reader, &tables.settings, |row| row.name.clone());
     duplicates(reader, &tables.words, |row| format!("{} {:?} {:?}", row.letter, row.machine, row.when));
     operators(reader, &tables.operators);
     names(reader, tables);
-    known_behaviours(reader, &tables.behaviours);
+    answers(reader, &tables.behaviours);
     settings(reader, tables);
     variables(reader, &tables.variables);
     free_or_system(reader, tables);
@@ -149,26 +149,13 @@ fn operators(reader: &mut Reader, rows: &[Placed<Operator>]) {
     }
 }
 
-fn known_behaviours(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
+/// Every answer is one that its question may have.
+fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
     for placed in rows {
-        let row = &placed.row;
-        match behaviours::find(&row.name) {
-            None => {
-                let near = closest(&row.name, behaviours::ALL.iter().map(|known| known.name));
-                let help = near.map_or("add it to src/dialect/behaviours.rs first".into(), |near| {
-                    format!("did you mean '{near}'?")
-                });
-                reader.fault(placed.place.clone(), format!("no behaviour is named '{}'", row.name), help);
-            }
-            Some(known) if !known.admits(&row.value) => {
-                let help = format!("it is one of {}", known.values.join(", "));
-                reader.fault(
-                    placed.place.clone(),
-                    format!("'{}' is no value of {}", row.value, row.name),
-                    help,
-                );
-            }
-            Some(_) => {}
+        let Behaviour { question, value, .. } = &placed.row;
+        if !question.answers().admits(value) {
+            let message = format!("'{value}' is no value of {question}");
+            reader.fault(placed.place.clone(), message, format!("it is {}", question.answers()));
         }
     }
 }
@@ -243,7 +230,9 @@ fn settings(reader: &mut Reader, tables: &Tables) {
         }
         for (target, value) in row.sets.values().flatten() {
             let known = match target.split_once(':') {
-                Some(("behaviour", name)) => behaviours::find(name).is_some_and(|known| known.admits(value)),
+                Some(("behaviour", name)) => {
+                    Question::find(name).is_some_and(|known| known.answers().admits(value))
+                }
                 Some(("limit", name)) => tables.limits.iter().any(|limit| limit.row.name == name),
                 Some(("numbers", "bare_length" | "bare_argument" | "bare_feed" | "arithmetic")) => true,
                 Some(("numbers", "feed_parts")) => value.parse().is_ok_and(|parts: f64| parts >= 1.0),

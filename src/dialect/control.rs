@@ -3,8 +3,8 @@
 use super::control_codes::{Alias, address, aliases};
 use super::profile::{Machine, Profile, Units, VariableRun};
 use super::{
-    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Setting,
-    Statement, Text, VariableClass,
+    BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Function, Limit, Numbers, Operator, Question,
+    Setting, Statement, Text, VariableClass,
 };
 use crate::canon::{Func, Op, Sys};
 use foldhash::{HashMap, HashMapExt};
@@ -31,7 +31,8 @@ pub struct Control {
     pub(super) states: HashMap<Sys, Vec<usize>>,
     /// The codes that call programs, by letter and number.
     pub(super) aliases: Vec<(char, f64, Alias)>,
-    behaviours: HashMap<String, usize>,
+    /// The row of each question, by its place in [`Question::ALL`].
+    behaviours: Vec<Option<usize>>,
 }
 
 impl Control {
@@ -63,9 +64,12 @@ impl Control {
             states.entry(row.state).or_default().push(at);
         }
         let aliases = aliases(&dialect, &settings);
-        // Reversed, so that the first of equals counts.
-        let behaviours = dialect.behaviours.iter().enumerate().rev();
-        let behaviours = behaviours.map(|(at, row)| (row.name.clone(), at)).collect();
+        let mut behaviours = vec![None; Question::ALL.len()];
+        for (at, row) in dialect.behaviours.iter().enumerate() {
+            if let Some(place) = behaviours.get_mut(row.question as usize) {
+                *place = Some(at);
+            }
+        }
         Self {
             entry,
             dialect,
@@ -199,14 +203,14 @@ impl Control {
         self.dialect.statements.iter().find(|row| row.name == name)
     }
 
-    /// The answer to a question of [`super::behaviours`]; none where the table is silent.
-    pub fn behaviour(&self, name: &str) -> Option<&Behaviour> {
-        self.behaviours.get(name).and_then(|&at| self.dialect.behaviours.get(at))
+    /// The answer to a question; none where the table is silent.
+    pub fn behaviour(&self, question: Question) -> Option<&Behaviour> {
+        self.dialect.behaviours.get((*self.behaviours.get(question as usize)?)?)
     }
 
     /// True where the answer is `true`; a silent table and an unknown answer are no.
-    pub fn is(&self, name: &str) -> bool {
-        self.behaviour(name).is_some_and(|row| row.value == "true")
+    pub fn is(&self, question: Question) -> bool {
+        self.behaviour(question).is_some_and(|row| row.value == "true")
     }
 
     /// The class of a numbered variable.

@@ -1,7 +1,7 @@
 //! The capability matrix: one line a concept, one column a dialect.
 
 use super::table::columns;
-use super::{BareLength, Control, Origin, behaviours, registry};
+use super::{BareLength, Control, Origin, Question, registry};
 use crate::canon::{Func, Op, Sys};
 use std::collections::BTreeSet;
 
@@ -106,11 +106,11 @@ pub fn matrix() -> String {
     );
     section(
         "BEHAVIOURS",
-        behaviours::ALL
+        Question::ALL
             .iter()
             .map(|question| {
-                row(question.name, &|c| {
-                    c.behaviour(question.name).map_or(NONE.into(), |b| mark(&b.value, &b.origin))
+                row(question.name(), &|c| {
+                    c.behaviour(*question).map_or(NONE.into(), |b| mark(&b.value, &b.origin))
                 })
             })
             .collect(),

@@ -7,7 +7,6 @@
 //! addressed, which code an operation has.
 
 mod acts;
-pub mod behaviours;
 mod check;
 mod check_codes;
 mod check_system;
@@ -23,6 +22,7 @@ mod overlay;
 mod overlay_settings;
 mod page;
 mod profile;
+mod questions;
 mod reader;
 pub mod registry;
 mod row;
@@ -41,6 +41,7 @@ pub use matrix::matrix;
 pub use model::*;
 pub use page::page;
 pub use profile::{Axis, DecimalPoint, Machine, Plain, Profile, SiteCode, Units, VariableRun};
+pub use questions::{Answers, Question};
 pub use reader::faults_as_text;
 pub use registry::Entry;
 pub use row::Row;

@@ -120,7 +120,7 @@ fn assume(origin: &mut Origin, setting: &str) {
 fn change<'d>(dialect: &'d mut Dialect, target: &str, value: &str) -> Option<&'d mut Origin> {
     match target.split_once(':')? {
         ("behaviour", name) => {
-            let row = dialect.behaviours.iter_mut().find(|row| row.name == name)?;
+            let row = dialect.behaviours.iter_mut().find(|row| row.question.name() == name)?;
             row.value = value.into();
             Some(&mut row.origin)
         }
@@ -154,7 +154,7 @@ fn change<'d>(dialect: &'d mut Dialect, target: &str, value: &str) -> Option<&'d
 fn touched<'d>(dialect: &'d mut Dialect, target: &str) -> Option<&'d mut Origin> {
     match target.split_once(':')? {
         ("behaviour", name) => {
-            dialect.behaviours.iter_mut().find(|row| row.name == name).map(|row| &mut row.origin)
+            dialect.behaviours.iter_mut().find(|row| row.question.name() == name).map(|row| &mut row.origin)
         }
         ("limit", name) => dialect.limits.iter_mut().find(|row| row.name == name).map(|row| &mut row.origin),
         // What the row's facts are told by is numbers without a point.

@@ -2,7 +2,7 @@
 
 use super::matrix::{mark, run};
 use super::table::columns;
-use super::{Control, Row, behaviours};
+use super::{Control, Row};
 
 /// All that is known of a control: section by section, each row with its
 /// source, and with its note where it has one. A `?` marks what no maker's text confirms.
@@ -56,8 +56,7 @@ pub fn page(control: &Control) -> String {
         vec![row.name.clone(), row.spelling.clone(), option(&row.option)]
     });
     section(&mut out, "BEHAVIOURS", &dialect.behaviours, |row| {
-        let meaning = behaviours::find(&row.name).map_or("", |question| question.meaning);
-        vec![row.name.clone(), row.value.clone(), meaning.into()]
+        vec![row.question.name().into(), row.value.clone(), row.question.meaning().into()]
     });
     section(&mut out, "VARIABLES", &dialect.variables, |row| {
         let kept = match row.retained {

@@ -59,7 +59,7 @@ row! {
         n => format!("{}/{n}", row.function),
     };
     Statement "statements" "statement" |row| row.name.clone();
-    Behaviour "behaviours" "behaviour" |row| row.name.clone();
+    Behaviour "behaviours" "behaviour" |row| row.question.name().into();
     InUse "in_use" "in_use" |row| format!("{}{}", row.name, row.first);
     VariableClass "variables" "variable" |row| format!("{}{}", row.name, row.first);
     SystemVariable "system" "system" |row| match row.first {

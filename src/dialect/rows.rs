@@ -1,6 +1,6 @@
 //! The rows of `dialects/*.toml`.
 
-use super::{BareLength, Origin, yes};
+use super::{BareLength, Origin, Question, yes};
 use crate::canon::{Func, Op, Role, Sys};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -97,8 +97,9 @@ pub struct Statement {
 #[serde(deny_unknown_fields)]
 pub struct Behaviour {
     /// The question: `vacancy`, `vacant.word.dropped`, `goto.forward.first`, `m99.p.jumps.here`, ...
-    pub name: String,
-    /// The answer: `true`, `false`, or a word.
+    #[serde(rename = "name")]
+    pub question: Question,
+    /// The answer: one that the question may have.
     pub value: String,
     /// The option that the answer is `true` by; without it it is `false`.
     #[serde(default)]

@@ -119,7 +119,15 @@ fn refuses_unknown_behaviours_and_values() {
         r#"behaviours = [{ name = "vacancy", value = "yes", source = "s" }]"#,
         "'yes' is no value of vacancy",
     );
-    refused(r#"behaviours = [{ name = "alarm.offset", value = "x", source = "s" }]"#, "'x' is no value");
+    refused(
+        r#"behaviours = [{ name = "alarm.offset", value = "x", source = "s" }]"#,
+        "'x' is no value of alarm.offset (it is any number)",
+    );
+    refused(r#"behaviours = [{ name = "alarm.max", value = "inf", source = "s" }]"#, "'inf' is no value");
+    refused(
+        "behaviours = [\n  { name = \"vacancy\", value = \"true\", source = \"s\" },\n  { name = \"vacancy\", value = \"false\", source = \"s\" },\n]",
+        "t.toml:3:3: MG0202: 'vacancy' stands twice",
+    );
 }
 
 #[test]

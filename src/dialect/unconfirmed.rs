@@ -1,6 +1,6 @@
 //! How it is said that something rests on a fact which nothing confirms.
 
-use super::{Control, Setting};
+use super::{Control, Question, Setting};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -39,8 +39,8 @@ impl Control {
     /// What to do about a fact of this control: to state the setting that it hangs on where there is one and nobody
     /// stated it, or else to confirm it.
     pub fn to_settle(&self, fact: &str, side: Side) -> String {
-        let name = fact.strip_prefix("behaviour:");
-        let open = name.and_then(|name| self.behaviour(name)).is_some_and(|row| row.value == "setting");
+        let row = Question::of_fact(fact).and_then(|question| self.behaviour(question));
+        let open = row.is_some_and(|row| row.value == "setting");
         // A setting answers it where each of its values does, or where nothing else does.
         let sets = |row: &&Setting| {
             let mut answers = row.values.iter().map(|value| row.sets.get(value));

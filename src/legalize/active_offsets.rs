@@ -6,12 +6,12 @@
 
 use super::{Context, ModalFacts, Setting};
 use crate::canon::{Group, Op, Sys};
-use crate::dialect::Side;
+use crate::dialect::{Question, Side};
 use crate::ir::{BlockId, Module, Place, StmtKind};
 
 /// Reports writes to offsets that may be in force.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    const FACT: &str = "offset.active.immediately";
+    const FACT: Question = Question::OffsetActiveImmediately;
     let answer = |control: &crate::dialect::Control| {
         control.behaviour(FACT).filter(|row| row.value != "unknown").map(|row| row.value.clone())
     };

@@ -6,14 +6,14 @@
 use super::Context;
 use crate::assume::Predicate;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{Expr, Module, StmtKind};
 use crate::text::Span;
 
 /// Reports alarm numbers that are too large, no whole number above 0, or not known.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let most = |control: &Control| {
-        control.behaviour("alarm.max").and_then(|row| row.value.parse().ok()).unwrap_or(f64::INFINITY)
+        control.behaviour(Question::AlarmMax).and_then(|row| row.value.parse().ok()).unwrap_or(f64::INFINITY)
     };
     let (here, there) = (most(context.source), most(context.target));
     for (index, program) in module.programs.iter().enumerate() {
@@ -33,7 +33,7 @@ fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, con
         }
         Some(n) => {
             if n > here {
-                context.rests_on_source(index, span, "alarm.max");
+                context.rests_on_source(index, span, Question::AlarmMax);
             }
             if n > there {
                 let title = &context.target.dialect().title;

@@ -7,13 +7,14 @@
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BlockId, Module, Nc, StmtKind};
 
 /// Refuses arcs that say nothing about their curve, and reports those that say it twice.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let answer = |control: &crate::dialect::Control| {
         control
-            .behaviour("arc.without.centre")
+            .behaviour(Question::ArcWithoutCentre)
             .map(|row| row.value.clone())
             .filter(|value| value != "unknown")
     };
@@ -38,8 +39,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     continue;
                 }
                 if here.is_some() && here == there {
-                    context.rests_on_source(index, span, "arc.without.centre");
-                    context.rests_on_target(index, span, "arc.without.centre");
+                    context.rests_on_source(index, span, Question::ArcWithoutCentre);
+                    context.rests_on_target(index, span, Question::ArcWithoutCentre);
                 } else {
                     let what = "no source says what a move under an arc code does without centre and radius";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));

@@ -12,6 +12,7 @@ use super::pauses::pause_of;
 use super::{Context, Modal, replace_statements};
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
@@ -137,7 +138,7 @@ struct Block<'b> {
 
 impl Block<'_> {
     /// Takes out what does not stay; the unconfirmed facts about the source that this rests on.
-    fn split(&mut self, context: &Context<'_>) -> Vec<&'static str> {
+    fn split(&mut self, context: &Context<'_>) -> Vec<Question> {
         let (mut facts, starts) = (Vec::new(), starts(self.nc));
         let mut wanted: Vec<Auxiliary> = kinds(self.nc).collect();
         wanted.sort();
@@ -207,7 +208,7 @@ impl Block<'_> {
     /// Leaves no more M codes beside the move than the target takes: the last that starts something, or the first that
     /// stops something.
     fn spread(&mut self, context: &Context<'_>) {
-        let most = context.target.behaviour("m.codes.per.block").filter(|row| row.origin.confirmed);
+        let most = context.target.behaviour(Question::MCodesPerBlock).filter(|row| row.origin.confirmed);
         let most = most
             .map_or(1, |row| if row.value == "any" { usize::MAX } else { row.value.parse().unwrap_or(1) });
         loop {

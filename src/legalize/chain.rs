@@ -5,6 +5,7 @@ use super::rewrite::{Part, highest_temp, rebuild};
 use super::{Context, calls_of, reachable};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{
     BlockId, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind,
     TermKind, Terminator, Var,
@@ -55,7 +56,8 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
 /// goes on behind the call where the source would alarm. A program that nothing calls is a main program, in which
 /// the return is a jump.
 pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
-    if context.target.statement("return.to.sequence").is_some() && !context.target.is("m99.p.jumps.here") {
+    if context.target.statement("return.to.sequence").is_some() && !context.target.is(Question::M99PJumpsHere)
+    {
         return;
     }
     let mut numbers: BTreeMap<ProgramName, Vec<u32>> = BTreeMap::new();

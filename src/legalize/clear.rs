@@ -9,6 +9,7 @@ use super::Context;
 use super::census::{Census, Thing};
 use super::registers::{Register, Registers};
 use super::rewrite::{Part, rebuild};
+use crate::dialect::Question;
 use crate::ir::{
     Bank, BinOp, Builder, Class, Cond, Expr, Module, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
 };
@@ -21,7 +22,7 @@ const ROW: usize = 6;
 
 /// True where a library clears classes that the target cannot.
 pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
-    census.has(Thing::Clear) && !context.target.is("clear.all")
+    census.has(Thing::Clear) && !context.target.is(Question::ClearAll)
 }
 
 /// Expands the clearing of a class; needs the registers, so it runs behind their allocation.

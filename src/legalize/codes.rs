@@ -11,7 +11,7 @@ use super::Context;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::{Constant, Summaries, values_at};
 use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
 use crate::text::Span;
@@ -20,7 +20,8 @@ use std::cell::LazyCell;
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let summaries = LazyCell::new(|| Summaries::of(module));
-    let rounds = [context.source, context.target].iter().all(|control| control.is("integer.word.rounds"));
+    let rounds =
+        [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {

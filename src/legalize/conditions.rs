@@ -12,6 +12,7 @@ use super::measure::Measure;
 use super::rewrite::{Part, highest_temp, rebuild};
 use super::{Context, oversize};
 use crate::canon::Func;
+use crate::dialect::Question;
 use crate::ir::{
     BinOp, BlockId, Builder, Class, Cond, Expr, Place, Program, Relation, Site, StmtKind, TermKind,
     Terminator, Var,
@@ -19,7 +20,7 @@ use crate::ir::{
 
 /// Splits compound conditions where the target takes one comparison only, or has no room for so many.
 pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
-    let joined = context.target.is("condition.and.or");
+    let joined = context.target.is(Question::ConditionAndOr);
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
     let room = oversize::room(context.target).saturating_sub("WHILE [] DO1".len());

@@ -8,7 +8,7 @@ use super::program_numbers::ProgramNumbers;
 use super::registers::Registers;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row, Side};
+use crate::dialect::{Control, Question, Row, Side};
 use crate::opt::Level;
 use crate::text::Span;
 use foldhash::{HashMap, HashSet};
@@ -46,9 +46,9 @@ pub struct Context<'a> {
     pub(super) had: OnceCell<BTreeSet<Op>>,
     findings: Findings,
     /// Questions of behaviour that programs were seen to rest on.
-    rested: HashSet<(usize, Side, &'static str)>,
+    rested: HashSet<(usize, Side, Question)>,
     /// What is said of those that nothing confirms.
-    facts: HashMap<(Side, &'static str), Diagnostic>,
+    facts: HashMap<(Side, Question), Diagnostic>,
 }
 
 #[derive(Debug, Default)]
@@ -135,31 +135,29 @@ impl<'a> Context<'a> {
     }
 
     /// Says, once a program, that it rests on how the source behaves, where no maker's text confirms that.
-    pub fn rests_on_source(&mut self, program: usize, span: Span, name: &'static str) {
-        self.rests_on(self.source, Side::Source, program, span, name);
+    pub fn rests_on_source(&mut self, program: usize, span: Span, question: Question) {
+        self.rests_on(self.source, Side::Source, program, span, question);
     }
 
     /// As [`Context::rests_on_source`], of the target.
-    pub fn rests_on_target(&mut self, program: usize, span: Span, name: &'static str) {
-        self.rests_on(self.target, Side::Target, program, span, name);
+    pub fn rests_on_target(&mut self, program: usize, span: Span, question: Question) {
+        self.rests_on(self.target, Side::Target, program, span, question);
     }
 
-    fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, name: &'static str) {
+    fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, question: Question) {
         let origin = self.origins.get(program).copied().unwrap_or(program);
-        if !self.rested.insert((origin, side, name)) {
+        if !self.rested.insert((origin, side, question)) {
             return;
         }
-        let row = control.behaviour(name);
+        let row = control.behaviour(question);
         if row.is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
             return;
         }
-        let meaning = crate::dialect::behaviours::find(name).map_or("no source says so", |q| q.meaning);
-        let note = row.and_then(|row| row.origin.note.as_deref()).unwrap_or(meaning);
-        let fact = format!("behaviour:{name}");
-        let told = self.facts.entry((side, name));
-        let told = told.or_insert_with(|| control.unconfirmed(side, &fact, Some(note), span));
+        let note = row.and_then(|row| row.origin.note.as_deref()).unwrap_or(question.meaning());
+        let told = self.facts.entry((side, question));
+        let told = told.or_insert_with(|| control.unconfirmed(side, question.fact(), Some(note), span));
         let finding = Diagnostic { span, ..told.clone() };
-        self.add_once(program, &format!("{side} {fact}"), finding);
+        self.add_once(program, &format!("{side} {}", question.fact()), finding);
     }
 
     /// Says, once a program, that it rests on which state a numbered variable is, where no maker's text confirms that.

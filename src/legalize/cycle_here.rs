@@ -14,6 +14,7 @@ use super::programmed::Programmed;
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::analysis::Summaries;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use std::collections::BTreeMap;
@@ -26,7 +27,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
     // What a bare definition does differs only where the two controls do not agree on it.
     let runs = |control: &crate::dialect::Control| {
-        control.behaviour("cycle.runs.without.axes").map(|b| b.value.clone())
+        control.behaviour(Question::CycleRunsWithoutAxes).map(|b| b.value.clone())
     };
     let agree = runs(context.target) == runs(context.source);
     let drills = runs(context.source).as_deref() == Some("true");
@@ -62,9 +63,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     continue;
                 }
                 if bare && !context.source.is_same_machine(context.target) {
-                    context.rests_on_source(index, span, "cycle.runs.without.axes");
+                    context.rests_on_source(index, span, Question::CycleRunsWithoutAxes);
                     if agree {
-                        context.rests_on_target(index, span, "cycle.runs.without.axes");
+                        context.rests_on_target(index, span, Question::CycleRunsWithoutAxes);
                     }
                 }
                 let here = here || bare && drills && !agree;

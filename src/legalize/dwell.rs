@@ -7,7 +7,7 @@
 use super::Context;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Side;
+use crate::dialect::{Question, Side};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -33,14 +33,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }
         }
-        let row = target.behaviour("dwell.expression");
+        let row = target.behaviour(Question::DwellExpression);
         let known = row.is_some_and(|row| row.value != "unknown" && row.origin.confirmed);
         // In seconds a computed value counts as written; a cycle has no such word.
         let asked = computed.iter().find(|(in_cycle, _)| *in_cycle || !s);
         if let (Some((_, span)), false) = (asked, known) {
             let what =
                 "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
-            context.unconfirmed(index, Side::Target, *span, "behaviour:dwell.expression", what);
+            context.unconfirmed(index, Side::Target, *span, Question::DwellExpression.fact(), what);
         }
     }
 }

@@ -9,12 +9,13 @@ use super::Context;
 use super::behind::behind;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Expr, Module, Nc, NcItem, Place, StmtKind};
 use crate::text::Span;
 
-const ONE: &str = "shift.local.is.external";
-const ENDS: &str = "set.position.ends.local";
-const CLEARS: &str = "end.clears.local";
+const ONE: Question = Question::ShiftLocalIsExternal;
+const ENDS: Question = Question::SetPositionEndsLocal;
+const CLEARS: Question = Question::EndClearsLocal;
 const AXES: [Role; 6] = [Role::X, Role::Y, Role::Z, Role::A, Role::B, Role::C];
 
 /// Keeps the shifts apart, or together.

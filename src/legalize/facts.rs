@@ -11,7 +11,7 @@ use super::census::Thing;
 use super::computed_calls::CalledPrograms;
 use crate::canon::{Func, Op, Role};
 use crate::diag::Diagnostic;
-use crate::dialect::{CodeMeaning, Control, Row, Side};
+use crate::dialect::{CodeMeaning, Control, Question, Row, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
 use crate::text::Span;
@@ -32,15 +32,16 @@ pub fn of_target(module: &Module, context: &mut Context<'_>) {
 /// Reports the unconfirmed facts of the source about vacant variables that programs rest on: these
 /// hang on where a variable may be vacant, which lowering does not know.
 pub fn of_source(module: &Module, context: &mut Context<'_>) {
-    if context.source.is("vacancy") {
+    if context.source.is(Question::Vacancy) {
         look(module, true, context, context.source, Side::Source);
     }
 }
 
 fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Control, side: Side) {
     // Where nothing is computed, nothing vacant is.
-    let asked = VACANCY.iter().any(|name| control.behaviour(name).is_some_and(|row| !row.origin.confirmed));
-    let own = computes && asked && context.source.is("vacancy");
+    let asked =
+        VACANCY.iter().any(|question| control.behaviour(*question).is_some_and(|row| !row.origin.confirmed));
+    let own = computes && asked && context.source.is(Question::Vacancy);
     let summaries = if own { Summaries::of(module) } else { Summaries::default() };
     let given = if own { CalledPrograms::of(module).given(module) } else { BTreeMap::new() };
     let none = BTreeSet::new();
@@ -185,8 +186,8 @@ impl<'c> Found<'c> {
     }
 
     /// The behaviour must be confirmed, whatever its answer.
-    fn behaviour(&mut self, name: &str, span: Span) {
-        if let Some(row) = self.control.behaviour(name) {
+    fn behaviour(&mut self, question: Question, span: Span) {
+        if let Some(row) = self.control.behaviour(question) {
             self.row(row, span);
         }
     }
@@ -210,7 +211,7 @@ impl<'c> Found<'c> {
             let span = self.span(blocks, at);
             stmt.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
             if stmt.site.skip.is_some_and(|level| level > 1) {
-                self.behaviour("skip.levels", span);
+                self.behaviour(Question::SkipLevels, span);
             }
             match &stmt.kind {
                 StmtKind::Nc(nc) => {
@@ -229,9 +230,9 @@ impl<'c> Found<'c> {
         let span = self.span(blocks, block.stmts.len());
         block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
         match &block.term.kind {
-            TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour("skip.levels", span),
+            TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour(Question::SkipLevels, span),
             TermKind::Branch { cond: Cond::And(_) | Cond::Or(_), .. } => {
-                self.behaviour("condition.and.or", span);
+                self.behaviour(Question::ConditionAndOr, span);
             }
             TermKind::End { rewind } => {
                 let op = if *rewind { Op::EndRewind } else { Op::End };
@@ -240,7 +241,7 @@ impl<'c> Found<'c> {
             TermKind::Computed { .. } => self.statement("goto.computed", span),
             TermKind::Return { to: Some(_) } => self.statement("return.to.sequence", span),
             TermKind::Call { call, .. } if call.count.is_some() && !call.arguments.is_empty() => {
-                self.behaviour("call.repeat.reloads.arguments", span);
+                self.behaviour(Question::CallRepeatReloadsArguments, span);
             }
             _ => {}
         }
@@ -259,21 +260,21 @@ impl<'c> Found<'c> {
                 self.row(row, span);
             }
             if (role.is_length() || role.is_axis()) && value.constant().is_none() {
-                self.behaviour("word.bare.expression", span);
+                self.behaviour(Question::WordBareExpression, span);
             }
             match (role, value.constant()) {
-                (Role::ArcI | Role::ArcJ | Role::ArcK, _) => self.behaviour("arc.centre", span),
+                (Role::ArcI | Role::ArcJ | Role::ArcK, _) => self.behaviour(Question::ArcCentre, span),
                 (Role::ArcRadius, radius) => {
                     if radius.is_none_or(|radius| radius >= 0.0) {
-                        self.behaviour("arc.radius.positive", span);
+                        self.behaviour(Question::ArcRadiusPositive, span);
                     }
                     if radius.is_none_or(|radius| radius < 0.0) {
-                        self.behaviour("arc.radius.negative", span);
+                        self.behaviour(Question::ArcRadiusNegative, span);
                     }
                 }
-                (Role::DwellMs | Role::CycleDwell, Some(_)) => self.behaviour("dwell.bare", span),
+                (Role::DwellMs | Role::CycleDwell, Some(_)) => self.behaviour(Question::DwellBare, span),
                 (Role::Repeat, count) if count.is_none_or(|count| count < 1.0) => {
-                    self.behaviour("cycle.l0.stores", span);
+                    self.behaviour(Question::CycleL0Stores, span);
                 }
                 _ => {}
             }
@@ -301,24 +302,24 @@ impl<'c> Found<'c> {
                     self.row(row, span);
                 }
                 match function {
-                    Func::Round => self.behaviour("round.half.away", span),
-                    Func::RoundIncrement => self.behaviour("round.in.address", span),
-                    Func::Fix => self.behaviour("fix.toward.zero", span),
-                    Func::Asin => self.behaviour("asin.range", span),
-                    Func::Acos => self.behaviour("acos.range", span),
-                    Func::Atan if arguments.len() == 2 => self.behaviour("atan2.range", span),
-                    Func::Atan => self.behaviour("atan.range", span),
+                    Func::Round => self.behaviour(Question::RoundHalfAway, span),
+                    Func::RoundIncrement => self.behaviour(Question::RoundInAddress, span),
+                    Func::Fix => self.behaviour(Question::FixTowardZero, span),
+                    Func::Asin => self.behaviour(Question::AsinRange, span),
+                    Func::Acos => self.behaviour(Question::AcosRange, span),
+                    Func::Atan if arguments.len() == 2 => self.behaviour(Question::Atan2Range, span),
+                    Func::Atan => self.behaviour(Question::AtanRange, span),
                     _ => {}
                 }
             }
             Expr::Binary(BinOp::Mod, ..) => {
-                self.behaviour("mod.rounds.operands", span);
-                self.behaviour("mod.sign", span);
+                self.behaviour(Question::ModRoundsOperands, span);
+                self.behaviour(Question::ModSign, span);
             }
             Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
                 let [a, b] = &**operands;
                 if !(is_narrow(a) && is_narrow(b) || *op == BinOp::And && (is_narrow(a) || is_narrow(b))) {
-                    self.behaviour("bits.width", span);
+                    self.behaviour(Question::BitsWidth, span);
                 }
                 self.bits(a, b, span);
             }
@@ -328,7 +329,7 @@ impl<'c> Found<'c> {
 
     fn bits(&mut self, a: &Expr, b: &Expr, span: Span) {
         if !a.is_whole() || !b.is_whole() {
-            self.behaviour("bits.of.fraction", span);
+            self.behaviour(Question::BitsOfFraction, span);
         }
     }
 }

@@ -14,28 +14,28 @@ use super::modal::Ways;
 use super::{Context, Modal, ModalFacts, Setting};
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Side};
+use crate::dialect::{Control, Question, Side};
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
-const RETURN: &str = "reference.length";
-const MOVE: &str = "machine.move.length";
+const RETURN: Question = Question::ReferenceLength;
+const MOVE: Question = Question::MachineMoveLength;
 const Z: f64 = 3.0;
 
 /// A question that the length in force hangs on, and the ways here that ask it.
-struct Question {
-    name: &'static str,
+struct Asked {
+    question: Question,
     /// The axis of the length moved.
     along: bool,
     ways: Ways,
 }
 
-impl Question {
+impl Asked {
     /// Whether a control cancels the length there; none where no source says.
     fn cancels(&self, control: &Control) -> Option<bool> {
-        match control.behaviour(self.name)?.value.as_str() {
+        match control.behaviour(self.question)?.value.as_str() {
             "kept" => Some(false),
             "cancelled" => Some(true),
             "cancelled.along" => Some(self.along),
@@ -44,13 +44,13 @@ impl Question {
     }
 
     fn is_sure(&self, control: &Control) -> bool {
-        control.behaviour(self.name).is_some_and(|row| row.origin.confirmed)
+        control.behaviour(self.question).is_some_and(|row| row.origin.confirmed)
     }
 }
 
 /// Says which length is in force where a return or a move in machine coordinates may have cancelled it.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let alike = |name| context.source.behaviour(name) == context.target.behaviour(name);
+    let alike = |question| context.source.behaviour(question) == context.target.behaviour(question);
     if context.source.name() == context.target.name() && alike(RETURN) && alike(MOVE) {
         return;
     }
@@ -126,15 +126,15 @@ struct Place<'p> {
 }
 
 /// The questions that the length in force hangs on.
-fn questions(state: &Modal) -> Vec<Question> {
+fn questions(state: &Modal) -> Vec<Asked> {
     let lost = state.length_lost;
     let all = [
         (RETURN, true, lost.by_reference),
         (RETURN, false, lost.by_other_axes),
         (MOVE, true, lost.by_machine_move),
     ];
-    let all = all.into_iter().map(|(name, along, ways)| Question { name, along, ways });
-    all.filter(|question| question.ways != Ways::None).collect()
+    let all = all.into_iter().map(|(question, along, ways)| Asked { question, along, ways });
+    all.filter(|asked| asked.ways != Ways::None).collect()
 }
 
 /// A statement that may be the first to count with the length.
@@ -154,15 +154,15 @@ fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Contex
     let questions = questions(state);
     rests(&questions, Side::Source, index, span, context);
     let (source, target) = (context.source, context.target);
-    let same = |question: &Question| {
-        let ours = question.cancels(source);
-        ours.is_some() && ours == question.cancels(target) && question.is_sure(target)
+    let same = |asked: &Asked| {
+        let ours = asked.cancels(source);
+        ours.is_some() && ours == asked.cancels(target) && asked.is_sure(target)
     };
     if questions.iter().all(same) {
         return;
     }
     // Where no source says, emulated controls keep it.
-    let cancels = |question: &&Question| question.cancels(source) == Some(true);
+    let cancels = |asked: &&Asked| asked.cancels(source) == Some(true);
     let named = match state.of(Group::LengthComp) {
         Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), Some(row)) => Some((op, row)),
         _ => None,
@@ -170,7 +170,7 @@ fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Contex
     let gone = questions
         .iter()
         .filter(cancels)
-        .map(|question| question.ways)
+        .map(|asked| asked.ways)
         .reduce(|a, b| if a == Ways::Every { a } else { b });
     match (gone, named) {
         (Some(Ways::Every), _) => nc.items.insert(0, NcItem::Op(Op::LengthOff)),
@@ -239,20 +239,19 @@ fn told(state: &Modal, index: usize, span: Span, context: &mut Context<'_>) {
     let questions = questions(state);
     rests(&questions, Side::Source, index, span, context);
     rests(&questions, Side::Target, index, span, context);
-    let cancels = |question: &Question, control: &Control| question.cancels(control).unwrap_or(false);
-    if questions.iter().any(|question| cancels(question, context.source) != cancels(question, context.target))
-    {
+    let cancels = |asked: &Asked, control: &Control| asked.cancels(control).unwrap_or(false);
+    if questions.iter().any(|asked| cancels(asked, context.source) != cancels(asked, context.target)) {
         let what = "the tool length counts here after a return to the reference position or a move in machine coordinates, which cancels it on one of the controls and not on the other";
         let help = "name the length again after it (G43 with H), or end it (G49)";
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
 }
 
-fn rests(questions: &[Question], side: Side, index: usize, span: Span, context: &mut Context<'_>) {
-    for question in questions {
+fn rests(questions: &[Asked], side: Side, index: usize, span: Span, context: &mut Context<'_>) {
+    for asked in questions {
         match side {
-            Side::Source => context.rests_on_source(index, span, question.name),
-            Side::Target => context.rests_on_target(index, span, question.name),
+            Side::Source => context.rests_on_source(index, span, asked.question),
+            Side::Target => context.rests_on_target(index, span, asked.question),
         }
     }
 }

@@ -7,10 +7,11 @@
 
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
+use crate::dialect::Question;
 use crate::ir::analysis::Cfg;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 
-const FACT: &str = "length.word.picks.radius";
+const FACT: Question = Question::LengthWordPicksRadius;
 
 /// Leaves out what nothing looks at, and says on what the rest rests.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {

@@ -8,12 +8,13 @@
 use super::Context;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Module, OutputPart, PrintPart, Remark, StmtKind};
 use crate::text::{Span, likeness};
 
 /// Replaces letters in everything that a person reads.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let letters = context.target.behaviour("text.letters").map_or("unknown", |row| row.value.as_str());
+    let letters = context.target.behaviour(Question::TextLetters).map_or("unknown", |row| row.value.as_str());
     let (remark, shown) =
         (Place::Remark { small: letters != "upper" }, Place::Shown { small: letters == "ascii" });
     let output = Place::Output { small: letters != "upper" };

@@ -11,7 +11,7 @@ use super::modal_facts::replace_statements;
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Side;
+use crate::dialect::{Question, Side};
 use crate::ir::{Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ const HOLD_BACK: usize = 3;
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let waits = context.target.statement("wait").is_some();
     let limits = context.target.code_for(Op::LimitLookahead, &BTreeMap::new()).is_some();
-    let early = context.target.is("lookahead.runs.early");
+    let early = context.target.is(Question::LookaheadRunsEarly);
     let compensates = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).any(compensates);
     let mut entry = context.entry.clone();
     // Programs start without compensation: only what one begins may be in force.
@@ -97,9 +97,9 @@ fn say_limit(index: usize, state: Option<&Modal>, span: Span, context: &mut Cont
 
 /// Says what becomes of a wait where the target has neither a wait nor a limit.
 fn say_unlimited(index: usize, early: bool, span: Span, context: &mut Context<'_>) {
-    let waits = context.target.behaviour("system.read.waits");
+    let waits = context.target.behaviour(Question::SystemReadWaits);
     if early || !waits.is_some_and(|b| b.value == "true" && b.origin.confirmed) {
         let what = "the source waits here until all moves are done; that the target reads a position only then is not confirmed";
-        context.unconfirmed(index, Side::Target, span, "behaviour:system.read.waits", what);
+        context.unconfirmed(index, Side::Target, span, Question::SystemReadWaits.fact(), what);
     }
 }

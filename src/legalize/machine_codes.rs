@@ -9,7 +9,7 @@
 use super::Context;
 use super::census::{Census, Thing};
 use crate::canon::{Auxiliary, Op};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{Nc, NcItem, Program, Site, Stmt, StmtKind};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,7 +22,7 @@ pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
 /// Gives each M code a block of its own, past those that the target takes together.
 pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let target = context.target;
-    let most = match target.behaviour("m.codes.per.block").map(|b| b.value.as_str()) {
+    let most = match target.behaviour(Question::MCodesPerBlock).map(|b| b.value.as_str()) {
         Some("3") => 3,
         Some("any") => usize::MAX,
         _ => 1,

@@ -8,7 +8,7 @@ use super::census::{Census, Thing};
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Side, matters};
+use crate::dialect::{Question, Side, matters};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
 
@@ -42,7 +42,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     if let Some(state) = &state
                         && mixes(nc, state)
                     {
-                        both(context, index, span, "cycle.planes.frozen");
+                        both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
                 }
@@ -56,18 +56,18 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     }
 }
 
-fn both(context: &mut Context<'_>, program: usize, span: Span, name: &'static str) {
-    context.rests_on_source(program, span, name);
-    context.rests_on_target(program, span, name);
+fn both(context: &mut Context<'_>, program: usize, span: Span, question: Question) {
+    context.rests_on_source(program, span, question);
+    context.rests_on_target(program, span, question);
 }
 
 fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
     match e {
         Expr::Binary(BinOp::Div, operands) if operands[1].constant().is_none() => {
-            both(context, index, span, "divide.by.zero");
+            both(context, index, span, Question::DivideByZero);
         }
         Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
-            both(context, index, span, "sqrt.of.negative");
+            both(context, index, span, Question::SqrtOfNegative);
         }
         Expr::System(state, subscripts) if subscripts.iter().any(|e| e.constant().is_none()) => {
             let what = format!(
@@ -76,7 +76,7 @@ fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
             context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
         }
         Expr::Indirect(_, number) if makes_fractions(number) => {
-            both(context, index, span, "index.of.fraction")
+            both(context, index, span, Question::IndexOfFraction)
         }
         _ => {}
     }

@@ -8,6 +8,7 @@
 
 use super::{Context, Registers};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Class, Expr, Module, OutputPart, Place, PrintPart, Program, Site, Stmt, StmtKind, Var};
 
 /// Digits of a printed value before and behind the point: eight together is what the targets take.
@@ -95,6 +96,7 @@ fn ask(
     let whose = if serial { "what the serial line sends" } else { "the answer" };
     let what = format!("the operator enters {whose} in {register} at the stop, before cycle start");
     context.add(index, Diagnostic::new(Code::Conditional, span, what));
+    context.rests_on_source(index, span, Question::InputDefaultZero);
     let question = question.map(|q| {
         let question = q.trim().trim_end_matches([':', '?', '=', ' ']);
         question.replace('(', "[").replace(')', "]").replace('%', "PCT")

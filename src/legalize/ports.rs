@@ -7,10 +7,11 @@
 
 use super::Context;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Module, Program, Site, Stmt, StmtKind};
 use crate::text::Span;
 
-const NEEDS: &str = "output.needs.port";
+const NEEDS: Question = Question::OutputNeedsPort;
 
 /// Opens the port where it must be open on the target only.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {

@@ -8,13 +8,13 @@ use super::computed_numbers::constant_part;
 use super::{Context, ModalFacts, Setting, rewrite_program};
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Program, TermKind};
 use crate::text::Span;
 
 /// Whether positions hold the tool length.
-pub(super) const FACT: &str = "position.length";
+pub(super) const FACT: Question = Question::PositionLength;
 /// The axis of the length.
 pub(super) const DEPTH: u32 = 3;
 const Z: f64 = DEPTH as f64;

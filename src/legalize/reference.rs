@@ -7,6 +7,7 @@
 use super::{Context, ModalFacts, replace_statements};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
 
 /// Names the axes of returns that name none.
@@ -19,7 +20,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         })
     };
-    let (here, there) = (context.source.is("reference.all.axes"), context.target.is("reference.all.axes"));
+    let (here, there) =
+        (context.source.is(Question::ReferenceAllAxes), context.target.is(Question::ReferenceAllAxes));
     if here && there
         || context.source.name() == context.target.name()
         || !ncs().any(|nc| bare(nc) || empty(nc))
@@ -40,7 +42,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         if let StmtKind::Nc(nc) = &mut stmt.kind
             && bare(nc)
         {
-            context.rests_on_source(index, span, "reference.all.axes");
+            context.rests_on_source(index, span, Question::ReferenceAllAxes);
             let (code, what) = match state.op(Group::Distance) {
                 Some(distance) => {
                     restore = (distance == Op::Absolute).then_some(distance);

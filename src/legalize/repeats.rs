@@ -11,6 +11,7 @@ use super::rewrite::{Part, highest_temp, rebuild};
 use super::{Context, Modal, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{
     BinOp, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind, TermKind, Var,
 };
@@ -29,7 +30,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let drills = module.programs.iter().any(|program| ncs(program, &|nc| nc.ops().any(Op::is_cycle)));
     let facts = ModalFacts::of(module, &context.entry);
-    if !context.source.is("repeat.moves") || context.target.is("repeat.moves") {
+    if !context.source.is(Question::RepeatMoves) || context.target.is(Question::RepeatMoves) {
         return affected
             .into_iter()
             .for_each(|index| doubt(&module.programs[index], index, drills, &facts, context));
@@ -48,8 +49,8 @@ fn doubt(program: &Program, index: usize, drills: bool, facts: &ModalFacts, cont
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
             let cycle = state.op(Group::Cycle).or((!drills).then_some(Op::CycleOff));
             if nc.word(Role::Repeat).is_some() && !cycle.is_some_and(Op::is_cycle) {
-                context.rests_on_source(index, stmt.site.span, "repeat.moves");
-                context.rests_on_target(index, stmt.site.span, "repeat.moves");
+                context.rests_on_source(index, stmt.site.span, Question::RepeatMoves);
+                context.rests_on_target(index, stmt.site.span, Question::RepeatMoves);
             }
         }
     }

@@ -10,13 +10,13 @@ use super::Context;
 use super::behind::behind;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row};
+use crate::dialect::{Control, Question, Row};
 use crate::ir::{Expr, Module, Nc, NcItem, StmtKind};
 use crate::text::Span;
 
-const ABOUT: &str = "mirror.about";
-const FRAME: &str = "shape.frame.codes";
-const SCALE: &str = "scale.reaches.cycle";
+const ABOUT: Question = Question::MirrorAbout;
+const FRAME: Question = Question::ShapeFrameCodes;
+const SCALE: Question = Question::ScaleReachesCycle;
 
 /// Mirrors about the zero what the source mirrors so, and tells what no source says of shaped coordinates.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -32,7 +32,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
     }
     let shapes = [(Op::RotateOn, Op::RotateOff), (Op::ScaleOn, Op::ScaleOff), (Op::MirrorOn, Op::MirrorOff)];
-    let mut found: Vec<(usize, Span, &'static str)> = Vec::new();
+    let mut found: Vec<(usize, Span, Question)> = Vec::new();
     for (on, off) in shapes {
         behind(
             module,
@@ -49,25 +49,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             },
         );
     }
-    for (index, span, name) in found {
-        if !agree(name, context) {
-            context.rests_on_source(index, span, name);
-            context.rests_on_target(index, span, name);
+    for (index, span, question) in found {
+        if !agree(question, context) {
+            context.rests_on_source(index, span, question);
+            context.rests_on_target(index, span, question);
         }
     }
 }
 
 /// True where both controls are one, or are known to do the same.
-fn agree(name: &str, context: &Context<'_>) -> bool {
-    let (source, target) = (answer(context.source, name), answer(context.target, name));
+fn agree(question: Question, context: &Context<'_>) -> bool {
+    let (source, target) = (answer(context.source, question), answer(context.target, question));
     context.source.name() == context.target.name()
-        && context.source.behaviour(name) == context.target.behaviour(name)
+        && context.source.behaviour(question) == context.target.behaviour(question)
         || source.is_some() && source == target
 }
 
 /// A control's answer, where a source confirms it.
-fn answer<'c>(control: &'c Control, name: &str) -> Option<&'c str> {
-    let row = control.behaviour(name)?;
+fn answer(control: &Control, question: Question) -> Option<&str> {
+    let row = control.behaviour(question)?;
     (row.origin().confirmed && row.value != "unknown").then_some(row.value.as_str())
 }
 

@@ -8,7 +8,7 @@ use super::computed_calls::CalledPrograms;
 use super::{Context, Position, Rewriter, rewrite_program, tool_word};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row, Side};
+use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -98,7 +98,7 @@ impl Finding {
                     Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
                     state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
                 };
-                context.unconfirmed(index, Side::Source, span, "behaviour:radius.offset.table", what);
+                context.unconfirmed(index, Side::Source, span, Question::RadiusOffsetTable.fact(), what);
             }
             Finding::Renumbered(code) => {
                 let what = format!(
@@ -108,10 +108,10 @@ impl Finding {
             }
             Finding::TargetTable => {
                 let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
-                context.unconfirmed(index, Side::Target, span, "behaviour:radius.offset.table", what);
+                context.unconfirmed(index, Side::Target, span, Question::RadiusOffsetTable.fact(), what);
             }
             Finding::TablesHold => {
-                let name = "radius.offset.table";
+                let name = Question::RadiusOffsetTable;
                 if holds_radii(context.source).is_some() {
                     context.rests_on_source(index, span, name);
                 }
@@ -203,7 +203,7 @@ fn read(
 
 /// True where a control's cutter table holds radii; none where that is a setting which nobody stated.
 fn holds_radii(control: &Control) -> Option<bool> {
-    match control.behaviour("radius.offset.table")?.value.as_str() {
+    match control.behaviour(Question::RadiusOffsetTable)?.value.as_str() {
         "radius" => Some(true),
         "diameter" => Some(false),
         _ => None,

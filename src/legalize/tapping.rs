@@ -11,6 +11,7 @@ mod kept;
 use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use kept::{Does, Kept};
 
@@ -18,7 +19,7 @@ const STAYS: &str = "the feed of the tapping cycle stays in force behind it: wri
 
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if context.target.behaviour("cycle.tap.feed").is_some_and(|row| row.value == "lead") {
+    if context.target.behaviour(Question::CycleTapFeed).is_some_and(|row| row.value == "lead") {
         return;
     }
     let taps = |nc: &Nc| nc.ops().any(Op::is_tap) && nc.word(Role::Lead).is_some();

@@ -6,11 +6,12 @@
 
 use super::census::{Census, Thing};
 use super::{Context, Position, Prelude, Rewriter, rewrite_program};
+use crate::dialect::Question;
 use crate::ir::{Expr, Program};
 
 /// True where a comparison is a value, and the target takes none.
 pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
-    census.has(Thing::Truth) && !context.target.is("comparison.is.value")
+    census.has(Thing::Truth) && !context.target.is(Question::ComparisonIsValue)
 }
 
 /// Replaces truth values by temporaries that an IF sets.

@@ -9,6 +9,7 @@
 use super::Context;
 use super::census::{Census, Thing};
 use super::exposed::{Exposed, roots};
+use crate::dialect::Question;
 use crate::ir::{
     Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, Site, Stmt, StmtKind, TermKind,
     Terminator, Var,
@@ -17,7 +18,9 @@ use smallvec::SmallVec;
 
 /// True where there are variables, and only the target's may be vacant.
 pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
-    census.has(Thing::Variable) && !context.source.is("vacancy") && context.target.is("vacancy")
+    census.has(Thing::Variable)
+        && !context.source.is(Question::Vacancy)
+        && context.target.is(Question::Vacancy)
 }
 
 /// Puts guards at the head of every program where a run may begin.

@@ -17,6 +17,7 @@ use super::state::table_factor;
 use super::{Context, ModalFacts, calls_of};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::analysis::{Cfg, Summaries, Vacancy};
 use crate::ir::{
     BlockId, Call, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind,
@@ -31,7 +32,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     added(module, context);
     let summaries = Summaries::of(module);
-    let signs = context.source.behaviour("bracket.vacant.word").is_none_or(|row| row.value != "zero");
+    let signs = context.source.behaviour(Question::BracketVacantWord).is_none_or(|row| row.value != "zero");
     for program in &mut module.programs {
         let places = places(program, &summaries, signs);
         if !places.is_empty() {

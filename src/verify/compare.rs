@@ -15,6 +15,7 @@ use super::substitutes::{
 use super::variables::variables_differ;
 use crate::control::trace::{Event, Happening, Position, Told};
 use crate::control::{End, Run};
+use crate::dialect::Question;
 use std::collections::BTreeSet;
 
 /// How far numbers may lie apart.
@@ -33,7 +34,7 @@ impl Tolerance {
             let numbers = side.control.numbers();
             numbers.increment_mm.max(numbers.increment_inch * 25.4)
         };
-        let rounds = |side: &Side<'_>| side.control.is("word.rounds.to.increment");
+        let rounds = |side: &Side<'_>| side.control.is(Question::WordRoundsToIncrement);
         Self {
             rounded: increment(source).max(increment(target)) * 1.0001,
             both: rounds(source) && rounds(target),

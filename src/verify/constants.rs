@@ -11,7 +11,7 @@ use super::names::class_of;
 use super::side::Side;
 use crate::canon::{Func, Sys};
 use crate::control::ProgramRef;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::syntax::{BinaryOp, Expr, ExprKind, Index, Item, ItemKind, VarRef};
 use crate::text::Span;
 use known::{Known, Range, opposite};
@@ -118,7 +118,7 @@ impl Reader<'_> {
                     Some(Known::Vacant) => return,
                     // A vacant one, taken for 0, must have jumped.
                     None if !self.is_nullable(&name) => Range::ANY,
-                    None if self.says("vacant.compares.as.zero", "true") => {
+                    None if self.says(Question::VacantComparesAsZero, "true") => {
                         let jumps = Range::one(0.0).compare(*op, &Range::one(low)) == Some(true);
                         if !jumps || matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) {
                             return;
@@ -196,14 +196,14 @@ impl Reader<'_> {
         let (a, b) = (self.value(left)?, self.value(right)?);
         let as_zero = |known: &Known| match known {
             Known::Number(range) => Some(range.clone()),
-            Known::Vacant => self.says("vacant.compares.as.zero", "true").then_some(Range::one(0.0)),
+            Known::Vacant => self.says(Question::VacantComparesAsZero, "true").then_some(Range::one(0.0)),
         };
         match (op, &a, &b) {
             (Equal | NotEqual, Known::Vacant, Known::Vacant) => Some(op == Equal),
             (Equal | NotEqual, Known::Vacant, Known::Number(other))
             | (Equal | NotEqual, Known::Number(other), Known::Vacant) => {
                 let never_zero = other.low > 0.0 || other.high < 0.0;
-                (never_zero || self.says("vacant.eq.zero", "false")).then_some(op == NotEqual)
+                (never_zero || self.says(Question::VacantEqZero, "false")).then_some(op == NotEqual)
             }
             _ => {
                 let (a, b) = (as_zero(&a)?, as_zero(&b)?);
@@ -244,8 +244,8 @@ impl Reader<'_> {
         }
     }
 
-    fn says(&self, behaviour: &str, answer: &str) -> bool {
-        let row = self.control.behaviour(behaviour);
+    fn says(&self, question: Question, answer: &str) -> bool {
+        let row = self.control.behaviour(question);
         row.is_some_and(|row| (row.origin.confirmed || self.as_run) && row.value == answer)
     }
 }

@@ -13,6 +13,7 @@ use crate::canon::{Group, Op};
 use crate::control::machine::Left;
 use crate::control::scenario::{AXES, Axes, Tool};
 use crate::control::{Run, Table};
+use crate::dialect::Question;
 use std::collections::BTreeSet;
 
 /// What two programs leave otherwise; what only a next program could tell goes to `substituted`.
@@ -88,7 +89,7 @@ fn state_differs(
     let is_line = |op: Op, side: &Side<'_>| match op {
         Op::Linear => true,
         Op::ArcCw | Op::ArcCcw => {
-            side.control.behaviour("arc.without.centre").is_some_and(|row| row.value == "straight")
+            side.control.behaviour(Question::ArcWithoutCentre).is_some_and(|row| row.value == "straight")
         }
         _ => false,
     };

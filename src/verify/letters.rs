@@ -1,7 +1,7 @@
 //! Letters outside ASCII as an operator reads them, and those of which nobody knows whether the target shows them.
 
 use crate::control::trace::Happening;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 
 /// Letters with an accent, behind the one that is read where it is missing.
 const ACCENTED: &[(char, &str)] = &[
@@ -82,7 +82,7 @@ pub fn doubt(source: &Happening, target: &Happening, control: &Control) -> Optio
     if let Some(c) = source.chars().find(|c| lost(*c)) {
         return Some(format!("nothing stands for the letter '{c}' of a text"));
     }
-    let capitals = control.behaviour("text.letters").is_some_and(|row| row.value == "upper");
+    let capitals = control.behaviour(Question::TextLetters).is_some_and(|row| row.value == "upper");
     let unshown = |c: &char| !c.is_ascii() || (capitals && c.is_ascii_lowercase());
     let c = target.chars().find(unshown)?;
     Some(format!("the target is not known to show the letter '{c}' of a text"))

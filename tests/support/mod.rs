@@ -1,7 +1,7 @@
 //! What several tests share.
 #![allow(dead_code)] // each test uses its part
 
-use macroglot::dialect::{Control, Profile, registry};
+use macroglot::dialect::{Control, Profile, Question, registry};
 use macroglot::library::{Conversion, Found, Input, Lock, Options, Project, convert, gather, judge};
 use macroglot::verify::{Certificate, Effort};
 use std::path::{Path, PathBuf};
@@ -29,6 +29,12 @@ pub fn assert_fresh(path: &str, fresh: &str) {
     let diff = similar::TextDiff::from_lines(&kept, fresh);
     let diff = diff.unified_diff().context_radius(1).header("kept", "now").to_string();
     panic!("{path} is stale: read the difference, then write it with UPDATE=1\n{diff}");
+}
+
+/// True where a source names the question.
+pub fn asks(source: &str, question: Question) -> bool {
+    let name = format!("Question::{question:?}");
+    source.split(&name).skip(1).any(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
 }
 
 /// A library of the project file, converted for one of its targets and verified.

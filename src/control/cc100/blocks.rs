@@ -7,6 +7,7 @@ use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
 use crate::control::words::{self, Read, Spoken};
+use crate::dialect::Question;
 use crate::syntax::{Block, ExprKind, ItemKind};
 use crate::text::decode;
 use smallvec::SmallVec;
@@ -80,7 +81,8 @@ impl<'r> Interpreter<'r, '_> {
         if !read.codes.iter().any(|row| row.op.is_cycle()) {
             return;
         }
-        let planes = [("cycle.variable.retract", Role::CycleR), ("cycle.variable.depth", Role::Z)];
+        let planes =
+            [(Question::CycleVariableRetract, Role::CycleR), (Question::CycleVariableDepth, Role::Z)];
         for (behaviour, role) in planes {
             let row = self.session.control.behaviour(behaviour);
             let cell = row.and_then(|row| row.value.parse().ok()).and_then(Cell::numbered);
@@ -94,7 +96,7 @@ impl<'r> Interpreter<'r, '_> {
 
     /// The text that a stop shows: the comment in its block, or alone in the next one.
     fn message(&self, block: &'r Block) -> Option<String> {
-        if !self.session.control.is("message.shows.comment") {
+        if !self.session.control.is(Question::MessageShowsComment) {
             return None;
         }
         let next = self.session.block(self.at.section, self.at.index).filter(|next| {
@@ -117,7 +119,7 @@ impl<'r> Interpreter<'r, '_> {
     /// The end of a called part; that of a cycle where the code is M2.
     fn go_back(&mut self, of_cycle: bool) -> Flow<Next> {
         if of_cycle && !self.in_cycle() {
-            self.session.rest_on("cycle.end.ends.program");
+            self.session.rest_on(Question::CycleEndEndsProgram);
             return Err(Halt::Ended(Op::End));
         }
         if self.depth > 0 {
@@ -141,7 +143,7 @@ impl<'r> Interpreter<'r, '_> {
                 Op::CallLocal => {
                     let again = read.command.number(Role::CallAgain);
                     if again.is_some() {
-                        self.session.rest_on("repeat.counts");
+                        self.session.rest_on(Question::RepeatCounts);
                     }
                     self.call_local(label()?, again.unwrap_or(0).saturating_add(1))?;
                 }

@@ -6,6 +6,7 @@ use crate::control::library::cycle_number;
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
+use crate::dialect::Question;
 use crate::syntax::{ItemKind, Label};
 use std::collections::HashMap;
 
@@ -37,7 +38,7 @@ impl Interpreter<'_, '_> {
             return Err(self.session.no_label(&format!("label ${label} is not there")));
         };
         if again {
-            self.session.rest_on("goto.first.label");
+            self.session.rest_on(Question::GotoFirstLabel);
         }
         Ok(index)
     }

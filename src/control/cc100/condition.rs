@@ -1,6 +1,7 @@
 //! The condition register: the sign of the last result.
 
 use crate::control::trace::Trace;
+use crate::dialect::Question;
 use crate::syntax::BinaryOp;
 
 /// The register. Arithmetic, INC, DEC and TST set it; whether a plain load or a function does
@@ -30,7 +31,7 @@ impl Condition {
         });
         let holds = stands(result, relation);
         if self.loaded.is_some_and(|loaded| stands(loaded, relation) != holds) {
-            trace.doubt("behaviour:load.sets.condition");
+            trace.doubt(Question::LoadSetsCondition.fact());
         }
         holds
     }

@@ -5,10 +5,8 @@ use super::store::Cell;
 use crate::canon::{Func, Sys};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
+use crate::dialect::Question;
 use crate::syntax::{BinaryOp, Expr, ExprKind, Index, VarRef};
-
-/// How far from zero the argument of SIN and COS may lie.
-const TURN: f64 = 360.0;
 
 impl Interpreter<'_, '_> {
     /// The value of a constant, a variable, a step of arithmetic or a function.
@@ -56,7 +54,7 @@ impl Interpreter<'_, '_> {
         let cell = self.cell(variable)?;
         Ok(self.store.get(cell).unwrap_or_else(|| {
             // Nothing has set it since the control was switched on.
-            self.session.rest_on("initial.value");
+            self.session.rest_on(Question::InitialValue);
             0.0
         }))
     }
@@ -82,8 +80,8 @@ impl Interpreter<'_, '_> {
                 }));
             }
             Sys::AxisPosition => {
-                session.rest_on("position.frame");
-                match session.control.behaviour("position.frame").map(|row| row.value.as_str()) {
+                session.rest_on(Question::PositionFrame);
+                match session.control.behaviour(Question::PositionFrame).map(|row| row.value.as_str()) {
                     Some("machine") => Sys::MachinePosition,
                     _ => Sys::WorkPosition,
                 }
@@ -100,7 +98,7 @@ impl Interpreter<'_, '_> {
             BinaryOp::Subtract => a - b,
             BinaryOp::Multiply => a * b,
             BinaryOp::Divide if b == 0.0 => {
-                self.session.rest_on("divide.by.zero");
+                self.session.rest_on(Question::DivideByZero);
                 return Err(Stop::unnamed("a division by zero").into());
             }
             BinaryOp::Divide => a / b,
@@ -108,19 +106,25 @@ impl Interpreter<'_, '_> {
         })
     }
 
+    /// How far from zero the argument of a sine may lie; any number where that is no answer.
+    fn angle_limit(&mut self) -> Option<f64> {
+        self.session.rest_on(Question::AngleLimit);
+        self.session.control.behaviour(Question::AngleLimit)?.value.parse().ok()
+    }
+
     fn function(&mut self, function: Func, x: f64) -> Flow<f64> {
         Ok(match function {
-            Func::Sin | Func::Cos if x.abs() > TURN => {
+            Func::Sin | Func::Cos if self.angle_limit().is_some_and(|limit| x.abs() > limit) => {
                 return Err(Stop::unnamed("the angle of SIN or COS is beyond 360 degrees").into());
             }
             Func::Sin => x.to_radians().sin(),
             Func::Cos => x.to_radians().cos(),
             Func::Atan => {
-                self.session.rest_on("atan.range");
+                self.session.rest_on(Question::AtanRange);
                 x.atan().to_degrees()
             }
             Func::Sqrt if x < 0.0 => {
-                self.session.rest_on("sqrt.of.negative");
+                self.session.rest_on(Question::SqrtOfNegative);
                 return Err(Stop::unnamed("SQR of a negative number").into());
             }
             Func::Sqrt => x.sqrt(),

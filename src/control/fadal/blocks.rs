@@ -7,6 +7,7 @@ use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::words::{self, Read, Spoken};
+use crate::dialect::Question;
 use crate::syntax::{Block, Expr, ExprKind, Index, ItemKind};
 use smallvec::SmallVec;
 
@@ -35,7 +36,7 @@ impl<'r> Interpreter<'r, '_> {
         for item in &block.items {
             match &item.kind {
                 ItemKind::Skip(number) => {
-                    self.session.rest_on("skip.levels");
+                    self.session.rest_on(Question::SkipLevels);
                     if self.session.skips(*number) {
                         break;
                     }
@@ -72,7 +73,7 @@ impl<'r> Interpreter<'r, '_> {
             && let Index::Number(number) = variable.index
             && Register::new(&variable.name, number).is_some_and(|used| line.set.contains(&used))
         {
-            self.session.rest_on("block.assigns.first");
+            self.session.rest_on(Question::BlockAssignsFirst);
         }
     }
 
@@ -90,7 +91,7 @@ impl<'r> Interpreter<'r, '_> {
             && !read.flows(Op::CallModal)
         {
             if !read.command.is_empty() {
-                self.session.rest_on("call.after.words");
+                self.session.rest_on(Question::CallAfterWords);
             }
             self.call_local(call)?;
         }
@@ -116,7 +117,7 @@ impl<'r> Interpreter<'r, '_> {
         }
         let value = line.words.remove(place).value;
         if value.fract() != 0.0 {
-            self.session.rest_on("integer.word.rounds");
+            self.session.rest_on(Question::IntegerWordRounds);
         }
         if !(0.0..1e6).contains(&value) {
             return Err(Stop::unnamed(format!("L{value} is out of range")).into());
@@ -134,7 +135,7 @@ impl<'r> Interpreter<'r, '_> {
         let Some(role) = role else { return };
         if read.command.word(role).is_some() {
             if role == Role::CycleR {
-                self.session.rest_on("cycle.r.word");
+                self.session.rest_on(Question::CycleRWord);
             }
             return;
         }
@@ -143,7 +144,7 @@ impl<'r> Interpreter<'r, '_> {
         match role {
             _ if !kept => {}
             // A cycle that is begun without R0 takes what R0 holds.
-            Role::CycleR if begins => self.session.rest_on("cycle.r0.kept"),
+            Role::CycleR if begins => self.session.rest_on(Question::CycleR0Kept),
             Role::OffsetValue => self.session.trace.doubt("machine:offset.value.kept"),
             _ => return,
         }
@@ -159,9 +160,9 @@ impl<'r> Interpreter<'r, '_> {
             let Asked::Call(call) = asked else {
                 return Err(Halt::Error("G66 stands without the subroutine that it calls".into()));
             };
-            self.session.rest_on("call.modal.block.calls");
+            self.session.rest_on(Question::CallModalBlockCalls);
             if self.in_modal || !self.modal.is_empty() {
-                self.session.rest_on("call.modal.nested");
+                self.session.rest_on(Question::CallModalNested);
             }
             self.modal.push(call);
         }
@@ -197,7 +198,7 @@ impl<'r> Interpreter<'r, '_> {
             } else {
                 times = count;
                 if count == 0 {
-                    self.session.rest_on("repeat.zero");
+                    self.session.rest_on(Question::RepeatZero);
                 }
             }
         }

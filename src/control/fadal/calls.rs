@@ -5,6 +5,7 @@ use crate::canon::Op;
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
+use crate::dialect::Question;
 
 /// How deep calls nest before the emulation gives up; no source states a limit.
 const DEEPEST: u32 = 40;
@@ -34,7 +35,7 @@ impl Interpreter<'_, '_> {
             });
         };
         if call.count == 0 {
-            self.session.rest_on("repeat.zero");
+            self.session.rest_on(Question::RepeatZero);
         }
         // What stands behind the definition's own block.
         let to = At { section: self.at.section, index: index + 1 };
@@ -47,7 +48,7 @@ impl Interpreter<'_, '_> {
             return Err(Halt::Error(format!("program O{number} is not in the library")));
         };
         if count == 0 {
-            self.session.rest_on("repeat.zero");
+            self.session.rest_on(Question::RepeatZero);
         }
         self.call(At { section, index: 0 }, Level::Program, count)
     }
@@ -89,7 +90,7 @@ impl Interpreter<'_, '_> {
     pub(super) fn give_back(&mut self, to: Option<u32>) -> Flow<Next> {
         if let Some(number) = to {
             if self.level != Level::Main {
-                self.session.rest_on("m99.p.jumps.here");
+                self.session.rest_on(Question::M99PJumpsHere);
             }
             self.jump(number)?;
             return Ok(Next::On);
@@ -103,7 +104,7 @@ impl Interpreter<'_, '_> {
             // Whoever called it goes on.
             Level::Main if self.session.scenario.called => Ok(Next::Back),
             Level::Main => {
-                self.session.rest_on("m99.main.restarts");
+                self.session.rest_on(Question::M99MainRestarts);
                 Err(Halt::Ended(Op::End))
             }
         }
@@ -117,7 +118,7 @@ impl Interpreter<'_, '_> {
                 if self.outline().has_area() {
                     self.session.trace.doubt("machine:sub.area.end.again");
                 }
-                self.session.rest_on("end.alone");
+                self.session.rest_on(Question::EndAlone);
                 Err(Halt::Ended(Op::EndRewind))
             }
             _ => Err(nothing_open()),

@@ -5,6 +5,7 @@ use super::{At, Interpreter};
 use crate::canon::{Op, Pause};
 use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
+use crate::dialect::Question;
 use crate::syntax::{Item, ItemKind, SetOption, Target, VarRef};
 
 impl Interpreter<'_, '_> {
@@ -62,7 +63,7 @@ impl Interpreter<'_, '_> {
             }
             Target::Sequence(number) => self.jump(*number)?,
             Target::Computed(expr) => {
-                self.session.rest_on("goto.computed");
+                self.session.rest_on(Question::GotoComputed);
                 let number = self.value(expr)?;
                 // A float outside the range becomes its nearest end.
                 self.jump(number.round() as u32)?;
@@ -77,7 +78,7 @@ impl Interpreter<'_, '_> {
             return Err(self.session.no_label(&format!("N{number} is not there")));
         };
         if again {
-            self.session.rest_on("goto.forward.first");
+            self.session.rest_on(Question::GotoForwardFirst);
         }
         self.at.index = at;
         Ok(())

@@ -20,7 +20,7 @@ use super::scenario::Scenario;
 use super::session::{Flow, Halt, Session};
 use super::words::Lasting;
 use crate::canon::Op;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::syntax::Block;
 use outline::Outline;
 use registers::Registers;
@@ -141,14 +141,14 @@ impl<'r> Interpreter<'r, '_> {
             return Ok(None);
         }
         if self.level == Level::Subroutine {
-            self.session.rest_on("sub.ends.at.next");
+            self.session.rest_on(Question::SubEndsAtNext);
             return Ok(Some(Next::Back));
         }
         if outline.is_in_area(index) {
             return Err(calls::nothing_open());
         }
         if outline.works_before(index) {
-            self.session.rest_on("sub.area.entered");
+            self.session.rest_on(Question::SubAreaEntered);
         }
         self.at.index = outline.main;
         Ok(Some(Next::On))

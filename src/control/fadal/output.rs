@@ -3,6 +3,7 @@
 use super::Interpreter;
 use crate::control::session::Flow;
 use crate::control::trace::Happening;
+use crate::dialect::Question;
 use crate::syntax::PrintPart;
 use crate::text::decode;
 
@@ -21,7 +22,7 @@ impl Interpreter<'_, '_> {
                 }
                 PrintPart::Value(expr) => {
                     let value = self.value(expr)?;
-                    self.session.rest_on("print.format");
+                    self.session.rest_on(Question::PrintFormat);
                     self.line.push_str(&digits(value));
                 }
             }

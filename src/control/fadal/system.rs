@@ -5,6 +5,7 @@ use super::registers::Register;
 use crate::canon::{Group, Op, Sys};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
+use crate::dialect::Question;
 use crate::syntax::{Index, VarRef};
 use std::collections::BTreeMap;
 
@@ -15,7 +16,7 @@ impl Interpreter<'_, '_> {
         if let Some(register) = self.register(variable, number)? {
             return Ok(self.registers.get(register).unwrap_or_else(|| {
                 // Nothing has set it since the control was switched on.
-                self.session.rest_on("common.at.power.on");
+                self.session.rest_on(Question::CommonAtPowerOn);
                 0.0
             }));
         }
@@ -36,10 +37,10 @@ impl Interpreter<'_, '_> {
             Sys::AxisPosition => {
                 if self.moving {
                     // Without WAIT the line is worked out while the axes still move.
-                    session.trace.doubt("behaviour:lookahead.runs.early");
+                    session.trace.doubt(Question::LookaheadRunsEarly.fact());
                 }
-                session.rest_on("position.frame");
-                match session.control.behaviour("position.frame").map(|row| row.value.as_str()) {
+                session.rest_on(Question::PositionFrame);
+                match session.control.behaviour(Question::PositionFrame).map(|row| row.value.as_str()) {
                     Some("machine") => Sys::MachinePosition,
                     _ => Sys::WorkPosition,
                 }
@@ -119,7 +120,7 @@ impl Interpreter<'_, '_> {
         };
         let value = self.value(expr)?;
         if value.fract() != 0.0 {
-            self.session.rest_on("index.of.fraction");
+            self.session.rest_on(Question::IndexOfFraction);
         }
         let rounded = value.round();
         if !(0.0..=f64::from(u32::MAX)).contains(&rounded) {

@@ -4,6 +4,7 @@ use super::Interpreter;
 use crate::canon::Func;
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
+use crate::dialect::Question;
 use crate::syntax::{BinaryOp, Expr, ExprKind};
 
 /// How near two numbers lie that a control with other digits might take for equal.
@@ -59,7 +60,7 @@ impl Interpreter<'_, '_> {
 
     fn truth(&mut self, expr: &Expr, depth: u32) -> Flow<bool> {
         if !is_condition(expr, depth) {
-            self.session.rest_on("number.is.condition");
+            self.session.rest_on(Question::NumberIsCondition);
         }
         Ok(self.nested(expr, depth)? != 0.0)
     }
@@ -72,19 +73,19 @@ impl Interpreter<'_, '_> {
             && a != b
             && (a - b).abs() <= NEAR * a.abs().max(1.0)
         {
-            self.session.rest_on("equal.tolerance");
+            self.session.rest_on(Question::EqualTolerance);
         }
         Ok(match op {
             BinaryOp::Add => a + b,
             BinaryOp::Subtract => a - b,
             BinaryOp::Multiply => a * b,
             BinaryOp::Divide if b == 0.0 => {
-                self.session.rest_on("divide.by.zero");
+                self.session.rest_on(Question::DivideByZero);
                 return Err(Stop::unnamed("a division by zero").into());
             }
             BinaryOp::Divide => {
                 if whole(left) && whole(right) && (a / b).fract() != 0.0 {
-                    self.session.rest_on("integer.divides");
+                    self.session.rest_on(Question::IntegerDivides);
                 }
                 a / b
             }
@@ -128,13 +129,13 @@ impl Interpreter<'_, '_> {
     /// RND: to the places of the last SET.
     fn rounded(&mut self, x: f64) -> f64 {
         let places = self.registers.places.unwrap_or_else(|| {
-            self.session.rest_on("round.places.default");
+            self.session.rest_on(Question::RoundPlacesDefault);
             0
         });
         let scale = 10f64.powi(i32::from(places));
         let scaled = x * scale;
         if (scaled.abs().fract() - 0.5).abs() < NEAR {
-            self.session.rest_on("round.half.away");
+            self.session.rest_on(Question::RoundHalfAway);
         }
         let rounded = scaled.round() / scale;
         if rounded.is_finite() { rounded } else { x }

@@ -3,6 +3,7 @@
 use super::Machine;
 use crate::canon::{Op, Pause, Running};
 use crate::control::trace::{Happening, Spindle, Told, Trace};
+use crate::dialect::Question;
 
 impl Machine {
     /// Stops for a person, for a tool, or for good: what the control is known to end is ended, then it stops.
@@ -68,7 +69,7 @@ impl Machine {
     pub(super) fn running_matters(&mut self, trace: &mut Trace) {
         for running in Running::ALL {
             if let Some(pause) = self.unsure_running[running as usize].take() {
-                trace.doubt(&format!("behaviour:{}", pause.question(running)));
+                trace.doubt(Question::ends(pause, running).fact());
             }
         }
     }

@@ -2,20 +2,20 @@
 
 use crate::canon::{Auxiliary, Op, Pause, Running, Sys};
 use crate::control::trace::Trace;
-use crate::dialect::{Control, Machine};
+use crate::dialect::{Control, Machine, Question};
 use std::collections::BTreeMap;
 
 /// A fact: the answer acted by, and its name where nobody confirmed it.
 #[derive(Clone, Debug)]
 pub struct Fact<T> {
     value: T,
-    unsure: Option<String>,
+    unsure: Option<&'static str>,
 }
 
 impl<T: Copy> Fact<T> {
     /// The answer, in a place where it matters.
     pub fn ask(&self, trace: &mut Trace) -> T {
-        if let Some(name) = &self.unsure {
+        if let Some(name) = self.unsure {
             trace.doubt(name);
         }
         self.value
@@ -33,24 +33,26 @@ impl<T: Copy> Fact<T> {
 }
 
 /// The answer to a question of behaviour. A silent table and an unknown answer give `otherwise`, unsure.
-pub fn fact<T>(control: &Control, name: &str, read: impl Fn(&str) -> Option<T>, otherwise: T) -> Fact<T> {
-    let row = control.behaviour(name);
+pub fn fact<T>(
+    control: &Control,
+    question: Question,
+    read: impl Fn(&str) -> Option<T>,
+    otherwise: T,
+) -> Fact<T> {
+    let row = control.behaviour(question);
     let known = row.and_then(|row| Some((read(&row.value)?, row.origin.confirmed)));
     let unsure = !known.as_ref().is_some_and(|(_, confirmed)| *confirmed);
-    Fact {
-        value: known.map_or(otherwise, |(value, _)| value),
-        unsure: unsure.then(|| format!("behaviour:{name}")),
-    }
+    Fact { value: known.map_or(otherwise, |(value, _)| value), unsure: unsure.then(|| question.fact()) }
 }
 
 /// The answer to a yes-or-no question.
-pub fn yes(control: &Control, name: &str, otherwise: bool) -> Fact<bool> {
+pub fn yes(control: &Control, question: Question, otherwise: bool) -> Fact<bool> {
     let read = |value: &str| match value {
         "true" => Some(true),
         "false" => Some(false),
         _ => None,
     };
-    fact(control, name, read, otherwise)
+    fact(control, question, read, otherwise)
 }
 
 /// What the offset values of cutter radii are.
@@ -152,12 +154,12 @@ impl Rules {
             "straight" => Some(NoCentre::Straight),
             _ => None,
         };
-        let negative_is_long = fact(control, "arc.radius.negative", word("long", "short"), true);
+        let negative_is_long = fact(control, Question::ArcRadiusNegative, word("long", "short"), true);
         // Where only the minus is known, the plus is the other arc.
         let plus = negative_is_long.peek();
         let late = |kind: Auxiliary| {
             let acts = control.acts(kind);
-            Fact { value: acts.late, unsure: (!acts.known).then(|| format!("behaviour:{}", acts.question)) }
+            Fact { value: acts.late, unsure: (!acts.known).then(|| acts.question.fact()) }
         };
         Self {
             late: Auxiliary::ALL.map(late),
@@ -169,43 +171,49 @@ impl Rules {
             }),
             cancels_offsets: control.code_for(Op::ShiftCancel, &BTreeMap::new()).is_some()
                 || control.word_for(Op::SelectWork).is_some(),
-            positive_radius_is_short: fact(control, "arc.radius.positive", word("short", "long"), plus),
+            positive_radius_is_short: fact(control, Question::ArcRadiusPositive, word("short", "long"), plus),
             negative_radius_is_long: negative_is_long,
-            no_centre: fact(control, "arc.without.centre", no_centre, NoCentre::Alarm),
-            centre_is_incremental: fact(control, "arc.centre", word("incremental", "absolute"), true),
-            planes_frozen: yes(control, "cycle.planes.frozen", true),
-            zero_repeats_stores: yes(control, "cycle.l0.stores", true),
-            cycle_block_runs: yes(control, "cycle.block.runs", true).or_silent(control, "cycle.block.runs"),
-            cycle_runs_without_axes: yes(control, "cycle.runs.without.axes", false),
-            rotation_runs_cycle: yes(control, "rotation.runs.cycle", false),
-            rotation_is_ccw: fact(control, "rotation.direction", word("ccw", "cw"), true),
-            motion_ends_cycle: yes(control, "cycle.ends.by.motion", true)
-                .or_silent(control, "cycle.ends.by.motion"),
-            offset_acts_at_once: yes(control, "offset.active.immediately", true),
+            no_centre: fact(control, Question::ArcWithoutCentre, no_centre, NoCentre::Alarm),
+            centre_is_incremental: fact(control, Question::ArcCentre, word("incremental", "absolute"), true),
+            planes_frozen: yes(control, Question::CyclePlanesFrozen, true),
+            zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
+            cycle_block_runs: yes(control, Question::CycleBlockRuns, true)
+                .or_silent(control, Question::CycleBlockRuns),
+            cycle_runs_without_axes: yes(control, Question::CycleRunsWithoutAxes, false),
+            rotation_runs_cycle: yes(control, Question::RotationRunsCycle, false),
+            rotation_is_ccw: fact(control, Question::RotationDirection, word("ccw", "cw"), true),
+            motion_ends_cycle: yes(control, Question::CycleEndsByMotion, true)
+                .or_silent(control, Question::CycleEndsByMotion),
+            offset_acts_at_once: yes(control, Question::OffsetActiveImmediately, true),
             // Where it is a setting nobody stated, as conversions take it.
-            radius_table: fact(control, "radius.offset.table", table, RadiusTable::Diameter),
-            tool_word_changes: fact(control, "tool.change.word", |value| Some(value == "t"), false),
+            radius_table: fact(control, Question::RadiusOffsetTable, table, RadiusTable::Diameter),
+            tool_word_changes: fact(control, Question::ToolChangeWord, |value| Some(value == "t"), false),
             tool_word_again: fact(
                 control,
-                "tool.word.again",
+                Question::ToolWordAgain,
                 |value| ["changes", "skipped"].contains(&value).then_some(value == "changes"),
                 true,
             ),
-            tool_word_selects_length: yes(control, "tool.word.selects.length", false),
-            cutter_takes_tool: yes(control, "radius.offset.active.tool", false),
-            length_picks_radius: yes(control, "length.word.picks.radius", false),
-            end_cancels_length: yes(control, "end.cancels.length", false),
-            reference_takes_all: yes(control, "reference.all.axes", false),
-            length_after_reference: fact(control, "reference.length", length_after, LengthAfter::Kept),
-            length_after_machine_move: fact(control, "machine.move.length", length_after, LengthAfter::Kept),
-            positions_hold_length: fact(control, "position.length", word("added", "left.out"), false),
-            mirrors_about_word: fact(control, "mirror.about", word("word", "zero"), true),
-            frame_codes_when_shaped: fact(control, "shape.frame.codes", only("kept"), ()),
-            scale_reaches_cycle: fact(control, "scale.reaches.cycle", only("true"), ()),
-            local_is_external: yes(control, "shift.local.is.external", false)
-                .or_silent(control, "shift.local.is.external"),
-            set_position_ends_local: yes(control, "set.position.ends.local", false),
-            end_clears_local: yes(control, "end.clears.local", false),
+            tool_word_selects_length: yes(control, Question::ToolWordSelectsLength, false),
+            cutter_takes_tool: yes(control, Question::RadiusOffsetActiveTool, false),
+            length_picks_radius: yes(control, Question::LengthWordPicksRadius, false),
+            end_cancels_length: yes(control, Question::EndCancelsLength, false),
+            reference_takes_all: yes(control, Question::ReferenceAllAxes, false),
+            length_after_reference: fact(control, Question::ReferenceLength, length_after, LengthAfter::Kept),
+            length_after_machine_move: fact(
+                control,
+                Question::MachineMoveLength,
+                length_after,
+                LengthAfter::Kept,
+            ),
+            positions_hold_length: fact(control, Question::PositionLength, word("added", "left.out"), false),
+            mirrors_about_word: fact(control, Question::MirrorAbout, word("word", "zero"), true),
+            frame_codes_when_shaped: fact(control, Question::ShapeFrameCodes, only("kept"), ()),
+            scale_reaches_cycle: fact(control, Question::ScaleReachesCycle, only("true"), ()),
+            local_is_external: yes(control, Question::ShiftLocalIsExternal, false)
+                .or_silent(control, Question::ShiftLocalIsExternal),
+            set_position_ends_local: yes(control, Question::SetPositionEndsLocal, false),
+            end_clears_local: yes(control, Question::EndClearsLocal, false),
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),
             lathe: control.machine() == Machine::Lathe,
         }
@@ -224,8 +232,8 @@ impl Rules {
 
 impl<T> Fact<T> {
     /// Sure where the table does not ask: then the control is like all others.
-    fn or_silent(mut self, control: &Control, name: &str) -> Self {
-        if control.behaviour(name).is_none() {
+    fn or_silent(mut self, control: &Control, question: Question) -> Self {
+        if control.behaviour(question).is_none() {
             self.unsure = None;
         }
         self

@@ -9,6 +9,7 @@ use crate::canon::{Op, Sys};
 use crate::control::outcome::Stop;
 use crate::control::scenario::AXES;
 use crate::control::trace::{Happening, Spindle, Trace};
+use crate::dialect::Question;
 
 /// The key of a cell; states have two subscripts at the most.
 pub(super) fn cell(state: Sys, subscripts: &[u32]) -> (Sys, [u32; 2]) {
@@ -60,7 +61,7 @@ impl Machine {
             Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
                 self.rules.radius_table.ask(trace);
             }
-            Sys::AxisPosition => trace.doubt("behaviour:position.frame"),
+            Sys::AxisPosition => trace.doubt(Question::PositionFrame.fact()),
             Sys::ActiveTool => self.active_tool_asked(trace),
             _ => {}
         }

@@ -7,7 +7,7 @@ use super::run::Runner;
 use crate::canon::Role;
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
-use crate::dialect::BareLength;
+use crate::dialect::{BareLength, Question};
 
 /// What a call's words say.
 pub struct Arguments {
@@ -72,7 +72,7 @@ impl<'c> Runner<'c> {
         }
         if others && !places.is_empty() && !self.rules.mixed_later_wins.ask(&mut self.session.trace) {
             // Which of the two kinds such a control takes is not known.
-            self.session.trace.doubt("behaviour:arguments.mixed.later.wins");
+            self.session.trace.doubt(Question::ArgumentsMixedLaterWins.fact());
         }
         Ok(read)
     }

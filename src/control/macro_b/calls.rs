@@ -121,6 +121,15 @@ impl<'c> Runner<'c> {
         let Some(count) = self.count(count) else { return Ok(Next::On) };
         let mut frame = self.frame(section, count);
         frame.alias |= alias;
+        self.push_subprogram(frame)
+    }
+
+    /// Enters a subprogram: with its caller's locals, where the control shares them.
+    fn push_subprogram(&mut self, mut frame: Frame<'c>) -> Result<Next, Halt> {
+        if !self.rules.locals_shared.ask(&mut self.session.trace) {
+            frame.level = true;
+            self.memory.levels.push(Locals::default());
+        }
         self.push(frame)
     }
 
@@ -143,7 +152,7 @@ impl<'c> Runner<'c> {
         let Some(count) = self.count(count) else { return Ok(Next::On) };
         let mut frame = Frame::new(program, to, visible);
         (frame.repeats, frame.alias) = (count - 1, alias);
-        self.push(frame)
+        self.push_subprogram(frame)
     }
 
     /// How often a call runs; none for not at all.
@@ -270,7 +279,9 @@ impl<'c> Runner<'c> {
         let Some(frame) = self.frames.pop() else { return };
         if frame.level {
             let locals = self.memory.levels.pop().unwrap_or_default();
-            if let Some(call) = frame.modal.and_then(|index| self.modal_calls.get_mut(index)) {
+            if let Some(call) = frame.modal.and_then(|index| self.modal_calls.get_mut(index))
+                && self.rules.modal_keeps_locals.ask(&mut self.session.trace)
+            {
                 call.locals = locals;
             }
         }

@@ -8,7 +8,7 @@ use crate::control::library::{LoadedFile, Section};
 use crate::control::outcome::Stop;
 use crate::control::trace::Place;
 use crate::diag::{Code, Severity};
-use crate::dialect::{Control, Row};
+use crate::dialect::{Control, Question, Row};
 use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
 use crate::text::{Span, decode};
 use std::cell::Cell;
@@ -71,7 +71,7 @@ impl<'c> Compiler<'c, '_> {
 
     /// The block's sequence number, where a jump finds it: at its head, on some controls anywhere.
     fn sequence(&self, items: &[Item]) -> Option<u32> {
-        let anywhere = self.control.is("sequence.anywhere");
+        let anywhere = self.control.is(Question::SequenceAnywhere);
         for item in items {
             match &item.kind {
                 ItemKind::Sequence { number, .. } => return Some(*number),
@@ -123,7 +123,7 @@ impl<'c> Compiler<'c, '_> {
     fn shown(&self, items: &[Item]) -> Option<String> {
         let words = items.iter().rposition(|item| matches!(item.kind, ItemKind::Word(_)))?;
         items.iter().skip(words).find_map(|item| match &item.kind {
-            ItemKind::Comment(comment) if self.control.is("message.shows.comment") => {
+            ItemKind::Comment(comment) if self.control.is(Question::MessageShowsComment) => {
                 Some(self.text(comment.text))
             }
             _ => None,
@@ -144,18 +144,18 @@ impl<'c> Compiler<'c, '_> {
         let statements: Vec<&Item> = statements.collect();
         let assigns = |item: &&Item| matches!(item.kind, ItemKind::Assign { .. });
         if statements.len() > 1 && statements.iter().all(assigns) {
-            self.rest_on_behaviour("assign.shares.block", facts);
+            self.rest_on_behaviour(Question::AssignSharesBlock, facts);
         } else if statements.len() > 1 || (words && !statements.is_empty()) {
-            self.rest_on_behaviour("statement.shares.block", facts);
+            self.rest_on_behaviour(Question::StatementSharesBlock, facts);
         }
     }
 
     /// Notes a fact that is not confirmed, or that the table denies or leaves open.
-    fn rest_on_behaviour(&self, name: &str, facts: &mut Vec<String>) {
+    fn rest_on_behaviour(&self, question: Question, facts: &mut Vec<String>) {
         let sure =
-            self.control.behaviour(name).is_some_and(|row| row.origin.confirmed && row.value == "true");
+            self.control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value == "true");
         if !sure {
-            facts.push(format!("behaviour:{name}"));
+            facts.push(question.fact().into());
         }
     }
 
@@ -284,7 +284,7 @@ impl<'c> Compiler<'c, '_> {
             self.rest_on_statement("if.bare", &mut gather.facts);
         }
         if body.iter().any(|item| matches!(item.kind, ItemKind::Word(_))) {
-            self.rest_on_behaviour("then.words", &mut gather.facts);
+            self.rest_on_behaviour(Question::ThenWords, &mut gather.facts);
         }
         let branch = self.branch(condition.span);
         let condition = Expressions::new(self.control, &mut gather.facts).condition(condition);

@@ -2,7 +2,7 @@
 
 use super::code::{Ex, Form, System, Var, Word};
 use crate::canon::Sys;
-use crate::dialect::{Control, Row};
+use crate::dialect::{Control, Question, Row};
 use crate::syntax::{BinaryOp, Expr, ExprKind, Index, VarRef};
 
 /// Prepares expressions; the facts that they rest on are added to a list.
@@ -28,16 +28,16 @@ impl<'c, 'f> Expressions<'c, 'f> {
     pub fn condition(&mut self, expr: &Expr) -> Ex {
         self.in_condition = true;
         if !compares(expr) {
-            self.behaviour("number.is.condition");
+            self.behaviour(Question::NumberIsCondition);
         }
         self.expr(expr)
     }
 
-    fn behaviour(&mut self, name: &str) {
+    fn behaviour(&mut self, question: Question) {
         let sure =
-            self.control.behaviour(name).is_some_and(|row| row.origin.confirmed && row.value == "true");
+            self.control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value == "true");
         if !sure {
-            self.facts.push(format!("behaviour:{name}"));
+            self.facts.push(question.fact().into());
         }
     }
 
@@ -57,7 +57,7 @@ impl<'c, 'f> Expressions<'c, 'f> {
             }
             ExprKind::Binary(op, a, b) => {
                 if is_relation(*op) && !self.in_condition {
-                    self.behaviour("comparison.is.value");
+                    self.behaviour(Question::ComparisonIsValue);
                 }
                 self.operator(*op, a, b);
                 Ex::Binary(*op, Box::new(self.expr(a)), Box::new(self.expr(b)))

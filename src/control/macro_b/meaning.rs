@@ -4,7 +4,7 @@ use super::Style;
 use super::code::{Coded, Ex, Meaning, Word};
 use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
-use crate::dialect::{Control, Row};
+use crate::dialect::{Control, Question, Row};
 
 /// The meaning, where no code is computed.
 pub fn fixed<'c>(control: &'c Control, style: &Style, words: &[Word]) -> Option<Meaning<'c>> {
@@ -22,14 +22,14 @@ pub fn fixed<'c>(control: &'c Control, style: &Style, words: &[Word]) -> Option<
     let measured = |role: &Option<Role>| role.is_some_and(|role| role.is_length() || role.is_axis());
     let computed = |(word, role): (&Word, &Option<Role>)| !word.form.is_literal() && measured(role);
     if words.iter().zip(&meaning.alone).any(computed) {
-        behaviour(control, "word.bare.expression", &mut meaning.facts);
+        behaviour(control, Question::WordBareExpression, &mut meaning.facts);
     }
     Some(meaning)
 }
 
-fn behaviour(control: &Control, name: &str, facts: &mut Vec<String>) {
-    if !control.behaviour(name).is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
-        facts.push(format!("behaviour:{name}"));
+fn behaviour(control: &Control, question: Question, facts: &mut Vec<String>) {
+    if !control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
+        facts.push(question.fact().into());
     }
 }
 
@@ -114,12 +114,12 @@ fn reads(row: &crate::dialect::CodeMeaning, word: &Word) -> bool {
 
 fn count_m(control: &Control, codes: &[Coded<'_>], facts: &mut Vec<String>) {
     let count = codes.iter().filter(|code| code.letter == 'M').count();
-    let most = match control.behaviour("m.codes.per.block").map(|row| row.value.as_str()) {
+    let most = match control.behaviour(Question::MCodesPerBlock).map(|row| row.value.as_str()) {
         Some("any") => usize::MAX,
         Some("3") => 3,
         _ => 1,
     };
     if count > most {
-        facts.push("behaviour:m.codes.per.block".into());
+        facts.push(Question::MCodesPerBlock.fact().into());
     }
 }

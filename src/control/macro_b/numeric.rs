@@ -7,7 +7,7 @@ use crate::control::fewer::FewerDigits;
 use crate::control::outcome::Stop;
 use crate::control::scenario::Scenario;
 use crate::control::trace::Trace;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::syntax::BinaryOp;
 
 /// A value; none is vacant.
@@ -17,22 +17,27 @@ pub type Value = Option<f64>;
 #[derive(Clone, Debug)]
 pub struct Answer<T> {
     value: T,
-    unsure: Option<String>,
+    unsure: Option<&'static str>,
 }
 
 impl<T: Copy> Answer<T> {
     /// Reads a question of behaviour; unknown and missing answers give `otherwise`, unsure.
-    pub fn new(control: &Control, name: &str, read: impl Fn(&str) -> Option<T>, otherwise: T) -> Self {
-        let row = control.behaviour(name);
+    pub fn new(
+        control: &Control,
+        question: Question,
+        read: impl Fn(&str) -> Option<T>,
+        otherwise: T,
+    ) -> Self {
+        let row = control.behaviour(question);
         let known = row.and_then(|row| Some((read(&row.value)?, row.origin.confirmed)));
         let sure = known.is_some_and(|(_, confirmed)| confirmed);
         let value = known.map_or(otherwise, |(value, _)| value);
-        Self { value, unsure: (!sure).then(|| format!("behaviour:{name}")) }
+        Self { value, unsure: (!sure).then(|| question.fact()) }
     }
 
     /// The answer, where it matters.
     pub fn ask(&self, trace: &mut Trace) -> T {
-        if let Some(fact) = &self.unsure {
+        if let Some(fact) = self.unsure {
             trace.doubt(fact);
         }
         self.value
@@ -45,13 +50,13 @@ impl<T: Copy> Answer<T> {
 }
 
 /// The answer to a yes-or-no question.
-pub fn yes(control: &Control, name: &str, otherwise: bool) -> Answer<bool> {
+pub fn yes(control: &Control, question: Question, otherwise: bool) -> Answer<bool> {
     let read = |value: &str| match value {
         "true" => Some(true),
         "false" => Some(false),
         _ => None,
     };
-    Answer::new(control, name, read, otherwise)
+    Answer::new(control, question, read, otherwise)
 }
 
 fn is(word: &'static str, no: &'static str) -> impl Fn(&str) -> Option<bool> {
@@ -95,18 +100,18 @@ impl Numeric {
             largest: if short { 1e47 } else { f64::MAX },
             smallest: if short { 1e-29 } else { 0.0 },
             alarms,
-            vacant_equals_zero: yes(control, "vacant.eq.zero", false),
-            vacant_orders_as_zero: yes(control, "vacant.compares.as.zero", true),
-            vacant_adds_as_zero: yes(control, "vacant.arithmetic.zero", true),
-            mod_rounds: yes(control, "mod.rounds.operands", true),
-            mod_sign_of_dividend: Answer::new(control, "mod.sign", is("dividend", "divisor"), true),
-            bits_round: Answer::new(control, "bits.of.fraction", is("round", "truncate"), true),
-            round_half_away: yes(control, "round.half.away", true),
-            fix_toward_zero: yes(control, "fix.toward.zero", true),
-            atan2_full_turn: Answer::new(control, "atan2.range", is("0..360", "-180..180"), false),
-            asin_full_turn: Answer::new(control, "asin.range", is("270..90", "-90..90"), false),
-            divide_by_zero: Answer::new(control, "divide.by.zero", alarm, true),
-            root_of_negative: Answer::new(control, "sqrt.of.negative", alarm, true),
+            vacant_equals_zero: yes(control, Question::VacantEqZero, false),
+            vacant_orders_as_zero: yes(control, Question::VacantComparesAsZero, true),
+            vacant_adds_as_zero: yes(control, Question::VacantArithmeticZero, true),
+            mod_rounds: yes(control, Question::ModRoundsOperands, true),
+            mod_sign_of_dividend: Answer::new(control, Question::ModSign, is("dividend", "divisor"), true),
+            bits_round: Answer::new(control, Question::BitsOfFraction, is("round", "truncate"), true),
+            round_half_away: yes(control, Question::RoundHalfAway, true),
+            fix_toward_zero: yes(control, Question::FixTowardZero, true),
+            atan2_full_turn: Answer::new(control, Question::Atan2Range, is("0..360", "-180..180"), false),
+            asin_full_turn: Answer::new(control, Question::AsinRange, is("270..90", "-90..90"), false),
+            divide_by_zero: Answer::new(control, Question::DivideByZero, alarm, true),
+            root_of_negative: Answer::new(control, Question::SqrtOfNegative, alarm, true),
             tangent_by_quotient: short,
         }
     }

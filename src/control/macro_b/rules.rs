@@ -1,7 +1,7 @@
 //! The answers of the table that running rests on, read once.
 
 use super::numeric::{Answer, yes};
-use crate::dialect::{BareLength, Control};
+use crate::dialect::{BareLength, Control, Question};
 
 /// What a number of a dwell counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,8 @@ pub struct Rules {
     pub repeat_zero_none: Answer<bool>,
     pub modal_block_calls: Answer<bool>,
     pub alias_nested: Answer<bool>,
+    pub locals_shared: Answer<bool>,
+    pub modal_keeps_locals: Answer<bool>,
     pub bare_length: BareLength,
     pub bare_feed: BareLength,
     pub feed_parts: f64,
@@ -88,32 +90,44 @@ impl Rules {
             _ => None,
         };
         let numbers = control.numbers();
-        let offset = control.behaviour("alarm.offset").and_then(|row| row.value.parse().ok());
+        let offset = control.behaviour(Question::AlarmOffset).and_then(|row| row.value.parse().ok());
         Self {
-            vacant_word_dropped: yes(control, "vacant.word.dropped", true),
-            vacant_bracket: Answer::new(control, "bracket.vacant.word", bracket, VacantBracket::Dropped),
-            bracket_copies_vacancy: yes(control, "bracket.copies.vacancy", true),
-            word_rounds: control.is("word.rounds.to.increment"),
-            scale_bare: Answer::new(control, "scale.bare", word("units", "unknown"), true),
-            integer_word_rounds: yes(control, "integer.word.rounds", true),
+            vacant_word_dropped: yes(control, Question::VacantWordDropped, true),
+            vacant_bracket: Answer::new(
+                control,
+                Question::BracketVacantWord,
+                bracket,
+                VacantBracket::Dropped,
+            ),
+            bracket_copies_vacancy: yes(control, Question::BracketCopiesVacancy, true),
+            word_rounds: control.is(Question::WordRoundsToIncrement),
+            scale_bare: Answer::new(control, Question::ScaleBare, word("units", "unknown"), true),
+            integer_word_rounds: yes(control, Question::IntegerWordRounds, true),
             round_in_address: control
-                .behaviour("round.in.address")
+                .behaviour(Question::RoundInAddress)
                 .is_some_and(|row| row.value == "increment"),
-            goto_forward: yes(control, "goto.forward.first", false),
-            return_jumps_here: yes(control, "m99.p.jumps.here", false),
-            output_needs_port: yes(control, "output.needs.port", false),
-            main_restarts: yes(control, "m99.main.restarts", true),
-            index_rounds: Answer::new(control, "index.of.fraction", word("round", "truncate"), true),
-            dwell_bare: Answer::new(control, "dwell.bare", dwell, Dwell::Milliseconds),
-            dwell_point: Answer::new(control, "dwell.point", dwell, Dwell::Seconds),
-            dwell_expression: Answer::new(control, "dwell.expression", dwell, Dwell::Milliseconds),
-            mixed_later_wins: yes(control, "arguments.mixed.later.wins", true),
-            lists: Answer::new(control, "arguments.order.ijk", lists, Lists::FallingOrTwice),
-            set_by_count: Answer::new(control, "arguments.repeated.order", word("count", "place"), false),
-            repeat_reloads: yes(control, "call.repeat.reloads.arguments", false),
-            repeat_zero_none: Answer::new(control, "repeat.zero", word("none", "once"), true),
-            modal_block_calls: yes(control, "call.modal.block.calls", false),
-            alias_nested: yes(control, "call.alias.nested", false),
+            goto_forward: yes(control, Question::GotoForwardFirst, false),
+            return_jumps_here: yes(control, Question::M99PJumpsHere, false),
+            output_needs_port: yes(control, Question::OutputNeedsPort, false),
+            main_restarts: yes(control, Question::M99MainRestarts, true),
+            index_rounds: Answer::new(control, Question::IndexOfFraction, word("round", "truncate"), true),
+            dwell_bare: Answer::new(control, Question::DwellBare, dwell, Dwell::Milliseconds),
+            dwell_point: Answer::new(control, Question::DwellPoint, dwell, Dwell::Seconds),
+            dwell_expression: Answer::new(control, Question::DwellExpression, dwell, Dwell::Milliseconds),
+            mixed_later_wins: yes(control, Question::ArgumentsMixedLaterWins, true),
+            lists: Answer::new(control, Question::ArgumentsOrderIjk, lists, Lists::FallingOrTwice),
+            set_by_count: Answer::new(
+                control,
+                Question::ArgumentsRepeatedOrder,
+                word("count", "place"),
+                false,
+            ),
+            repeat_reloads: yes(control, Question::CallRepeatReloadsArguments, false),
+            repeat_zero_none: Answer::new(control, Question::RepeatZero, word("none", "once"), true),
+            modal_block_calls: yes(control, Question::CallModalBlockCalls, false),
+            alias_nested: yes(control, Question::CallAliasNested, false),
+            locals_shared: yes(control, Question::LocalsSharedBySubprogram, true),
+            modal_keeps_locals: yes(control, Question::CallModalSetsLocalsOnce, true),
             bare_length: numbers.bare_length,
             bare_feed: numbers.bare_feed,
             feed_parts: numbers.feed_parts,

@@ -3,7 +3,7 @@
 use super::Emitter;
 use super::expressions::Place;
 use crate::canon::{Op, Role};
-use crate::dialect::BareLength;
+use crate::dialect::{BareLength, Question};
 use crate::ir::{Argument, Call, Callee, Expr};
 
 /// The letters that stand for locals 4 to 33 when arguments go by place.
@@ -132,9 +132,9 @@ impl Emitter<'_> {
         let twice = sets.iter().enumerate().any(|(at, (letter, _))| earlier(at, *letter) > 0);
         let counted =
             |(at, (letter, local)): (usize, &(char, u32))| earlier(at, *letter) == (*local as usize - 4) / 3;
-        let order = answer("arguments.order.ijk");
+        let order = answer(Question::ArgumentsOrderIjk);
         let by_place = order == "true" || order == "repeated" && twice;
-        let in_sets = match answer("arguments.repeated.order") {
+        let in_sets = match answer(Question::ArgumentsRepeatedOrder) {
             "place" => close,
             "count" => sets.iter().enumerate().all(counted),
             _ => close && sets.iter().enumerate().all(counted),

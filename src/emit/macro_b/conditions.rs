@@ -1,6 +1,7 @@
 //! Conditions, as they stand between the brackets of IF and WHILE.
 
 use super::Emitter;
+use crate::dialect::Question;
 use crate::ir::Cond;
 
 impl Emitter<'_> {
@@ -43,7 +44,7 @@ impl Emitter<'_> {
         if let [only] = parts {
             return self.condition(only, negated);
         }
-        if parts.is_empty() || !self.control.is("condition.and.or") {
+        if parts.is_empty() || !self.control.is(Question::ConditionAndOr) {
             return self.unmapped("conditions joined by AND or OR");
         }
         let (truth, bits) = if all { ("and", "and.bits") } else { ("or", "or.bits") };

@@ -4,6 +4,7 @@ use super::Emitter;
 use super::spellings::Operator;
 use crate::canon::{Func, Sys};
 use crate::diag::Code;
+use crate::dialect::Question;
 use crate::ir::{Bank, BinOp, Expr, Relation, Var};
 
 /// Expressions inside one another before the writer gives up; no control reads as many.
@@ -96,7 +97,7 @@ impl Emitter<'_> {
             }
             Expr::Binary(op, operands) => self.binary(*op, operands, spot),
             Expr::Call(function, arguments) => self.call(*function, arguments, spot),
-            Expr::Truth(condition) if self.control.is("comparison.is.value") => {
+            Expr::Truth(condition) if self.control.is(Question::ComparisonIsValue) => {
                 self.open();
                 self.condition(condition, false);
                 self.close();

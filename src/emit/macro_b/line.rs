@@ -5,6 +5,7 @@ use super::labels::Standing;
 use super::numbers::write_padded;
 use super::remarks::{spelled, wrap, write_remark, write_spelled};
 use crate::diag::Code;
+use crate::dialect::Question;
 use crate::ir::{Cond, Remark, Site};
 use crate::text::Span;
 
@@ -154,7 +155,7 @@ impl<'p> Emitter<'p> {
     fn skip(&mut self, level: u8) {
         self.push('/');
         if level != 1 {
-            if !self.control.is("skip.levels") {
+            if !self.control.is(Question::SkipLevels) {
                 self.unmapped(format_args!("block skip {level}"));
             }
             self.integer(u32::from(level));

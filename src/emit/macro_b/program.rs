@@ -6,6 +6,7 @@ use super::labels::{self, Labels, Standing};
 use super::line::Kind;
 use super::reach::Reach;
 use crate::diag::Code;
+use crate::dialect::Question;
 use crate::ir::{Block, BlockId, Cond, Site, TermKind};
 use crate::syntax::Label;
 
@@ -71,7 +72,7 @@ impl<'p> Emitter<'p> {
             control,
             guarded: false,
             then: control.statement("if.then").is_some(),
-            then_words: control.statement("if.then.words").is_some() || control.is("then.words"),
+            then_words: control.statement("if.then.words").is_some() || control.is(Question::ThenWords),
             loops: control.statement("while").and(depth).unwrap_or(0),
         }
     }

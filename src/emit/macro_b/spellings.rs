@@ -1,7 +1,7 @@
 //! The spellings of a control, gathered once a library so that no word looks them up.
 
 use crate::canon::{Func, Op, Role};
-use crate::dialect::{CodeMeaning, Control, Function};
+use crate::dialect::{CodeMeaning, Control, Function, Question};
 use crate::ir::{BinOp, Relation};
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
@@ -102,8 +102,10 @@ impl<'c> Spellings<'c> {
             letters: vec![Letter::default(); Role::ALL.len()],
             functions,
             brackets: control.limit("brackets"),
-            round_is_increment: control.behaviour("round.in.address").is_some_and(|b| b.value == "increment"),
-            m_codes: match control.behaviour("m.codes.per.block").map(|row| row.value.as_str()) {
+            round_is_increment: control
+                .behaviour(Question::RoundInAddress)
+                .is_some_and(|b| b.value == "increment"),
+            m_codes: match control.behaviour(Question::MCodesPerBlock).map(|row| row.value.as_str()) {
                 Some("any") => usize::MAX,
                 Some("3") => 3,
                 _ => 1,

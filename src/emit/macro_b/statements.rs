@@ -6,6 +6,7 @@ use super::reach::is_steady;
 use super::remarks::{is_writable, write_remark};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::Code;
+use crate::dialect::Question;
 use crate::ir::{
     Block, Cond, Expr, Nc, NcItem, OutputPart, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
 };
@@ -204,7 +205,7 @@ impl<'p> Emitter<'p> {
         }
         let op = match &block.term.kind {
             TermKind::End { rewind } => end_op(*rewind),
-            TermKind::Return { to: None } if self.control.is("m99.block.moves.first") => Op::Return,
+            TermKind::Return { to: None } if self.control.is(Question::M99BlockMovesFirst) => Op::Return,
             TermKind::Call { call, .. } if self.style.words_beside_call && !call.level => {
                 let letters = [Role::Program, Role::CallCount].map(|role| self.spellings.letter(role, &[]));
                 let taken = |role: Role| {
@@ -278,7 +279,7 @@ impl<'p> Emitter<'p> {
     /// True where M99 P goes to a block of the caller; elsewhere it jumps in the program that runs.
     fn returns_to_caller(&self) -> bool {
         self.control.statement("return.to.sequence").is_some()
-            && self.control.behaviour("m99.p.jumps.here").is_some_and(|row| row.value == "false")
+            && self.control.behaviour(Question::M99PJumpsHere).is_some_and(|row| row.value == "false")
     }
 
     fn return_to(&mut self, to: Option<&Expr>) {

@@ -4,7 +4,7 @@ use super::Emitter;
 use super::expressions::Place;
 use super::spellings::{Code, Operand};
 use crate::canon::Role;
-use crate::dialect::{BareLength, CodeHead};
+use crate::dialect::{BareLength, CodeHead, Question};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
 use smallvec::SmallVec;
 
@@ -218,11 +218,11 @@ impl<'p> Emitter<'p> {
             Role::SpeedLimit | Role::Builder => self.number(value, false),
             _ if value.fract() == 0.0 => self.number(value, false),
             // A constant with a point would be an alarm, one in brackets is rounded.
-            _ if role.is_integer() && self.control.is("integer.word.rounds") => {
+            _ if role.is_integer() && self.control.is(Question::IntegerWordRounds) => {
                 self.bracketed(&Expr::Number(value));
             }
             Role::DwellMs | Role::CycleDwell
-                if self.control.behaviour("dwell.point").is_some_and(|b| b.value == "ms") =>
+                if self.control.behaviour(Question::DwellPoint).is_some_and(|b| b.value == "ms") =>
             {
                 self.number(value, true);
             }

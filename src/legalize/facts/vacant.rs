@@ -1,18 +1,20 @@
 //! The facts about vacancy: which programs rest on them, by data flow.
 
 use super::Found;
+use crate::dialect::Question;
 use crate::ir::analysis::Vacancy;
 use crate::ir::{Block, BlockId, Cond, Expr, Relation, TermKind};
 use crate::text::Span;
 
 /// What matters only where a variable may be vacant.
-pub(super) const VACANCY: [&str; 3] = ["vacant.eq.zero", "vacant.compares.as.zero", "vacant.arithmetic.zero"];
+pub(super) const VACANCY: [Question; 3] =
+    [Question::VacantEqZero, Question::VacantComparesAsZero, Question::VacantArithmeticZero];
 
 impl Found<'_> {
     /// Facts that matter only where a variable may be vacant.
     pub(super) fn vacant(&mut self, id: BlockId, blocks: &[Block], vacancy: &Vacancy<'_>) {
         let Some(block) = blocks.first() else { return };
-        let [equality, order, arithmetic] = VACANCY.map(|name| !self.is_told(name));
+        let [equality, order, arithmetic] = VACANCY.map(|question| !self.is_told(question));
         let compares = || match &block.term.kind {
             TermKind::Branch { cond: Cond::Compare(Relation::Equal | Relation::NotEqual, ..), .. } => {
                 equality
@@ -31,7 +33,7 @@ impl Found<'_> {
                 stmt.kind.exprs(&mut |e| e.walk(&mut |e| told |= computes_with(e, may)));
                 if told {
                     let span = self.span(blocks, at);
-                    self.behaviour("vacant.arithmetic.zero", span);
+                    self.behaviour(Question::VacantArithmeticZero, span);
                 }
             }
             None => {
@@ -51,14 +53,17 @@ impl Found<'_> {
                 // What is vacant does not equal 5, whether or not it equals 0.
                 let other = |e: &Expr| equality && e.constant().is_some_and(|value| value != 0.0);
                 if (may(a) && !other(b)) || (may(b) && !other(a)) {
-                    self.behaviour(if equality { "vacant.eq.zero" } else { "vacant.compares.as.zero" }, span);
+                    self.behaviour(
+                        if equality { Question::VacantEqZero } else { Question::VacantComparesAsZero },
+                        span,
+                    );
                 }
                 let mut arithmetic = false;
                 for e in [a, b] {
                     e.walk(&mut |e| arithmetic |= computes_with(e, may));
                 }
                 if arithmetic {
-                    self.behaviour("vacant.arithmetic.zero", span);
+                    self.behaviour(Question::VacantArithmeticZero, span);
                 }
             }
             Cond::And(parts) | Cond::Or(parts) => {
@@ -70,9 +75,9 @@ impl Found<'_> {
     }
 
     /// True where there is no more to say about a behaviour in this program.
-    fn is_told(&self, name: &str) -> bool {
+    fn is_told(&self, question: Question) -> bool {
         let last = |row| self.rows.get(&(std::ptr::from_ref(row) as usize)).map(|(_, last)| *last);
-        let row = self.control.behaviour(name).filter(|row| !row.origin.confirmed);
+        let row = self.control.behaviour(question).filter(|row| !row.origin.confirmed);
         row.is_none_or(|row| last(row) == Some(self.program))
     }
 }

@@ -14,7 +14,7 @@ use super::{Context, Position, Rewriter, rewrite_program};
 use crate::assume::{Domain, Predicate};
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Expr, Program};
 use thin_vec::ThinVec;
 
@@ -104,7 +104,7 @@ fn call(
         // ROUND inside a word is another function on these controls: it stands alone.
         (Func::Round, None) if in_word && keep => Emulated::Exact(rounding::nearest(first, rewriter, target)),
         (Func::RoundIncrement, None)
-            if target.behaviour("round.in.address").is_some_and(|b| b.value == "increment") =>
+            if target.behaviour(Question::RoundInAddress).is_some_and(|b| b.value == "increment") =>
         {
             Emulated::Exact(Expr::Call(function, [first].into()))
         }

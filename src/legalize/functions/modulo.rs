@@ -5,19 +5,19 @@
 
 use super::{Emulated, apply, missing, number, rounding};
 use crate::canon::Func;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Expr};
 use crate::legalize::Rewriter;
 
 /// True where the target's MOD is the one of the intermediate form for these operands.
 pub fn is_native(operands: &[Expr; 2], target: &Control) -> bool {
-    let answer = |name: &str, value: &str| {
-        target.behaviour(name).is_some_and(|row| row.value == value && row.origin.confirmed)
+    let answer = |question: Question, value: &str| {
+        target.behaviour(question).is_some_and(|row| row.value == value && row.origin.confirmed)
     };
     let whole = |e: &Expr| e.constant().is_some_and(|v| v >= 0.0 && v.fract() == 0.0);
     target.operator("modulo").is_some()
         && (operands.iter().all(whole)
-            || answer("mod.rounds.operands", "true") && answer("mod.sign", "dividend"))
+            || answer(Question::ModRoundsOperands, "true") && answer(Question::ModSign, "dividend"))
 }
 
 /// The remainder by division.

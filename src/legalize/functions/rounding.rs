@@ -2,7 +2,7 @@
 
 use super::{Emulated, apply, number};
 use crate::canon::Func;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};
 use crate::legalize::{Position, Prelude, Rewriter};
 
@@ -55,7 +55,7 @@ pub fn bits(
     rewriter: &mut Rewriter<'_>,
     target: &Control,
 ) -> Expr {
-    let rounds = target.behaviour("bits.of.fraction").is_some_and(|row| row.value == "round");
+    let rounds = target.behaviour(Question::BitsOfFraction).is_some_and(|row| row.value == "round");
     let mut whole = |e: Expr| match e.constant() {
         _ if rounds || e.is_whole() => e,
         Some(value) => number(value.round()),

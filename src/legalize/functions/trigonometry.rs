@@ -2,7 +2,7 @@
 
 use super::{Emulated, apply, number};
 use crate::canon::Func;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};
 use crate::legalize::{Prelude, Rewriter};
 
@@ -24,7 +24,7 @@ pub fn inverse(
     source: &Control,
     target: &Control,
 ) -> Emulated {
-    let question = if function == Func::Asin { "asin.range" } else { "acos.range" };
+    let question = if function == Func::Asin { Question::AsinRange } else { Question::AcosRange };
     let range = |control: &Control| control.behaviour(question).map(|b| b.value.clone()).unwrap_or_default();
     let (wanted, got) = (range(source), range(target));
     if target.function(function, 1).is_some() {
@@ -82,8 +82,9 @@ fn turned_where(relation: Relation, limit: f64, by: f64, angle: Expr, rewriter: 
 /// range 0..360, 360 is added to what is negative; for -180..180, 360 is taken from what is above 180. Exact up to
 /// the quotient's last digit; a direction less than that below 0 comes out as 360.
 pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, target: &Control) -> Emulated {
-    let range =
-        |control: &Control| control.behaviour("atan2.range").map(|b| b.value.clone()).unwrap_or_default();
+    let range = |control: &Control| {
+        control.behaviour(Question::Atan2Range).map(|b| b.value.clone()).unwrap_or_default()
+    };
     let wanted = range(source);
     if target.function(Func::Atan, 2).is_some() && wanted == range(target) && wanted.contains("..") {
         return Emulated::Exact(Expr::Call(Func::Atan, [y, x].into()));

@@ -8,6 +8,7 @@
 use super::graph::Graph;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Block, Nc, NcItem, Program, Stmt, StmtKind};
 use crate::lower::common::Findings;
 
@@ -96,7 +97,7 @@ fn check(before: State, nc: &Nc, span: crate::text::Span, findings: &mut Finding
             findings.add(Diagnostic::new(Code::ModalConflict, span, message));
         }
         State::On(_) | State::OnMixed if motion.is_some() => {
-            let goes_on = findings.behaviour("cycle.ends.by.motion", span) == Some("false");
+            let goes_on = findings.behaviour(Question::CycleEndsByMotion, span) == Some("false");
             if !goes_on || !matches!(motion, Some(Op::Rapid | Op::Linear)) {
                 findings.not_understood(span, "no source says what this motion does under a drilling cycle");
             }

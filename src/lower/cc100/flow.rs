@@ -3,6 +3,7 @@
 use super::register::REGISTER;
 use super::{Lowering, cycle_name};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BlockId, Call, Callee, Cond, Expr, Site, TermKind};
 use crate::lower::common::relation;
 use crate::syntax::{BinaryOp, Label, Target};
@@ -39,7 +40,7 @@ impl Lowering<'_> {
         if found.is_none() {
             let message = format!("the program has no label ${label}");
             self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
-        } else if self.repeated.contains(&label) && !self.findings.is("goto.first.label", span) {
+        } else if self.repeated.contains(&label) && !self.findings.is(Question::GotoFirstLabel, span) {
             let message = format!("${label} stands more than once; the first one is taken");
             self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
         }
@@ -124,7 +125,7 @@ impl Lowering<'_> {
                 self.build.end(TermKind::Return { to: None }, site);
             }
             Flow::End { rewind } => {
-                if !rewind && !self.findings.is("cycle.end.ends.program", site.span) {
+                if !rewind && !self.findings.is(Question::CycleEndEndsProgram, site.span) {
                     self.findings
                         .not_understood(site.span, "no source says what the end of a cycle does here");
                 }

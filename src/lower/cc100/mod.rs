@@ -26,7 +26,7 @@ mod words;
 use super::Lowered;
 use super::common::{Findings, site_of};
 use crate::canon::Op;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Class, Expr, Remark, Site, StmtKind, Var};
 use crate::syntax::{Block, Item, ItemKind, Label, ParsedFile, ProgramName, Target};
 use crate::text::Span;
@@ -102,7 +102,7 @@ impl<'a> Lowering<'a> {
             constants: Constants::of(&parsed.blocks),
             names: BTreeMap::new(),
             dispatches: Vec::new(),
-            load: if control.is("load.sets.condition") { Source::LoadThatSets } else { Source::Load },
+            load: if control.is(Question::LoadSetsCondition) { Source::LoadThatSets } else { Source::Load },
             placed: BTreeSet::new(),
             is_cycle,
             ends: BTreeSet::new(),
@@ -130,7 +130,7 @@ impl<'a> Lowering<'a> {
             if self.stops(block)
                 && let Some((message, behind)) = behind.split_first()
                 && is_message(message)
-                && self.findings.is("message.shows.comment", message.span)
+                && self.findings.is(Question::MessageShowsComment, message.span)
             {
                 let shown = site_of(message, parsed.source).remarks;
                 site.remarks.extend(shown.into_iter().map(|remark| Remark { leading: false, ..remark }));

@@ -3,7 +3,7 @@
 use super::Lowering;
 use super::words::{Change, Planned};
 use crate::canon::{Op, Role, Sys};
-use crate::dialect::BareLength;
+use crate::dialect::{BareLength, Question};
 use crate::ir::{Class, Expr, Nc, NcItem, Var};
 use crate::lower::common::constant;
 use crate::syntax::{Expr as Written, ExprKind, Index, Item, ItemKind, Word};
@@ -52,8 +52,9 @@ impl Lowering<'_> {
 
     /// A radius in the common sense, where the shorter arc is positive.
     fn radius(&mut self, value: Expr, span: Span) -> Option<Expr> {
-        let negative = self.findings.behaviour("arc.radius.negative", span);
-        let positive = self.control.behaviour("arc.radius.positive").filter(|row| row.value != "unknown");
+        let negative = self.findings.behaviour(Question::ArcRadiusNegative, span);
+        let positive =
+            self.control.behaviour(Question::ArcRadiusPositive).filter(|row| row.value != "unknown");
         if value.constant().is_none_or(|radius| radius > 0.0) {
             match positive {
                 Some(row) => self.findings.rest_on(row, span),
@@ -64,7 +65,7 @@ impl Lowering<'_> {
                 }
                 None => {
                     let why = "the arc of a positive radius is not known, and a variable may be positive";
-                    self.findings.unconfirmed("behaviour:arc.radius.positive".into(), Some(why), span);
+                    self.findings.unconfirmed(Question::ArcRadiusPositive.fact().into(), Some(why), span);
                 }
             }
         }
@@ -83,7 +84,7 @@ impl Lowering<'_> {
     }
 
     fn centre(&mut self, value: Expr, span: Span) -> Option<Expr> {
-        if self.findings.behaviour("arc.centre", span) == Some("incremental") {
+        if self.findings.behaviour(Question::ArcCentre, span) == Some("incremental") {
             return Some(value);
         }
         self.findings.not_understood(span, "no source says from where this control counts an arc's centre");
@@ -94,8 +95,8 @@ impl Lowering<'_> {
     /// moves, and its length acts in them; tool 0 takes the length away.
     pub(super) fn tool(&mut self, word: &Word, span: Span, plan: &mut Planned, nc: &mut Nc) {
         let Some(tool) = self.word_value(Role::Tool, word, span) else { return };
-        let changes = self.findings.behaviour("tool.change.word", span);
-        let length = self.findings.is("tool.word.selects.length", span);
+        let changes = self.findings.behaviour(Question::ToolChangeWord, span);
+        let length = self.findings.is(Question::ToolWordSelectsLength, span);
         let none = tool == Expr::Number(0.0);
         match changes {
             Some("t") if none && length => {}
@@ -106,7 +107,7 @@ impl Lowering<'_> {
                 if may_be_none {
                     unless.push(Expr::Number(0.0));
                 }
-                if self.findings.behaviour("tool.word.again", span) == Some("skipped") {
+                if self.findings.behaviour(Question::ToolWordAgain, span) == Some("skipped") {
                     unless.push(Expr::System(Sys::ActiveTool, ThinVec::new()));
                 }
                 plan.change = Some(Change { nc: Nc { items }, tool: tool.clone(), unless });
@@ -127,7 +128,7 @@ impl Lowering<'_> {
     pub(super) fn complete(&mut self, nc: &mut Nc, items: &[Item], span: Span) {
         let compensates = nc.has(Op::RadiusLeft) || nc.has(Op::RadiusRight);
         if compensates && nc.word(Role::RadiusOffset).is_none() {
-            if self.findings.is("radius.offset.active.tool", span) {
+            if self.findings.is(Question::RadiusOffsetActiveTool, span) {
                 let tool = Expr::System(Sys::ActiveTool, ThinVec::new());
                 nc.items.push(NcItem::Word(Role::RadiusOffset, tool));
             } else {
@@ -140,7 +141,9 @@ impl Lowering<'_> {
     }
 
     fn cycle_words(&mut self, nc: &mut Nc, items: &[Item], span: Span) {
-        for (role, name) in [(Role::CycleR, "cycle.variable.retract"), (Role::Z, "cycle.variable.depth")] {
+        for (role, name) in
+            [(Role::CycleR, Question::CycleVariableRetract), (Role::Z, Question::CycleVariableDepth)]
+        {
             let number = self.findings.behaviour(name, span).and_then(|number| number.parse::<u32>().ok());
             let Some(number) = number else {
                 self.findings.not_understood(span, "no source says which variables the cycle reads");

@@ -14,6 +14,7 @@
 
 use super::graph::Graph;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Block, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var};
 use crate::lower::common::Findings;
 
@@ -160,16 +161,16 @@ fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findi
         findings.not_understood(span, message);
     }
     if state.may(Source::Arithmetic)
-        && let Some(row) = control.behaviour("condition.register")
+        && let Some(row) = control.behaviour(Question::ConditionRegister)
     {
         findings.rest_on(row, span);
     }
     if state.may(Source::Load) || state.may(Source::LoadThatSets) {
-        match control.behaviour("load.sets.condition").filter(|row| row.value != "unknown") {
+        match control.behaviour(Question::LoadSetsCondition).filter(|row| row.value != "unknown") {
             Some(row) => findings.rest_on(row, span),
             None => {
                 let why = "a load between the arithmetic and this jump is taken to leave the register alone";
-                findings.unconfirmed("behaviour:load.sets.condition".into(), Some(why), span);
+                findings.unconfirmed(Question::LoadSetsCondition.fact().into(), Some(why), span);
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::Lowering;
 use super::register::Source;
 use crate::canon::Func;
+use crate::dialect::Question;
 use crate::ir::{BinOp, Class, Expr, Var};
 use crate::lower::common::constant;
 use crate::syntax::{BinaryOp, Expr as Written, ExprKind, Index, VarRef};
@@ -64,9 +65,11 @@ impl Lowering<'_> {
                     return self.unknown(written, "this control has no such function");
                 };
                 self.findings.rest_on(row, written.span);
-                if *function == Func::Atan && self.findings.behaviour("atan.range", written.span).is_none() {
+                if *function == Func::Atan
+                    && self.findings.behaviour(Question::AtanRange, written.span).is_none()
+                {
                     let why = "no source says which of the angles of a tangent it yields";
-                    self.findings.unconfirmed("behaviour:atan.range".into(), Some(why), written.span);
+                    self.findings.unconfirmed(Question::AtanRange.fact().into(), Some(why), written.span);
                 }
                 let arguments: Option<ThinVec<Expr>> = arguments.iter().map(|a| self.operand(a)).collect();
                 Some((Expr::Call(*function, arguments?), self.load))

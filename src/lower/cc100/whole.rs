@@ -10,6 +10,7 @@
 
 use super::graph::Graph;
 use crate::canon::Func;
+use crate::dialect::Question;
 use crate::ir::{BinOp, Block, Callee, Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::lower::common::Findings;
 
@@ -80,11 +81,11 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
             {
                 if known.written & bit(*var) != 0 {
                     *counted = Expr::Var(*var);
-                } else if findings.behaviour("step.drops.fraction", span) != Some("true") {
+                } else if findings.behaviour(Question::StepDropsFraction, span) != Some("true") {
                     findings.not_understood(span, "no source says what a step does with a fraction");
                 } else {
                     let why = "the fraction is taken off before the step, toward zero";
-                    findings.unconfirmed("behaviour:step.drops.fraction".into(), Some(why), span);
+                    findings.unconfirmed(Question::StepDropsFraction.fact().into(), Some(why), span);
                 }
             }
             known = known.step(stmt);

@@ -4,7 +4,7 @@ use super::Lowering;
 use super::flow::{Flow, whole_label};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::CodeMeaning;
+use crate::dialect::{CodeMeaning, Question};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
 use crate::syntax::{ExprKind, Item, Word};
 use crate::text::Span;
@@ -247,7 +247,7 @@ impl<'a> Lowering<'a> {
 
     /// How often a call runs in all, where `first` runs come on top of the number written.
     fn count(&mut self, word: &Word, first: f64, span: Span) -> Option<Expr> {
-        if let Some(row) = self.control.behaviour("repeat.counts") {
+        if let Some(row) = self.control.behaviour(Question::RepeatCounts) {
             self.findings.rest_on(row, span);
         }
         Some(match self.operand(word.value.as_ref()?)? {

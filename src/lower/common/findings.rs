@@ -2,7 +2,7 @@
 
 use crate::canon::Group;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Row, Side, matters};
+use crate::dialect::{Control, Question, Row, Side, matters};
 use crate::syntax::{ExprKind, Item, ItemKind};
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
@@ -66,15 +66,15 @@ impl<'c> Findings<'c> {
 
     /// The answer to a question of behaviour on which the construct at `span` rests.
     /// An unknown or missing answer is none, and is left for the caller to report.
-    pub fn behaviour(&mut self, name: &str, span: Span) -> Option<&'c str> {
-        let row = self.control.behaviour(name).filter(|row| row.value != "unknown")?;
+    pub fn behaviour(&mut self, question: Question, span: Span) -> Option<&'c str> {
+        let row = self.control.behaviour(question).filter(|row| row.value != "unknown")?;
         self.rest_on(row, span);
         Some(&row.value)
     }
 
     /// True where the answer to a question of behaviour, on which the construct at `span` rests, is `true`.
-    pub fn is(&mut self, name: &str, span: Span) -> bool {
-        self.behaviour(name, span) == Some("true")
+    pub fn is(&mut self, question: Question, span: Span) -> bool {
+        self.behaviour(question, span) == Some("true")
     }
 
     /// The construct at `span` rests on a fact that nothing confirms, named as

@@ -7,7 +7,7 @@ use super::value::is_zero;
 use super::words::{Codes, is_code, word};
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::CodeMeaning;
+use crate::dialect::{CodeMeaning, Question};
 use crate::ir::{Argument, Class, Expr, Nc, NcItem, Place, StmtKind, Var};
 use crate::lower::common::{constant, says_something};
 use crate::syntax::{self, Index, Item, ItemKind, VarRef, Word};
@@ -54,7 +54,7 @@ impl<'b> Lowering<'b> {
                     self.nc_assign(target, value, axes, &mut reading)?;
                 }
                 ItemKind::Skip(_) if items.iter().take(at).any(says_something) => {
-                    let _ = self.rely("skip.midblock", item.span);
+                    let _ = self.rely(Question::SkipMidblock, item.span);
                     return self.refuse(item.span, "a block skip in mid-block");
                 }
                 kind if says_something(item) && !matches!(kind, ItemKind::Program(_)) => {
@@ -74,7 +74,7 @@ impl<'b> Lowering<'b> {
         if !words.is_empty() {
             self.push(StmtKind::Nc(Nc { items: words }));
         }
-        if codes.has(Op::RotateOn) && self.in_cycle() && self.control.is("rotation.runs.cycle") {
+        if codes.has(Op::RotateOn) && self.in_cycle() && self.control.is(Question::RotationRunsCycle) {
             // The cycle runs at the turned place.
             self.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::CycleHere)] }));
         }
@@ -84,7 +84,7 @@ impl<'b> Lowering<'b> {
                 .refuse(span, "whether L repeats the move or calls a subroutine depends on its variable");
         }
         if axes && steps.iter().any(|step| matches!(step, Step::Local(_))) && !codes.has(Op::CallModal) {
-            let _ = self.rely("call.after.words", span);
+            let _ = self.rely(Question::CallAfterWords, span);
         }
         if codes.has(Op::CallModal) && !steps.iter().any(|step| matches!(step, Step::Local(_))) {
             return self.refuse(span, "G66 stands without the subroutine that it calls");
@@ -151,10 +151,10 @@ impl<'b> Lowering<'b> {
         // Where a length picks a radius, one that the block names itself counts.
         let radius = op == Some(Op::LengthPlus)
             && reading.codes.value('D').is_none()
-            && self.control.is("length.word.picks.radius");
+            && self.control.is(Question::LengthWordPicksRadius);
         let radius = radius.then(|| NcItem::Word(Role::RadiusOffset, lowered.clone()));
         if radius.is_some() && (reading.codes.has(Op::RadiusLeft) || reading.codes.has(Op::RadiusRight)) {
-            let _ = self.rely("length.word.picks.radius", item.span);
+            let _ = self.rely(Question::LengthWordPicksRadius, item.span);
         }
         match op {
             Some(Op::SelectWork) if is_zero(value) => reading.items.push(NcItem::Op(Op::ShiftCancel)),

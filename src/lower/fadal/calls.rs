@@ -8,6 +8,7 @@ use super::steps::{FIRST_FIXED, Step, operand};
 use super::words::Codes;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BinOp, BlockId, Call, Callee, Cond, Expr, Place, Relation, Site, StmtKind, TermKind};
 use crate::syntax::{self, Item, ProgramName};
 use crate::text::Span;
@@ -74,7 +75,7 @@ impl<'b> Lowering<'b> {
             Step::End => self.end(TermKind::End { rewind: false }),
             Step::AreaEnd if self.shape.area_end == Some(self.at) => {}
             Step::AreaEnd => {
-                let _ = self.rely("end.alone", span);
+                let _ = self.rely(Question::EndAlone, span);
                 self.end(TermKind::End { rewind: true });
             }
         }
@@ -110,7 +111,7 @@ impl<'b> Lowering<'b> {
             self.end(TermKind::Return { to: None });
             return Some(());
         };
-        let here = self.rely("m99.p.jumps.here", span) != Some("false");
+        let here = self.rely(Question::M99PJumpsHere, span) != Some("false");
         if here
             && let Some(goal) = return_goal(items, codes)
             && self.shape.goals.contains_key(&goal)
@@ -160,7 +161,7 @@ impl<'b> Lowering<'b> {
                     self.once(Code::TargetTwice, &message, span, message.clone());
                 }
                 Goal::Label(_) => {
-                    let _ = self.rely("goto.first.label", span);
+                    let _ = self.rely(Question::GotoFirstLabel, span);
                 }
             }
         }
@@ -266,9 +267,9 @@ impl<'b> Lowering<'b> {
     }
 
     fn modal(&mut self, call: Call, span: Span) -> Option<()> {
-        let _ = self.rely("call.modal.block.calls", span);
+        let _ = self.rely(Question::CallModalBlockCalls, span);
         if self.state.modal > 0 || self.state.in_modal {
-            let _ = self.rely("call.modal.nested", span);
+            let _ = self.rely(Question::CallModalNested, span);
         }
         self.push(StmtKind::ModalCall(Box::new(call)));
         Some(())

@@ -1,6 +1,7 @@
 //! Conditions of IF.
 
 use super::program::Lowering;
+use crate::dialect::Question;
 use crate::ir::{Cond, Expr, Relation};
 use crate::lower::common::relation;
 use crate::syntax::{self, BinaryOp, ExprKind};
@@ -41,7 +42,7 @@ impl<'b> Lowering<'b> {
             ExprKind::Binary(op, a, b) => {
                 let Some(relation) = relation(*op) else { return self.number(e) };
                 if matches!(relation, Relation::Equal | Relation::NotEqual) {
-                    let _ = self.findings.behaviour("equal.tolerance", e.span);
+                    let _ = self.findings.behaviour(Question::EqualTolerance, e.span);
                 }
                 let a = self.expr(a)?;
                 let b = self.expr(b)?;
@@ -53,7 +54,7 @@ impl<'b> Lowering<'b> {
 
     /// A number in place of a condition.
     fn number(&mut self, e: &syntax::Expr) -> Option<Cond> {
-        if self.rely("number.is.condition", e.span) == Some("false") {
+        if self.rely(Question::NumberIsCondition, e.span) == Some("false") {
             return self.refuse(e.span, "a number is no condition");
         }
         let value = self.expr(e)?;

@@ -4,6 +4,7 @@ use super::program::Lowering;
 use super::state::DEFAULT_PLACES;
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BinOp, Expr};
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
@@ -33,11 +34,11 @@ impl<'b> Lowering<'b> {
             ExprKind::Not(_) => return self.refuse(e.span, "NOT is no value, only a condition"),
             ExprKind::Binary(op, a, b) => {
                 let Some(op) = arithmetic(*op) else {
-                    let _ = self.rely("comparison.is.value", e.span);
+                    let _ = self.rely(Question::ComparisonIsValue, e.span);
                     return self.refuse(e.span, "a comparison is no value here, only a condition of IF");
                 };
                 if op == BinOp::Div && divides_whole(a, b) {
-                    let _ = self.rely("integer.divides", e.span);
+                    let _ = self.rely(Question::IntegerDivides, e.span);
                 }
                 let a = self.nested(a, depth + 1)?;
                 let b = self.nested(b, depth + 1)?;
@@ -70,13 +71,13 @@ impl<'b> Lowering<'b> {
             }
             Func::Atan => {
                 let radians = self.radians(span)?;
-                let _ = self.rely("atan.range", span);
+                let _ = self.rely(Question::AtanRange, span);
                 let angle = Expr::Call(function, values);
                 Some(if radians { scale(angle, 1f64.to_radians()) } else { angle })
             }
             Func::RoundPlaces => {
                 let places = self.places(span)?;
-                let _ = self.rely("round.half.away", span);
+                let _ = self.rely(Question::RoundHalfAway, span);
                 values.push(Expr::Number(places));
                 Some(Expr::Call(function, values))
             }
@@ -86,7 +87,7 @@ impl<'b> Lowering<'b> {
 
     /// Whether angles are radians here.
     fn radians(&mut self, span: Span) -> Option<bool> {
-        match self.control.behaviour("angles.unit").map(|row| row.value.as_str()) {
+        match self.control.behaviour(Question::AnglesUnit).map(|row| row.value.as_str()) {
             Some("modal") => {}
             _ => return Some(false),
         }
@@ -106,7 +107,7 @@ impl<'b> Lowering<'b> {
         if self.state.radians_outside {
             let note =
                 "degrees by default, but SET RADIANS may have been given before or outside the program";
-            self.findings.unconfirmed("behaviour:angles.unit".into(), Some(note), span);
+            self.findings.unconfirmed(Question::AnglesUnit.fact().into(), Some(note), span);
         }
         Some(radians)
     }
@@ -131,7 +132,7 @@ impl<'b> Lowering<'b> {
             return Some(f64::from(places));
         }
         let stated =
-            self.findings.behaviour("round.places.default", span).and_then(|value| value.parse().ok());
+            self.findings.behaviour(Question::RoundPlacesDefault, span).and_then(|value| value.parse().ok());
         if stated.is_none() {
             let message = "no SET RND leads here, and the places that RND keeps by default are not known";
             let help = "put SET RND before it, or state 'round.places.default' for the machine";

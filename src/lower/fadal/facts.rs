@@ -3,6 +3,7 @@
 use super::block::Reading;
 use super::program::Lowering;
 use crate::canon::{Op, Role};
+use crate::dialect::Question;
 use crate::ir::{Class, Expr, NcItem, Var};
 
 impl<'b> Lowering<'b> {
@@ -11,24 +12,25 @@ impl<'b> Lowering<'b> {
         let span = reading.span;
         let mine = |role| reading.items.iter().find_map(|item| word_in(item, role));
         if mine(Role::ArcI).or(mine(Role::ArcJ)).or(mine(Role::ArcK)).is_some() {
-            let _ = self.rely("arc.centre", span);
+            let _ = self.rely(Question::ArcCentre, span);
         }
         if let Some(radius) = mine(Role::ArcRadius) {
             let negative = matches!(radius, Expr::Negate(_)) || radius.constant().is_some_and(|r| r < 0.0);
-            let _ = self.rely(if negative { "arc.radius.negative" } else { "arc.radius.positive" }, span);
+            let _ = self
+                .rely(if negative { Question::ArcRadiusNegative } else { Question::ArcRadiusPositive }, span);
         }
         if reading.assigned.iter().any(|(var, _)| reading.read.contains(var)) {
-            let _ = self.rely("block.assigns.first", span);
+            let _ = self.rely(Question::BlockAssignsFirst, span);
         }
         let codes = reading.codes;
         if codes.has(Op::RotateOn) {
-            let _ = self.rely("rotation.direction", span);
+            let _ = self.rely(Question::RotationDirection, span);
             if self.in_cycle() {
-                let _ = self.rely("rotation.runs.cycle", span);
+                let _ = self.rely(Question::RotationRunsCycle, span);
             }
         }
         if codes.has(Op::ReferenceReturn) && !axes {
-            let _ = self.rely("reference.all.axes", span);
+            let _ = self.rely(Question::ReferenceAllAxes, span);
         }
         self.cycle_facts(reading, axes);
     }
@@ -47,13 +49,13 @@ impl<'b> Lowering<'b> {
             && codes.value('R').is_some()
             && reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some())
         {
-            let _ = self.rely("cycle.r.word", span);
+            let _ = self.rely(Question::CycleRWord, span);
             self.plane_by_word = true;
         }
         match codes.motion() {
             Some(row) if row.op.is_cycle() => {
                 if plane || codes.has(Op::CycleHere) {
-                    let _ = self.rely("cycle.block.runs", span);
+                    let _ = self.rely(Question::CycleBlockRuns, span);
                 }
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
                 if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
@@ -61,16 +63,16 @@ impl<'b> Lowering<'b> {
                         let what = "which retract plane this cycle takes after a word R is not known: write it as R0 with its sign";
                         self.findings.not_understood(span, what);
                     }
-                    let _ = self.rely("cycle.r0.kept", span);
+                    let _ = self.rely(Question::CycleR0Kept, span);
                     let r0 = Expr::Var(Var { class: Class::Parametric, number: 0 });
                     reading.items.push(NcItem::Word(Role::CycleR, r0));
                 }
                 if incremental {
-                    let _ = self.rely("cycle.planes.frozen", span);
+                    let _ = self.rely(Question::CyclePlanesFrozen, span);
                 }
             }
             None if axes && incremental && self.in_cycle() => {
-                let _ = self.rely("cycle.planes.frozen", span);
+                let _ = self.rely(Question::CyclePlanesFrozen, span);
             }
             _ => {}
         }

@@ -4,7 +4,7 @@ use super::program::Lowering;
 use super::words::{Codes, thousandths};
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::CodeMeaning;
+use crate::dialect::{CodeMeaning, Question};
 use crate::syntax::Word;
 use crate::text::Span;
 
@@ -56,7 +56,7 @@ impl<'b> Lowering<'b> {
     pub fn spell_motion(&mut self, codes: &Codes<'b, 'b>, shown: Move, span: Span) -> Option<Spelling> {
         if let Some(row) = codes.motion() {
             if codes.interpolation().is_some() && codes.cycle().is_none() && self.in_cycle() {
-                let _ = self.rely("cycle.ends.by.motion", span);
+                let _ = self.rely(Question::CycleEndsByMotion, span);
             }
             if !is_arc(row.op) {
                 if shown.centre {
@@ -134,7 +134,7 @@ impl<'b> Lowering<'b> {
             return Spelling::default();
         }
         if self.state.resumed {
-            let _ = self.rely("motion.after.cycle", span);
+            let _ = self.rely(Question::MotionAfterCycle, span);
         }
         if self.state.motion_called {
             let message = "moves in the motion mode from before the cycle, or in one that a program called since has set";
@@ -149,7 +149,7 @@ impl<'b> Lowering<'b> {
 
     /// A block under an arc mode without centre and radius.
     fn straight(&mut self, span: Span) -> Option<Op> {
-        if self.rely("arc.without.centre", span) != Some("straight") {
+        if self.rely(Question::ArcWithoutCentre, span) != Some("straight") {
             return self.refuse(span, "an arc without centre and radius");
         }
         self.spelled_out = true;

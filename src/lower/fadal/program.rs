@@ -7,7 +7,7 @@ use super::state::State;
 use super::steps::steps;
 use super::words::Codes;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Class, Cond, Place, Program, Remark, Site, StmtKind, TermKind, Var};
 use crate::lower::common::{Findings, ProgramText, site_of};
 use crate::syntax::{Block, ItemKind, Label};
@@ -112,7 +112,7 @@ impl<'b> Lowering<'b> {
         let unparsed = block.items.iter().any(|item| item.kind == ItemKind::Unparsed);
         let skip = self.site.skip;
         if skip.is_some() {
-            let _ = self.rely("skip.levels", block.span);
+            let _ = self.rely(Question::SkipLevels, block.span);
         }
         let level_fits = skip.is_none_or(|level| (1..=9).contains(&level));
         if !level_fits {
@@ -171,7 +171,7 @@ impl<'b> Lowering<'b> {
             && self.builder.is_open()
         {
             if sub.followed {
-                let _ = self.rely("sub.ends.at.next", self.site.span);
+                let _ = self.rely(Question::SubEndsAtNext, self.site.span);
             } else {
                 let message = format!("the subroutine L{}00 runs into the end of its area", sub.number);
                 self.once(Code::SubroutineLeft, "area", self.site.span, message);
@@ -180,7 +180,7 @@ impl<'b> Lowering<'b> {
         }
         if shape.subs.first().is_some_and(|sub| sub.blocks.start == at) && self.builder.is_open() {
             if !self.builder.is_at_start() {
-                let _ = self.rely("sub.area.entered", self.site.span);
+                let _ = self.rely(Question::SubAreaEntered, self.site.span);
             }
             let main = self.entry(shape.main);
             self.builder.end(TermKind::Jump(main), Site::default());
@@ -275,17 +275,17 @@ impl<'b> Lowering<'b> {
     pub fn early(&mut self, name: &str, span: Span, message: String) {
         if self.told.insert(format!("early {name}")) {
             let finding = Diagnostic::new(Code::EarlyRead, span, message);
-            self.findings.add(finding.with_fact("behaviour:lookahead.runs.early"));
+            self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
         }
     }
 
     /// The answer to a question of behaviour on which the construct at `span` rests;
     /// an unknown answer is none and is reported as an unconfirmed fact.
-    pub fn rely(&mut self, name: &str, span: Span) -> Option<&'b str> {
-        let known = self.findings.behaviour(name, span);
+    pub fn rely(&mut self, question: Question, span: Span) -> Option<&'b str> {
+        let known = self.findings.behaviour(question, span);
         if known.is_none() {
-            let note = self.control.behaviour(name).and_then(|row| row.origin.note.as_deref());
-            self.findings.unconfirmed(format!("behaviour:{name}"), note.or(Some("no source says")), span);
+            let note = self.control.behaviour(question).and_then(|row| row.origin.note.as_deref());
+            self.findings.unconfirmed(question.fact().into(), note.or(Some("no source says")), span);
         }
         known
     }

@@ -5,6 +5,7 @@ use super::shape::goal;
 use super::words::Codes;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BlockId, Class, Expr, Place, PrintPart, StmtKind, TermKind, Var};
 use crate::lower::common::{constant, remark_text, says_something};
 use crate::syntax::{self, Index, Item, ItemKind, ProgramName, Target, VarRef};
@@ -52,7 +53,7 @@ impl<'b> Lowering<'b> {
                     out.push(match part {
                         syntax::PrintPart::Text(text) => PrintPart::Text(remark_text(*text, self.source)),
                         syntax::PrintPart::Value(value) => {
-                            let _ = self.rely("print.format", value.span);
+                            let _ = self.rely(Question::PrintFormat, value.span);
                             PrintPart::Value(self.expr(value)?)
                         }
                     });
@@ -98,7 +99,7 @@ impl<'b> Lowering<'b> {
         let cond = self.condition(condition)?;
         let said: Vec<&Item> = body.iter().filter(|item| says_something(item)).collect();
         if said.iter().any(|item| matches!(item.kind, ItemKind::Word(_))) {
-            let _ = self.rely("then.words", span);
+            let _ = self.rely(Question::ThenWords, span);
             return self.refuse(span, "NC words cannot stand behind THEN");
         }
         if let [Item { kind: ItemKind::Goto(target), .. }] = said.as_slice() {
@@ -149,13 +150,13 @@ impl<'b> Lowering<'b> {
             Place::System(..) => false,
         };
         if hit && self.in_cycle() {
-            let _ = self.rely("cycle.r0.kept", span);
+            let _ = self.rely(Question::CycleR0Kept, span);
         }
     }
 
     fn clear(&mut self, ranges: &[(VarRef, Option<VarRef>)], span: Span) -> Option<()> {
         if ranges.is_empty() {
-            let _ = self.rely("clear.all", span);
+            let _ = self.rely(Question::ClearAll, span);
             self.push(StmtKind::ClearAll(Class::Global));
             return Some(());
         }

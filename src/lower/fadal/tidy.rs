@@ -2,6 +2,7 @@
 
 use super::program::Lowering;
 use crate::canon::{Group, Op, Role};
+use crate::dialect::Question;
 use crate::ir::{Expr, NcItem};
 use crate::text::Span;
 
@@ -29,7 +30,7 @@ impl<'b> Lowering<'b> {
             }
         });
         if twice {
-            let _ = self.rely("word.twice", span);
+            let _ = self.rely(Question::WordTwice, span);
         }
         match clash {
             Some(role) => self.refuse(span, format!("the block gives '{role}' twice, with different values")),
@@ -65,7 +66,7 @@ impl<'b> Lowering<'b> {
         });
         before.dedup();
         if clash {
-            let _ = self.rely("one.g.per.group", span);
+            let _ = self.rely(Question::OneGPerGroup, span);
             return self.refuse(span, "two codes of the block contradict each other");
         }
         Some(before)

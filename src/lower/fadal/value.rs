@@ -5,7 +5,7 @@ use super::program::Lowering;
 use super::variable::piecewise;
 use crate::canon::Role;
 use crate::diag::Code;
-use crate::dialect::{BareLength, CodeMeaning, Row};
+use crate::dialect::{BareLength, CodeMeaning, Question, Row};
 use crate::ir::Expr;
 use crate::lower::common::constant;
 use crate::syntax::{self, ExprKind, Number};
@@ -41,7 +41,7 @@ impl<'b> Lowering<'b> {
             }
             ExprKind::Variable(var) if var.name == "R" => {
                 if role.is_some_and(Role::is_integer) {
-                    let _ = self.rely("integer.word.rounds", var.span);
+                    let _ = self.rely(Question::IntegerWordRounds, var.span);
                 }
                 self.read(var)
             }
@@ -78,7 +78,7 @@ impl<'b> Lowering<'b> {
     /// A digit behind the point of a speed picks the belt range and is no speed.
     fn speed(&mut self, value: Expr, span: Span) -> Option<Expr> {
         match value.constant() {
-            Some(speed) if speed.fract() != 0.0 && self.findings.is("spindle.range.suffix", span) => {
+            Some(speed) if speed.fract() != 0.0 && self.findings.is(Question::SpindleRangeSuffix, span) => {
                 let message =
                     format!("S{speed} is {} turns in a belt range that its last digit picks", speed.trunc());
                 self.once(Code::SpeedRange, &message, span, message.clone());

@@ -2,7 +2,7 @@
 
 use super::program::Lowering;
 use crate::canon::{Func, Sys};
-use crate::dialect::SystemVariable;
+use crate::dialect::{Question, SystemVariable};
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
 use crate::syntax::{Index, VarRef};
 
@@ -55,7 +55,7 @@ impl<'b> Lowering<'b> {
                 self.early(&var.name, var.span, message);
             }
             if *state == Sys::AxisPosition {
-                match self.rely("position.frame", var.span) {
+                match self.rely(Question::PositionFrame, var.span) {
                     Some("work") => *state = Sys::WorkPosition,
                     Some("machine") => *state = Sys::MachinePosition,
                     _ => {}
@@ -126,7 +126,7 @@ impl<'b> Lowering<'b> {
     fn subscript(&mut self, index: &crate::syntax::Expr) -> Option<Expr> {
         let value = self.expr(index)?;
         if matches!(value, Expr::Binary(BinOp::Div, ..) | Expr::Call(..)) {
-            let _ = self.rely("index.of.fraction", index.span);
+            let _ = self.rely(Question::IndexOfFraction, index.span);
         }
         Some(value)
     }

@@ -8,7 +8,7 @@ use super::Lowering;
 use super::block::Words;
 use super::expr::At;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{BareLength, Row};
+use crate::dialect::{BareLength, Question, Row};
 use crate::ir::{Argument, Expr};
 use crate::lower::common::constant;
 use crate::syntax::{self, ExprKind};
@@ -84,18 +84,18 @@ impl<'a> Lowering<'a> {
             arguments.retain(|earlier| earlier.local != local);
             if before != arguments.len() && value.may_be_vacant() {
                 // Whether a vacant argument takes back the one before it is in no text.
-                self.unknown_behaviour("vacant.word.dropped", span);
+                self.unknown_behaviour(Question::VacantWordDropped, span);
             }
             arguments.push(Argument { local, value });
         }
         if let Some(span) = first_kind.filter(|_| by_place) {
-            match self.findings.behaviour("arguments.mixed.later.wins", span) {
+            match self.findings.behaviour(Question::ArgumentsMixedLaterWins, span) {
                 Some("true") => {}
                 Some(_) => {
                     let message = "letters of the first specification stand beside repeated or unordered I, J, K: the control takes one kind or the other";
                     self.findings.add(Diagnostic::new(Code::ArgumentsMixed, span, message));
                 }
-                None => self.unknown_behaviour("arguments.mixed.later.wins", span),
+                None => self.unknown_behaviour(Question::ArgumentsMixedLaterWins, span),
             }
         }
         arguments
@@ -115,12 +115,12 @@ impl<'a> Lowering<'a> {
             .iter()
             .enumerate()
             .any(|(at, (word, _))| sets.iter().take(at).any(|(other, _)| other.letter == word.letter));
-        match self.findings.behaviour("arguments.order.ijk", span) {
+        match self.findings.behaviour(Question::ArgumentsOrderIjk, span) {
             Some("true") => true,
             Some("repeated") => twice,
             Some(_) => false,
             None => {
-                self.unknown_behaviour("arguments.order.ijk", span);
+                self.unknown_behaviour(Question::ArgumentsOrderIjk, span);
                 true
             }
         }
@@ -131,11 +131,11 @@ impl<'a> Lowering<'a> {
         if place == count {
             return place;
         }
-        match self.findings.behaviour("arguments.repeated.order", span) {
+        match self.findings.behaviour(Question::ArgumentsRepeatedOrder, span) {
             Some("place") => place,
             Some(_) => count,
             None => {
-                self.unknown_behaviour("arguments.repeated.order", span);
+                self.unknown_behaviour(Question::ArgumentsRepeatedOrder, span);
                 place
             }
         }

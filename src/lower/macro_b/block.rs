@@ -4,6 +4,7 @@ use super::split::Piece;
 use super::{Lowering, Motion};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic, Severity};
+use crate::dialect::Question;
 use crate::ir::{Cond, Remark, Site, StmtKind, TermKind};
 use crate::lower::common::{remark_text, site_of};
 use crate::syntax::{Block, Item, ItemKind, Label, Word, for_each_item};
@@ -132,7 +133,9 @@ impl<'a> Lowering<'a> {
             }
             return;
         };
-        if contents.number.is_some_and(|at| at > first) && !self.findings.is("sequence.anywhere", site.span) {
+        if contents.number.is_some_and(|at| at > first)
+            && !self.findings.is(Question::SequenceAnywhere, site.span)
+        {
             self.findings.not_understood(site.span, "the sequence number must stand first in its block");
         }
         if contents.skips { self.skipping(block, first, site) } else { self.items(&block.items, &site) }
@@ -150,8 +153,8 @@ impl<'a> Lowering<'a> {
                 self.findings.not_understood(item.span, "the level of a block skip is 1 to 9");
             }
             let level = level.clamp(1, 9);
-            if level > 1 && !self.findings.is("skip.levels", item.span) {
-                self.unknown_behaviour("skip.levels", item.span);
+            if level > 1 && !self.findings.is(Question::SkipLevels, item.span) {
+                self.unknown_behaviour(Question::SkipLevels, item.span);
             }
             if index < first { head.push(level) } else { middle.push((index, level)) }
         }
@@ -165,8 +168,8 @@ impl<'a> Lowering<'a> {
         }
         if let Some(&(index, level)) = middle.first() {
             let place = items.get(index).map_or(block.span, |item| item.span);
-            if !self.findings.is("skip.midblock", place) {
-                self.unknown_behaviour("skip.midblock", place);
+            if !self.findings.is(Question::SkipMidblock, place) {
+                self.unknown_behaviour(Question::SkipMidblock, place);
             }
             // Values and switch are read when the block begins: one block with all words, one without
             // those behind the sign.
@@ -256,7 +259,8 @@ impl<'a> Lowering<'a> {
             self.words(&words, site);
         }
         if groups > 1 {
-            let question = if groups == assigns { "assign.shares.block" } else { "statement.shares.block" };
+            let question =
+                if groups == assigns { Question::AssignSharesBlock } else { Question::StatementSharesBlock };
             match self.findings.behaviour(question, site.span) {
                 Some("true") => {}
                 Some(_) if self.control.behaviour(question).is_some_and(|row| row.origin.confirmed) => {
@@ -271,9 +275,8 @@ impl<'a> Lowering<'a> {
     }
 
     /// Says that the construct rests on a question that the table does not answer.
-    pub(super) fn unknown_behaviour(&mut self, name: &str, span: Span) {
-        let note = self.control.behaviour(name).and_then(|row| row.origin.note.as_deref());
-        let meaning = crate::dialect::behaviours::find(name).map(|question| question.meaning);
-        self.findings.unconfirmed(format!("behaviour:{name}"), note.or(meaning), span);
+    pub(super) fn unknown_behaviour(&mut self, question: Question, span: Span) {
+        let note = self.control.behaviour(question).and_then(|row| row.origin.note.as_deref());
+        self.findings.unconfirmed(question.fact().into(), note.or(Some(question.meaning())), span);
     }
 }

@@ -7,7 +7,7 @@ use super::codes::CodeId;
 use super::expr::At;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Alias, CodeMeaning};
+use crate::dialect::{Alias, CodeMeaning, Question};
 use crate::ir::eval::whole;
 use crate::ir::{BinOp, Call, Callee, Expr, Site, StmtKind, TermKind};
 use crate::syntax::{ProgramName, Word};
@@ -52,7 +52,7 @@ impl<'a> Lowering<'a> {
         let code = self.codes.get(id)?;
         if code.alias.is_some() {
             // In a program that a code calls, the codes that call programs are plain ones.
-            return (!self.aliased || self.control.is("call.alias.nested")).then_some(id);
+            return (!self.aliased || self.control.is(Question::CallAliasNested)).then_some(id);
         }
         code.row.is_some_and(|row| row.op.is_flow()).then_some(id)
     }
@@ -151,10 +151,10 @@ impl<'a> Lowering<'a> {
             },
         };
         if count.constant() == Some(0.0) {
-            match self.findings.behaviour("repeat.zero", site.span) {
+            match self.findings.behaviour(Question::RepeatZero, site.span) {
                 Some("once") => return None,
                 Some(_) => {}
-                None => self.unknown_behaviour("repeat.zero", site.span),
+                None => self.unknown_behaviour(Question::RepeatZero, site.span),
             }
         }
         (count != Expr::Number(1.0)).then_some(count)
@@ -196,7 +196,8 @@ impl<'a> Lowering<'a> {
         };
         self.run_first(&parts, site);
         let Some(callee) = callee else { return };
-        self.call(Call { callee, level: false, arguments: Vec::new(), count }, false, site);
+        let level = self.has_own_locals(site);
+        self.call(Call { callee, level, arguments: Vec::new(), count }, false, site);
     }
 
     /// On controls that have it, `M98 P68003` calls O8003 six times: digits before the last four
@@ -243,13 +244,13 @@ impl<'a> Lowering<'a> {
         };
         let arguments = self.arguments(&parts.rest);
         if count.is_some() && !arguments.is_empty() {
-            match self.findings.behaviour("call.repeat.reloads.arguments", site.span) {
+            match self.findings.behaviour(Question::CallRepeatReloadsArguments, site.span) {
                 Some("true") => {}
                 Some(_) => {
                     let message = "the repeats of this call do not set the arguments again: they see what the pass before left";
                     self.findings.add(Diagnostic::new(Code::RepeatKeepsLocals, site.span, message));
                 }
-                None => self.unknown_behaviour("call.repeat.reloads.arguments", site.span),
+                None => self.unknown_behaviour(Question::CallRepeatReloadsArguments, site.span),
             }
         }
         let Some(callee) = callee else { return };
@@ -265,7 +266,8 @@ impl<'a> Lowering<'a> {
             if !rest.is_empty() {
                 self.nc(&rest, site);
             }
-            return self.call(Call { callee, level: false, arguments: Vec::new(), count: None }, false, site);
+            let level = self.has_own_locals(site);
+            return self.call(Call { callee, level, arguments: Vec::new(), count: None }, false, site);
         }
         if at > 0 {
             let message = "words stand before a code that calls a macro, which must come first and alone";
@@ -280,12 +282,25 @@ impl<'a> Lowering<'a> {
         self.call(Call { callee, level: true, arguments, count }, alias.modal, site);
     }
 
+    /// True where a subprogram does not see its caller's locals.
+    fn has_own_locals(&mut self, site: &Site) -> bool {
+        let answer = self.findings.behaviour(Question::LocalsSharedBySubprogram, site.span);
+        if answer.is_none() {
+            self.unknown_behaviour(Question::LocalsSharedBySubprogram, site.span);
+        }
+        answer == Some("false")
+    }
+
     fn call(&mut self, call: Call, modal: bool, site: &Site) {
         // What is called may leave another motion mode behind.
         self.motion.joined = true;
         if modal {
-            if self.findings.is("call.modal.block.calls", site.span) {
+            if self.findings.is(Question::CallModalBlockCalls, site.span) {
                 self.findings.not_understood(site.span, "a modal call that calls in its own block");
+            }
+            if !self.findings.is(Question::CallModalSetsLocalsOnce, site.span) {
+                self.findings
+                    .not_understood(site.span, "a modal call that sets its arguments again each time");
             }
             self.modal_calls += 1;
             return self.builder.push(StmtKind::ModalCall(Box::new(call)), site.clone());

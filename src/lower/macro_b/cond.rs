@@ -3,6 +3,7 @@
 use super::Lowering;
 use super::expr::{At, MAX_DEPTH};
 use crate::canon::Sys;
+use crate::dialect::Question;
 use crate::ir::{BinOp, Cond, Expr, Relation};
 use crate::lower::common::relation;
 use crate::syntax::{self, BinaryOp, ExprKind};
@@ -65,12 +66,12 @@ impl<'a> Lowering<'a> {
                     Cond::Compare(relation, a, b)
                 }
                 (None, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor) if is_condition(expr) => {
-                    match self.findings.behaviour("condition.and.or", expr.span) {
+                    match self.findings.behaviour(Question::ConditionAndOr, expr.span) {
                         Some("true") => {}
                         Some(_) => self
                             .findings
                             .not_understood(expr.span, "this control joins no conditions by AND and OR"),
-                        None => self.unknown_behaviour("condition.and.or", expr.span),
+                        None => self.unknown_behaviour(Question::ConditionAndOr, expr.span),
                     }
                     self.ranks(*op, a, b, true);
                     let (a, b) = (self.cond_at(a, depth), self.cond_at(b, depth));
@@ -88,10 +89,10 @@ impl<'a> Lowering<'a> {
     /// "not zero" here, so the value goes through arithmetic first, which makes 0 of vacant.
     fn bare(&mut self, expr: &'a syntax::Expr, depth: u32) -> Cond {
         let span = expr.span;
-        match self.findings.behaviour("number.is.condition", span) {
+        match self.findings.behaviour(Question::NumberIsCondition, span) {
             Some("true") => {}
             Some(_) => self.findings.not_understood(span, "a number alone is no condition on this control"),
-            None => self.unknown_behaviour("number.is.condition", span),
+            None => self.unknown_behaviour(Question::NumberIsCondition, span),
         }
         let value = self.mixed(expr, depth);
         let value = self.vacant_as_zero(value, span);
@@ -108,7 +109,7 @@ impl<'a> Lowering<'a> {
         if !vacant {
             return value;
         }
-        let fact = "behaviour:number.is.condition".into();
+        let fact = Question::NumberIsCondition.fact().into();
         let note = "a vacant variable as a condition is taken for false";
         self.findings.unconfirmed(fact, Some(note), span);
         Expr::binary(BinOp::Add, value, Expr::Number(0.0))

@@ -3,6 +3,7 @@
 use super::Lowering;
 use super::cond::is_condition;
 use crate::canon::{Func, Role};
+use crate::dialect::Question;
 use crate::ir::{BinOp, Expr};
 use crate::lower::common::constant;
 use crate::syntax::{self, BinaryOp, ExprKind};
@@ -121,34 +122,35 @@ impl<'a> Lowering<'a> {
         if known(a) && known(b) {
             return;
         }
-        match self.findings.behaviour("mod.rounds.operands", span) {
+        match self.findings.behaviour(Question::ModRoundsOperands, span) {
             Some("true") => {}
             Some(_) => self.findings.not_understood(span, "a remainder of fractions"),
-            None => self.unknown_behaviour("mod.rounds.operands", span),
+            None => self.unknown_behaviour(Question::ModRoundsOperands, span),
         }
-        match self.findings.behaviour("mod.sign", span) {
+        match self.findings.behaviour(Question::ModSign, span) {
             Some("dividend") => {}
-            _ => self.unknown_behaviour("mod.sign", span),
+            _ => self.unknown_behaviour(Question::ModSign, span),
         }
     }
 
     /// Bit operations of the common form round their operands.
     fn bits(&mut self, op: BinOp, a: Expr, b: Expr, span: Span) -> Expr {
         let fractional = [&a, &b].into_iter().any(|e| !e.is_whole());
-        let rule = if fractional { self.findings.behaviour("bits.of.fraction", span) } else { Some("round") };
+        let rule =
+            if fractional { self.findings.behaviour(Question::BitsOfFraction, span) } else { Some("round") };
         let cut = |e: Expr| match e.constant() {
             Some(value) => Expr::Number(value.trunc()),
             None if e.is_whole() => e,
             None => Expr::Call(Func::Fix, [e].into()),
         };
-        if wide(op, &a, &b) && self.findings.behaviour("bits.width", span).is_none() {
-            self.unknown_behaviour("bits.width", span);
+        if wide(op, &a, &b) && self.findings.behaviour(Question::BitsWidth, span).is_none() {
+            self.unknown_behaviour(Question::BitsWidth, span);
         }
         let (a, b) = match rule {
             Some("truncate") => (cut(a), cut(b)),
             Some(_) => (a, b),
             None => {
-                self.unknown_behaviour("bits.of.fraction", span);
+                self.unknown_behaviour(Question::BitsOfFraction, span);
                 (a, b)
             }
         };
@@ -157,10 +159,10 @@ impl<'a> Lowering<'a> {
 
     /// A condition as a value: 1 or 0.
     fn truth(&mut self, expr: &'a syntax::Expr, depth: u32) -> Expr {
-        match self.findings.behaviour("comparison.is.value", expr.span) {
+        match self.findings.behaviour(Question::ComparisonIsValue, expr.span) {
             Some("true") => {}
             Some(_) => self.findings.not_understood(expr.span, "a comparison is no value on this control"),
-            None => self.unknown_behaviour("comparison.is.value", expr.span),
+            None => self.unknown_behaviour(Question::ComparisonIsValue, expr.span),
         }
         Expr::Truth(Box::new(self.cond_at(expr, depth)))
     }
@@ -182,8 +184,8 @@ impl<'a> Lowering<'a> {
             }
         }
         for question in ranges(function, arguments.len()) {
-            if self.findings.behaviour(question, span).is_none() {
-                self.unknown_behaviour(question, span);
+            if self.findings.behaviour(*question, span).is_none() {
+                self.unknown_behaviour(*question, span);
             }
         }
         let values = arguments.iter().map(|argument| self.expr_at(argument, at, depth)).collect();
@@ -195,16 +197,17 @@ impl<'a> Lowering<'a> {
     fn rounding(&mut self, at: At, span: Span) -> Func {
         let fraction = |role: Role| !role.is_integer();
         match at {
-            At::Word(role) if fraction(role) => match self.findings.behaviour("round.in.address", span) {
+            At::Word(role) if fraction(role) => match self.findings.behaviour(Question::RoundInAddress, span)
+            {
                 Some("increment") => Func::RoundIncrement,
                 Some(_) => Func::Round,
                 None => {
-                    self.unknown_behaviour("round.in.address", span);
+                    self.unknown_behaviour(Question::RoundInAddress, span);
                     Func::RoundIncrement
                 }
             },
             At::Argument => {
-                self.unknown_behaviour("round.in.address", span);
+                self.unknown_behaviour(Question::RoundInAddress, span);
                 Func::Round
             }
             _ => Func::Round,
@@ -213,14 +216,14 @@ impl<'a> Lowering<'a> {
 }
 
 /// Questions of range that a function's value rests on.
-fn ranges(function: Func, arguments: usize) -> &'static [&'static str] {
+fn ranges(function: Func, arguments: usize) -> &'static [Question] {
     match (function, arguments) {
-        (Func::Atan, 1) => &["atan.range"],
-        (Func::Atan, _) => &["atan2.range"],
-        (Func::Asin, _) => &["asin.range"],
-        (Func::Acos, _) => &["acos.range"],
-        (Func::Round, _) => &["round.half.away"],
-        (Func::Fix, _) => &["fix.toward.zero"],
+        (Func::Atan, 1) => &[Question::AtanRange],
+        (Func::Atan, _) => &[Question::Atan2Range],
+        (Func::Asin, _) => &[Question::AsinRange],
+        (Func::Acos, _) => &[Question::AcosRange],
+        (Func::Round, _) => &[Question::RoundHalfAway],
+        (Func::Fix, _) => &[Question::FixTowardZero],
         _ => &[],
     }
 }

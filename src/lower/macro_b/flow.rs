@@ -6,6 +6,7 @@ use super::call::{Flow, Parts};
 use super::expr::At;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{BinOp, Class, Cond, Expr, Place, Relation, Site, StmtKind, TermKind, Var};
 use crate::syntax::{self, Item, ItemKind, Target};
 use crate::text::Span;
@@ -24,8 +25,8 @@ impl<'a> Lowering<'a> {
             Target::Computed(value) => {
                 match self.control.statement("goto.computed") {
                     Some(row) => self.findings.rest_on(row, span),
-                    None if self.findings.is("goto.computed", span) => {}
-                    None => self.unknown_behaviour("goto.computed", span),
+                    None if self.findings.is(Question::GotoComputed, span) => {}
+                    None => self.unknown_behaviour(Question::GotoComputed, span),
                 }
                 let value = self.expr(value, At::Value);
                 self.jump_to(value, span, site);
@@ -119,12 +120,12 @@ impl<'a> Lowering<'a> {
         if jump || (then && !words) {
             return;
         }
-        match (self.findings.behaviour("then.words", span), words) {
+        match (self.findings.behaviour(Question::ThenWords, span), words) {
             (Some("true"), _) => {}
             (Some(_), true) => {
                 self.findings.not_understood(span, "behind THEN stands one macro statement, no words");
             }
-            (None, true) => self.unknown_behaviour("then.words", span),
+            (None, true) => self.unknown_behaviour(Question::ThenWords, span),
             (_, false) if !then => {
                 let message = "THEN is missing before the statement";
                 self.findings.add(Diagnostic::new(Code::ThenMissing, span, message));
@@ -137,9 +138,9 @@ impl<'a> Lowering<'a> {
     pub(super) fn returning(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
         let parts = self.parts(flow, words, &[Role::Sequence]);
         if !parts.rest.is_empty() {
-            match self.findings.behaviour("m99.block.moves.first", site.span) {
+            match self.findings.behaviour(Question::M99BlockMovesFirst, site.span) {
                 Some("true") => {}
-                _ => self.unknown_behaviour("m99.block.moves.first", site.span),
+                _ => self.unknown_behaviour(Question::M99BlockMovesFirst, site.span),
             }
             self.nc(&parts.rest, site);
         }
@@ -147,10 +148,10 @@ impl<'a> Lowering<'a> {
         let Some(to) = to else {
             return self.builder.end(TermKind::Return { to: None }, site.clone());
         };
-        match self.findings.behaviour("m99.p.jumps.here", site.span) {
+        match self.findings.behaviour(Question::M99PJumpsHere, site.span) {
             Some("true") => return self.jump_to(to, site.span, site),
             Some(_) => {}
-            None => self.unknown_behaviour("m99.p.jumps.here", site.span),
+            None => self.unknown_behaviour(Question::M99PJumpsHere, site.span),
         }
         self.builder.end(TermKind::Return { to: Some(to) }, site.clone());
     }

@@ -5,6 +5,7 @@ use super::codes::Codes;
 use super::split::Piece;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::BlockId;
 use crate::syntax::{Expr, ExprKind, Item, ItemKind, ParsedFile};
 use crate::text::Span;
@@ -165,7 +166,7 @@ impl Lowering<'_> {
     }
 
     fn choose(&mut self, number: u32, span: Span) -> Option<usize> {
-        let forward = self.control.behaviour("goto.forward.first").map(|row| row.value.as_str());
+        let forward = self.control.behaviour(Question::GotoForwardFirst).map(|row| row.value.as_str());
         let candidates = self.labels.places(number);
         let first = candidates.first()?.1;
         let count = candidates.len();
@@ -187,7 +188,9 @@ impl Lowering<'_> {
             Some("false") => (first, "the control finds the first one in the program"),
             _ => (first, "no source says which one the control finds; the first one in the program is taken"),
         };
-        if let Some(row) = self.control.behaviour("goto.forward.first").filter(|row| row.value != "unknown") {
+        if let Some(row) =
+            self.control.behaviour(Question::GotoForwardFirst).filter(|row| row.value != "unknown")
+        {
             self.findings.rest_on(row, span);
         }
         let line = self.labels.list.get(chosen).map_or(0, |label| self.parsed.line_of(label.span.start));

@@ -34,7 +34,7 @@ mod words;
 
 use super::Lowered;
 use super::common::{Findings, remark_text};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Remark, Site, Var};
 use crate::syntax::{ItemKind, ParsedFile, ProgramName};
 use crate::text::Span;
@@ -68,10 +68,10 @@ pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control, fam
         (codes, findings) = (met, found);
         let site = program_site(parsed, &piece);
         let program = builder.finish(piece.name, file, site);
-        if signed && let Some(span) = vacancy::signed_word(&program, !control.is("m99.p.jumps.here")) {
+        if signed && let Some(span) = vacancy::signed_word(&program, !control.is(Question::M99PJumpsHere)) {
             let note =
                 "no source says that a word is dropped whose variable is vacant and has a sign before it";
-            findings.unconfirmed("behaviour:bracket.vacant.word".into(), Some(note), span);
+            findings.unconfirmed(Question::BracketVacantWord.fact().into(), Some(note), span);
         }
         programs.push((program, findings.take_list()));
     }

@@ -4,6 +4,7 @@ use super::Lowering;
 use super::expr::At;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Expr, OutputPart, Place, Site, StmtKind, Var};
 use crate::lower::common::remark_text;
 use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
@@ -18,9 +19,11 @@ impl<'a> Lowering<'a> {
                 let Some(target) = self.target_place(target) else { return };
                 let bracket = matches!(value.kind, ExprKind::Group(_) | ExprKind::Plus(_));
                 let value = self.expr(value, At::Value);
-                if bracket && value.may_be_vacant() && !self.findings.is("bracket.copies.vacancy", item.span)
+                if bracket
+                    && value.may_be_vacant()
+                    && !self.findings.is(Question::BracketCopiesVacancy, item.span)
                 {
-                    self.unknown_behaviour("bracket.copies.vacancy", item.span);
+                    self.unknown_behaviour(Question::BracketCopiesVacancy, item.span);
                 }
                 self.assign(target, value, text, site);
             }

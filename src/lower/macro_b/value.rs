@@ -5,7 +5,7 @@ use super::arguments::literal;
 use super::expr::{At, is_constant};
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{BareLength, CodeMeaning};
+use crate::dialect::{BareLength, CodeMeaning, Question};
 use crate::ir::{BinOp, Expr};
 use crate::syntax::{self, ExprKind};
 use crate::text::Span;
@@ -31,7 +31,7 @@ impl<'a> Lowering<'a> {
         }
         let counted = role.is_length() || role.is_angle();
         let bare = role.is_scale() && !point && number != 0.0;
-        if bare && self.findings.behaviour("scale.bare", value.span).is_none() {
+        if bare && self.findings.behaviour(Question::ScaleBare, value.span).is_none() {
             let message = "what a scale factor without a decimal point counts is set at the control: write it with its point";
             self.findings.not_understood(value.span, message);
             return None;
@@ -112,18 +112,18 @@ impl<'a> Lowering<'a> {
         let span = value.span;
         let lowered = self.expr(value, At::Word(role));
         if role.is_length() || role.is_angle() || role == Role::Feed {
-            match self.findings.behaviour("word.bare.expression", span) {
+            match self.findings.behaviour(Question::WordBareExpression, span) {
                 Some("value") => {}
                 Some(_) => self.findings.not_understood(span, "a computed value that counts increments"),
-                None => self.unknown_behaviour("word.bare.expression", span),
+                None => self.unknown_behaviour(Question::WordBareExpression, span),
             }
         }
         self.vacant_word(value, &lowered);
         if matches!(role, Role::DwellMs | Role::DwellS | Role::CycleDwell) {
             return self.computed_dwell(role, value, lowered);
         }
-        if role.is_integer() && !is_constant(value) && !self.findings.is("integer.word.rounds", span) {
-            self.unknown_behaviour("integer.word.rounds", span);
+        if role.is_integer() && !is_constant(value) && !self.findings.is(Question::IntegerWordRounds, span) {
+            self.unknown_behaviour(Question::IntegerWordRounds, span);
         }
         let shift = code.and_then(|row| row.shift.get(&role)).map(Vec::as_slice);
         let lowered = match (lowered, shift) {
@@ -143,14 +143,14 @@ impl<'a> Lowering<'a> {
     /// What a word does whose value may be vacant: dropped, where it is the plain variable.
     fn vacant_word(&mut self, value: &syntax::Expr, lowered: &Expr) {
         let question = match (&value.kind, lowered) {
-            (ExprKind::Variable(_), read) if read.may_be_vacant() => "vacant.word.dropped",
-            (ExprKind::Group(_), read) if read.may_be_vacant() => "bracket.vacant.word",
+            (ExprKind::Variable(_), read) if read.may_be_vacant() => Question::VacantWordDropped,
+            (ExprKind::Group(_), read) if read.may_be_vacant() => Question::BracketVacantWord,
             // What a sign leaves of a vacant variable is told as little. Of one whose number is written, what stands
             // before it says whether it may be vacant.
             (ExprKind::Negate(_), Expr::Negate(read))
                 if read.may_be_vacant() && !matches!(**read, Expr::Var(_)) =>
             {
-                "bracket.vacant.word"
+                Question::BracketVacantWord
             }
             _ => return,
         };
@@ -174,11 +174,11 @@ impl<'a> Lowering<'a> {
         }
         if letter != 'P' {
             // X2 of a dwell: two thousandths of a second where X counts increments, as far as is known.
-            self.unknown_behaviour("dwell.bare", value.span);
+            self.unknown_behaviour(Question::DwellBare, value.span);
             let ms = self.control.bare_length_of(letter) == BareLength::Increments;
             return Some((if ms { Role::DwellMs } else { role }, Expr::Number(number)));
         }
-        let question = if point { "dwell.point" } else { "dwell.bare" };
+        let question = if point { Question::DwellPoint } else { Question::DwellBare };
         let answer = self.findings.behaviour(question, value.span);
         match (answer, role) {
             (Some("ms"), Role::DwellS) => Some((Role::DwellMs, Expr::Number(number))),
@@ -201,7 +201,7 @@ impl<'a> Lowering<'a> {
         if role == Role::DwellS {
             return Some((role, lowered));
         }
-        match self.findings.behaviour("dwell.expression", value.span) {
+        match self.findings.behaviour(Question::DwellExpression, value.span) {
             Some("seconds") if role == Role::DwellMs => Some((Role::DwellS, lowered)),
             Some("seconds") => {
                 let thousand = Box::new(Expr::Number(1000.0));
@@ -209,7 +209,7 @@ impl<'a> Lowering<'a> {
             }
             Some(_) => Some((role, lowered)),
             None => {
-                self.unknown_behaviour("dwell.expression", value.span);
+                self.unknown_behaviour(Question::DwellExpression, value.span);
                 Some((role, lowered))
             }
         }

@@ -5,7 +5,7 @@ use super::statement::behind;
 use super::{Family, Lowering};
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, SystemVariable};
+use crate::dialect::{Control, Question, SystemVariable};
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
 use crate::lower::common::constant;
 use crate::syntax::{Index, ItemKind, ParsedFile, VarRef};
@@ -208,16 +208,16 @@ impl<'a> Lowering<'a> {
                 | Sys::Output
                 | Sys::OutputWord
         );
-        let early = moving && !self.lookahead_limited && self.control.is("lookahead.runs.early");
+        let early = moving && !self.lookahead_limited && self.control.is(Question::LookaheadRunsEarly);
         if !early || !self.codes.tell_early() {
             return;
         }
-        if self.findings.behaviour("system.read.waits", span) != Some("true") {
+        if self.findings.behaviour(Question::SystemReadWaits, span) != Some("true") {
             let meaning = state.meaning().trim().trim_end_matches('.');
             let message =
                 format!("'{state}' ({meaning}) may be read before the moves ahead of this block are done");
             let finding = Diagnostic::new(Code::EarlyRead, span, message);
-            self.findings.add(finding.with_fact("behaviour:lookahead.runs.early"));
+            self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
         }
     }
 }

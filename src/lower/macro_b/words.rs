@@ -7,7 +7,7 @@ use super::expr::At;
 use super::roles::BlockCodes;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::CodeMeaning;
+use crate::dialect::{CodeMeaning, Question};
 use crate::ir::{Expr, Nc, NcItem, Site, StmtKind};
 use crate::lower::common::constant;
 use crate::syntax::{ExprKind, Word};
@@ -214,8 +214,8 @@ impl<'a> Lowering<'a> {
         }
         self.signed |= matches!(value, Expr::Negate(_));
         for question in questions(role, &value) {
-            if self.findings.behaviour(question, span).is_none() {
-                self.unknown_behaviour(question, span);
+            if self.findings.behaviour(*question, span).is_none() {
+                self.unknown_behaviour(*question, span);
             }
         }
         nc.items.push(NcItem::Word(role, value));
@@ -225,27 +225,27 @@ impl<'a> Lowering<'a> {
         if seen.m_codes < 2 {
             return;
         }
-        match self.findings.behaviour("m.codes.per.block", span) {
+        match self.findings.behaviour(Question::MCodesPerBlock, span) {
             Some("any") => {}
             Some(most) if most.parse().is_ok_and(|most: u32| seen.m_codes <= most) => {}
             Some(most) => {
                 let message = format!("{} M codes in a block of a control that takes {most}", seen.m_codes);
                 self.findings.add(Diagnostic::new(Code::MCodes, span, message));
             }
-            None => self.unknown_behaviour("m.codes.per.block", span),
+            None => self.unknown_behaviour(Question::MCodesPerBlock, span),
         }
     }
 }
 
 /// Questions of behaviour that a word rests on.
-fn questions(role: Role, value: &Expr) -> &'static [&'static str] {
+fn questions(role: Role, value: &Expr) -> &'static [Question] {
     match (role, value.constant()) {
-        (Role::ArcI | Role::ArcJ | Role::ArcK, _) => &["arc.centre"],
-        (Role::ArcRadius, Some(radius)) if radius < 0.0 => &["arc.radius.negative"],
-        (Role::ArcRadius, Some(_)) => &["arc.radius.positive"],
-        (Role::ArcRadius, None) => &["arc.radius.positive", "arc.radius.negative"],
+        (Role::ArcI | Role::ArcJ | Role::ArcK, _) => &[Question::ArcCentre],
+        (Role::ArcRadius, Some(radius)) if radius < 0.0 => &[Question::ArcRadiusNegative],
+        (Role::ArcRadius, Some(_)) => &[Question::ArcRadiusPositive],
+        (Role::ArcRadius, None) => &[Question::ArcRadiusPositive, Question::ArcRadiusNegative],
         (Role::Repeat, Some(count)) if count >= 1.0 => &[],
-        (Role::Repeat, _) => &["cycle.l0.stores"],
+        (Role::Repeat, _) => &[Question::CycleL0Stores],
         _ => &[],
     }
 }

@@ -3,6 +3,7 @@
 use super::Verifier;
 use crate::control::trace::Event;
 use crate::control::{End, ProgramRef, Run, Scenario};
+use crate::dialect::Question;
 use crate::verify::Job;
 use crate::verify::assumed::{excuse, tried};
 use crate::verify::callers::{Shown, ways};
@@ -13,7 +14,7 @@ use crate::verify::stops::{off_its_circle, stops_by_itself};
 use crate::verify::variables::writes_elsewhere;
 
 /// The fact that says whether words are rounded.
-pub(super) const ROUNDS: &str = "behaviour:word.rounds.to.increment";
+pub(super) const ROUNDS: &str = Question::WordRoundsToIncrement.fact();
 
 /// A run of the source and one of the target.
 #[derive(Clone, Copy)]

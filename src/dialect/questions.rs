@@ -1,0 +1,268 @@
+//! The questions of behaviour that tables answer, with the answers there are.
+//!
+//! A table says `name` and `value` of a question; code asks `Control::behaviour` by its variant. So a name that is
+//! not here is refused at loading, and nobody asks a question that no table can answer.
+
+use super::reader::closest;
+use Answers::OneOf;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+use std::fmt;
+
+/// The answers that a question may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answers {
+    /// One of these words.
+    OneOf(&'static [&'static str]),
+    /// Any number.
+    Number,
+}
+
+impl Answers {
+    /// True where the value is one of them.
+    pub fn admits(self, value: &str) -> bool {
+        match self {
+            OneOf(words) => words.contains(&value),
+            Self::Number => value.parse::<f64>().is_ok_and(f64::is_finite),
+        }
+    }
+}
+
+impl fmt::Display for Answers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            OneOf(words) => write!(f, "one of {}", words.join(", ")),
+            Self::Number => f.write_str("any number"),
+        }
+    }
+}
+
+const YES: Answers = OneOf(&["true", "false", "unknown"]);
+
+/// When a code acts that stands beside a move: with its start, or when it is done.
+const WHEN: Answers = OneOf(&["start", "end", "unknown"]);
+
+const NUMBER: Answers = Answers::Number;
+
+const fn first(words: &[&'static str]) -> Option<&'static str> {
+    match words {
+        [word, ..] => Some(word),
+        [] => None,
+    }
+}
+
+macro_rules! questions {
+    ($($variant:ident $name:literal $answers:expr, $meaning:literal $(, if $needs:literal)?;)*) => {
+        /// A question of behaviour.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Question {
+            $(#[doc = $meaning] $variant,)*
+        }
+
+        impl Question {
+            /// Every question.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// Its name in tables: `goto.forward.first`.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+
+            /// The fact that its answer is, as diagnostics name it: `behaviour:goto.forward.first`.
+            pub const fn fact(self) -> &'static str {
+                match self { $(Self::$variant => concat!("behaviour:", $name),)* }
+            }
+
+            /// The answers it may have.
+            pub const fn answers(self) -> Answers {
+                match self { $(Self::$variant => $answers,)* }
+            }
+
+            /// What is asked.
+            pub const fn meaning(self) -> &'static str {
+                match self { $(Self::$variant => $meaning,)* }
+            }
+
+            /// What a control must have for the question to arise, as facts of its table with `and` and `or` between
+            /// them, or `said`: then a table that is silent says that the control is like most others.
+            pub const fn needs(self) -> Option<&'static str> {
+                match self { $(Self::$variant => first(&[$($needs)?]),)* }
+            }
+        }
+    };
+}
+
+impl Question {
+    /// The question with this name.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|question| question.name() == name)
+    }
+
+    /// The question whose answer this fact is.
+    pub fn of_fact(fact: &str) -> Option<Self> {
+        Self::find(fact.strip_prefix("behaviour:")?)
+    }
+}
+
+impl fmt::Display for Question {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Serialize for Question {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Question {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::find(&name).ok_or_else(|| {
+            let near = closest(&name, Self::ALL.iter().map(|known| known.name()));
+            let help = near.map_or("add it to src/dialect/questions.rs first".into(), |near| {
+                format!("did you mean '{near}'?")
+            });
+            D::Error::custom(format!("no behaviour is named '{name}' ({help})"))
+        })
+    }
+}
+
+questions! {
+    Vacancy "vacancy" YES, "a variable may be vacant, which is not zero";
+    VacantWordDropped "vacant.word.dropped" YES, "a word whose value is a vacant variable counts as not programmed", if "behaviour:vacancy";
+    VacantEqZero "vacant.eq.zero" YES, "a vacant variable equals zero under EQ and NE", if "behaviour:vacancy";
+    VacantComparesAsZero "vacant.compares.as.zero" YES, "GT, GE, LT and LE take a vacant variable for zero", if "behaviour:vacancy";
+    VacantArithmeticZero "vacant.arithmetic.zero" YES, "arithmetic takes a vacant operand for zero", if "behaviour:vacancy";
+    BracketVacantWord "bracket.vacant.word" OneOf(&["dropped", "zero", "unknown"]), "what a word does whose bracket holds one vacant variable", if "behaviour:vacancy";
+    BracketCopiesVacancy "bracket.copies.vacancy" YES, "#2=[#1] copies vacancy as #2=#1 does", if "behaviour:vacancy";
+    GotoForwardFirst "goto.forward.first" YES, "a jump looks forward first, then from the head of the program";
+    GotoComputed "goto.computed" YES, "a jump may go to a computed number";
+    GotoMissingAlarms "goto.missing.alarms" YES, "a jump to a label or number that no block has stops the program with an alarm", if "statement:goto.label";
+    GotoFirstLabel "goto.first.label" YES, "of labels that stand twice a jump always finds the first one", if "statement:goto.label";
+    SequenceAnywhere "sequence.anywhere" YES, "N may stand anywhere in its block";
+    SubEndsAtNext "sub.ends.at.next" YES, "a subroutine at the head of a program ends where the next one begins", if "op:sub.area.end";
+    SubAreaEntered "sub.area.entered" YES, "what stands before the subroutines at the head runs, then the main part", if "op:sub.area.end";
+    EndAlone "end.alone" YES, "the code that closes the subroutines ends a program that has none", if "op:sub.area.end";
+    CycleEndEndsProgram "cycle.end.ends.program" YES, "the code that ends a called cycle ends any other program too", if "op:call.cycle";
+    CallAfterWords "call.after.words" YES, "a subroutine that is called beside words runs when the words are done";
+    M99PJumpsHere "m99.p.jumps.here" YES, "M99 P jumps in the running program; false where it returns to that block of the caller", if "statement:return.to.sequence";
+    M99MainRestarts "m99.main.restarts" YES, "M99 in the main program starts it again", if "statement:return.to.sequence";
+    M99BlockMovesFirst "m99.block.moves.first" YES, "the words beside M99 act before the return", if "statement:call.macro";
+    ArgumentsMixedLaterWins "arguments.mixed.later.wins" YES, "of arguments of both kinds for one local variable the later one counts", if "statement:call.macro";
+    ArgumentsOrderIjk "arguments.order.ijk" OneOf(&["true", "repeated", "false", "unknown"]), "I, J and K go by place: where they are repeated or out of order, only where one of them stands twice, or never", if "statement:call.macro";
+    ArgumentsRepeatedOrder "arguments.repeated.order" OneOf(&["place", "count", "unknown"]), "which local a repeated I, J or K sets: the next of its column after the letter before it, or that of the set that its own count gives", if "statement:call.macro";
+    CallRepeatReloadsArguments "call.repeat.reloads.arguments" YES, "each repeat of a call sets the arguments again", if "statement:call.macro";
+    CallModalBlockCalls "call.modal.block.calls" YES, "the block that starts a modal call calls at once", if "statement:call.modal";
+    CallModalSetsLocalsOnce "call.modal.sets.locals.once" YES, "a modal call sets its arguments in its own block only", if "statement:call.modal and statement:call.macro";
+    CallModalNested "call.modal.nested" YES, "modal calls nest: the inner runs for moves of the outer macro", if "statement:call.modal";
+    CallAliasNested "call.alias.nested" YES, "codes that call programs do so inside such programs too", if "statement:call.macro";
+    LocalsSharedBySubprogram "locals.shared.by.subprogram" YES, "a subprogram sees and changes its caller's locals", if "class:local";
+    ComparisonIsValue "comparison.is.value" YES, "a comparison is a value, one or zero";
+    NumberIsCondition "number.is.condition" YES, "a number is a condition: true when it is not zero";
+    ConditionAndOr "condition.and.or" YES, "AND, OR and XOR join conditions";
+    ConditionRegister "condition.register" YES, "jumps test a register that arithmetic and tests set";
+    ThenWords "then.words" YES, "words of NC code may stand behind THEN";
+    StatementSharesBlock "statement.shares.block" YES, "several statements, or a statement and words, may share a block";
+    AssignSharesBlock "assign.shares.block" YES, "several assignments may share a block";
+    ModRoundsOperands "mod.rounds.operands" YES, "MOD rounds its operands to whole numbers first", if "operator:modulo";
+    ModSign "mod.sign" OneOf(&["dividend", "unknown"]), "whose sign the remainder has", if "operator:modulo";
+    BitsOfFraction "bits.of.fraction" OneOf(&["round", "truncate", "unknown"]), "what bit operators do with a fraction", if "operator:and.bits";
+    BitsWidth "bits.width" OneOf(&["32", "unknown"]), "how many bits bit operators have", if "operator:and.bits";
+    EqualTolerance "equal.tolerance" NUMBER, "how far apart numbers may be that count as equal";
+    RoundHalfAway "round.half.away" YES, "ROUND takes halves away from zero", if "function:round or function:round.places";
+    RoundInAddress "round.in.address" OneOf(&["increment", "whole", "unknown"]), "to what ROUND rounds inside a word", if "function:round";
+    RoundPlacesDefault "round.places.default" OneOf(&["unknown", "0", "1", "2", "3", "4", "5"]), "places that the rounding function keeps by default", if "function:round.places";
+    FixTowardZero "fix.toward.zero" YES, "FIX (INT) goes toward zero for negative numbers";
+    WordRoundsToIncrement "word.rounds.to.increment" YES, "a computed value is rounded to the least increment of its address";
+    ScaleBare "scale.bare" OneOf(&["units", "unknown"]), "what a scale factor without a decimal point counts", if "role:scale";
+    IntegerWordRounds "integer.word.rounds" YES, "a computed value in a whole-number word is rounded to the nearest";
+    WordBareExpression "word.bare.expression" OneOf(&["value", "increments", "unknown"]), "what a computed value without a point counts in a word";
+    Atan2Range "atan2.range" OneOf(&["0..360", "-180..180", "none", "unknown"]), "the range of the two-argument arc tangent";
+    AtanRange "atan.range" OneOf(&["-90..90", "unknown"]), "the range of the one-argument arc tangent";
+    AsinRange "asin.range" OneOf(&["-90..90", "270..90", "none", "unknown"]), "the range of the arc sine";
+    AcosRange "acos.range" OneOf(&["0..180", "none", "unknown"]), "the range of the arc cosine";
+    AngleLimit "angle.limit" OneOf(&["none", "360", "unknown"]), "how far from zero the argument of a sine may lie", if "function:sin";
+    AnglesUnit "angles.unit" OneOf(&["degrees", "modal"]), "the unit of angles: degrees, or degrees and radians as last set";
+    DivideByZero "divide.by.zero" OneOf(&["alarm", "unknown"]), "what a division by zero does";
+    SqrtOfNegative "sqrt.of.negative" OneOf(&["alarm", "unknown"]), "what the root of a negative number does";
+    ArcRadiusNegative "arc.radius.negative" OneOf(&["long", "short", "unknown"]), "the arc that a negative radius means";
+    ArcRadiusPositive "arc.radius.positive" OneOf(&["long", "short", "unknown"]), "the arc that a positive radius means";
+    ArcWithoutCentre "arc.without.centre" OneOf(&["error", "straight", "unknown"]), "a block under a modal arc without centre and radius";
+    ArcCentre "arc.centre" OneOf(&["incremental", "absolute", "unknown"]), "from where I, J and K count";
+    RepeatCounts "repeat.counts" OneOf(&["total", "extra"]), "whether the number of a repeated call counts the first time";
+    RepeatZero "repeat.zero" OneOf(&["none", "once", "unknown"]), "what a repeat of zero does";
+    DwellBare "dwell.bare" OneOf(&["ms", "seconds", "unknown"]), "what P of a dwell counts without a decimal point";
+    DwellPoint "dwell.point" OneOf(&["ms", "seconds", "error", "unknown"]), "what P of a dwell counts with a decimal point", if "op:dwell";
+    DwellExpression "dwell.expression" OneOf(&["ms", "seconds", "unknown"]), "what P of a dwell counts when it is computed", if "op:dwell";
+    CyclePlanesFrozen "cycle.planes.frozen" YES, "the planes of a drilling cycle keep the meaning of the block that gave them";
+    CycleL0Stores "cycle.l0.stores" YES, "a cycle with L0 is stored and not run", if "role:repeat";
+    CycleRunsWithoutAxes "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
+    CycleTapFeed "cycle.tap.feed" OneOf(&["feed", "lead", "unknown"]), "what the words of a tapping cycle mean: feed and speed, or speed and lead";
+    CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
+    CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
+    CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
+    MotionAfterCycle "motion.after.cycle" OneOf(&["kept", "unknown"]), "the interpolation in force when a drilling cycle has ended";
+    CycleBlockRuns "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it", if "said";
+    CycleR0Kept "cycle.r0.kept" YES, "a drilling cycle takes its retract plane from the variable that holds it";
+    RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";
+    RotationDirection "rotation.direction" OneOf(&["ccw", "cw", "unknown"]), "which way a positive rotation turns", if "op:rotate.on";
+    MCodesPerBlock "m.codes.per.block" OneOf(&["1", "3", "any", "unknown"]), "how many M codes a block may have";
+    MForwardActs "m.forward.acts" WHEN, "when the code that turns the spindle clockwise acts, beside a move", if "said";
+    MStartActs "m.start.acts" WHEN, "when a code that starts spindle or coolant acts, beside a move";
+    MStopActs "m.stop.acts" WHEN, "when a code that stops spindle or coolant acts, beside a move";
+    MChangeActs "m.change.acts" WHEN, "when a tool change acts, beside a move";
+    MOtherActs "m.other.acts" WHEN, "when any other M code acts, beside a move";
+    SActs "s.acts" WHEN, "when a new spindle speed acts, beside a move";
+    StopEndsSpindle "stop.ends.spindle" YES, "a program stop stops the spindle, and the program has to start it again";
+    StopEndsCoolant "stop.ends.coolant" YES, "a program stop switches coolant off, and the program has to switch it on again";
+    MessageEndsSpindle "message.ends.spindle" YES, "a stop with a message, or a question, stops the spindle", if "statement:stop.message or statement:input";
+    MessageEndsCoolant "message.ends.coolant" YES, "a stop with a message, or a question, switches coolant off", if "statement:stop.message or statement:input";
+    ChangeEndsSpindle "change.ends.spindle" YES, "a tool change leaves the spindle stopped";
+    ChangeEndsCoolant "change.ends.coolant" YES, "a tool change leaves coolant off";
+    EndEndsSpindle "end.ends.spindle" YES, "the end of the program stops the spindle";
+    EndEndsCoolant "end.ends.coolant" YES, "the end of the program switches coolant off";
+    OneGPerGroup "one.g.per.group" YES, "of the G codes of one group in a block the last counts, or it is an error";
+    WordTwice "word.twice" YES, "of a letter that stands twice in a block the last value counts";
+    BlockAssignsFirst "block.assigns.first" YES, "words use the values that their own block gave to variables before them";
+    RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
+    ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
+    MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
+    PositionLength "position.length" OneOf(&["added", "left.out", "unknown"]), "whether the present position and the touched one, read in the program's coordinates, hold the tool length too: the place of the spindle, or of the tip";
+    CycleRWord "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
+    MirrorAbout "mirror.about" OneOf(&["word", "zero", "unknown"]), "about what an axis is mirrored: the coordinate in its word, or the work zero", if "op:mirror.on";
+    ShapeFrameCodes "shape.frame.codes" OneOf(&["kept", "unknown"]), "whether a change of plane or of work offset, a set position, a move in machine coordinates and a return to the reference position may stand while coordinates are turned, scaled or mirrored, and do then what they do without", if "op:mirror.on or op:rotate.on";
+    ScaleReachesCycle "scale.reaches.cycle" YES, "scaling reaches the planes and the pecks of a drilling cycle", if "op:scale.on";
+    ShiftLocalIsExternal "shift.local.is.external" YES, "the local shift and the shift of all work offsets are one register", if "op:wcs.local";
+    SetPositionEndsLocal "set.position.ends.local" YES, "a code that sets the position ends the local shift of its axes", if "op:wcs.local";
+    EndClearsLocal "end.clears.local" YES, "the end of the program clears the local shift", if "behaviour:shift.local.is.external";
+    ReferenceAllAxes "reference.all.axes" YES, "a return to the reference position without axes moves all of them", if "op:reference.return";
+    IntegerDivides "integer.divides" YES, "the quotient of two whole-number constants is cut to a whole number";
+    SkipMidblock "skip.midblock" YES, "a block skip in mid-block skips the rest of the block";
+    SkipLevels "skip.levels" YES, "a block skip may have a number";
+    InitialValue "initial.value" OneOf(&["zero", "vacant", "kept", "unknown"]), "what a variable holds that nothing has set";
+    CommonAtPowerOn "common.at.power.on" OneOf(&["vacant", "kept", "unknown"]), "what common variables hold after power-on";
+    PositionFrame "position.frame" OneOf(&["work", "machine", "unknown"]), "the frame of the position variables";
+    RadiusOffsetTable "radius.offset.table" OneOf(&["radius", "diameter", "setting", "unknown"]), "what the cutter table holds";
+    OffsetActiveImmediately "offset.active.immediately" YES, "a work offset that is written while selected counts at once";
+    RadiusOffsetActiveTool "radius.offset.active.tool" YES, "cutter compensation without an offset word takes the active tool's", if "said";
+    LengthWordPicksRadius "length.word.picks.radius" YES, "the word of the length offset picks the cutter radius of the same row too", if "said";
+    ToolChangeWord "tool.change.word" OneOf(&["m6", "t", "unknown"]), "the word that changes the tool";
+    ToolWordAgain "tool.word.again" OneOf(&["changes", "skipped", "unknown"]), "what a word that changes the tool does for the tool in the spindle", if "behaviour:tool.change.word=t";
+    ToolWordSelectsLength "tool.word.selects.length" YES, "the tool word brings its length offset into force";
+    SpindleRangeSuffix "spindle.range.suffix" YES, "a fraction of S picks the gear range and is no speed";
+    ClearAll "clear.all" YES, "one statement clears all variables";
+    OutputNeedsPort "output.needs.port" YES, "formatted output needs a port that is open", if "statement:output.formatted";
+    TextLetters "text.letters" OneOf(&["ascii", "upper", "unknown"]), "the letters that a comment or a message may have: those of ASCII, or capitals alone";
+    MessageShowsComment "message.shows.comment" YES, "the comment behind a stop is shown to the operator";
+    AlarmOffset "alarm.offset" NUMBER, "what is added to the number of an alarm on the screen", if "statement:alarm";
+    AlarmMax "alarm.max" NUMBER, "the largest number of an alarm", if "statement:alarm";
+    LookaheadRunsEarly "lookahead.runs.early" YES, "macro statements run while earlier moves are still to come";
+    SystemReadWaits "system.read.waits" YES, "reading a position waits until the machine is there";
+    EndCancelsLength "end.cancels.length" YES, "the end of the program cancels length offsets";
+    IndexOfFraction "index.of.fraction" OneOf(&["round", "truncate", "unknown"]), "what a computed subscript with a fraction means";
+    StepDropsFraction "step.drops.fraction" YES, "INC and DEC throw away the fraction";
+    LoadSetsCondition "load.sets.condition" YES, "a plain assignment sets the condition register";
+    InputDefaultZero "input.default.zero" YES, "an empty answer of the operator is zero", if "statement:input";
+    PrintFormat "print.format" OneOf(&["unknown"]), "digits of printed numbers";
+}
