@@ -42,8 +42,9 @@ impl Motion {
     pub fn give(&self, state: &mut State) {
         if self.callers {
             state.motion.join(&self.codes);
-            // A cycle that the program does not touch goes on.
-            if self.after_cycle || self.cycle.is_any() || self.cycle.list() != [0] {
+            // A cycle goes on if the program touches neither it nor the motion mode, which would end it.
+            let sets_motion = self.codes.is_any() || !self.codes.list().is_empty();
+            if sets_motion || self.after_cycle || self.cycle.is_any() || self.cycle.list() != [0] {
                 state.cycle.join(&self.cycle);
             }
             state.motion_called |= self.unknown;
