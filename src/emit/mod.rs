@@ -7,8 +7,10 @@
 //! and never printed as it came: nothing here takes text of the source but
 //! comments and messages.
 //!
-//! Each dialect has one submodule; what a family of them shares is a module as well: [`macro_b`].
+//! Each dialect has one submodule; what a family of them shares is a module as well: [`macro_b`], and so is what all targets
+//! share: `common`.
 
+mod common;
 pub mod fanuc;
 pub mod haas;
 pub mod macro_b;

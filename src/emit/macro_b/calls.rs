@@ -13,10 +13,10 @@ impl Emitter<'_> {
     /// Writes a call that happens once.
     pub(super) fn call_once(&mut self, call: &Call) {
         let op = match (&call.callee, call.level) {
-            (Callee::Block(_), false) if self.has_statement("call.local") => Op::CallLocal,
+            (Callee::Block(_), false) if self.out.has_statement("call.local") => Op::CallLocal,
             (Callee::Program(_) | Callee::Computed(_), false) => Op::CallProgram,
             (Callee::Program(_) | Callee::Computed(_), true) => Op::CallMacro,
-            _ => return self.unmapped("a call of that kind"),
+            _ => return self.out.unmapped("a call of that kind"),
         };
         self.call_by(op, call);
     }
@@ -25,32 +25,32 @@ impl Emitter<'_> {
     pub(super) fn call_by(&mut self, op: Op, call: &Call) {
         let spellings = self.spellings;
         let Some(code) = spellings.bare_code(op) else {
-            return self.unmapped(format_args!("the operation '{op}'"));
+            return self.out.unmapped(format_args!("the operation '{op}'"));
         };
-        self.word(&code.text);
+        self.out.word(&code.text);
         let codes = [code];
         let role = if op == Op::CallLocal { Role::Sequence } else { Role::Program };
         let Some(((letter, _), _)) = spellings.letter(role, &codes) else {
-            return self.unmapped(format_args!("what '{op}' calls"));
+            return self.out.unmapped(format_args!("what '{op}' calls"));
         };
-        self.space();
-        self.push(letter);
+        self.out.space();
+        self.out.push(letter);
         self.callee(&call.callee);
         if let Some(count) = &call.count {
             match spellings.letter(Role::CallCount, &codes) {
                 Some(((letter, _), _)) => {
-                    self.space();
-                    self.push(letter);
+                    self.out.space();
+                    self.out.push(letter);
                     self.word_value(Role::CallCount, count);
                 }
-                None => self.unmapped("how often a call is repeated"),
+                None => self.out.unmapped("how often a call is repeated"),
             }
         }
         if !call.arguments.is_empty() {
             if call.level {
                 self.arguments(&call.arguments);
             } else {
-                self.unmapped("arguments of a call that opens no level of locals");
+                self.out.unmapped("arguments of a call that opens no level of locals");
             }
         }
     }
@@ -59,13 +59,13 @@ impl Emitter<'_> {
         match callee {
             Callee::Program(name) => match self.names.program(name) {
                 Some(number) if (1..=self.control.text().program_max).contains(&number) => {
-                    self.integer(number);
+                    self.out.integer(number);
                 }
-                _ => self.unmapped(format_args!("the name of the program, {name}")),
+                _ => self.out.unmapped(format_args!("the name of the program, {name}")),
             },
             Callee::Block(entry) => self.sequence_of(*entry),
             Callee::Computed(value) => self.word_value(Role::Program, value),
-            Callee::Cycle(number) => self.unmapped(format_args!("cycle {number} of the maker")),
+            Callee::Cycle(number) => self.out.unmapped(format_args!("cycle {number} of the maker")),
         }
     }
 
@@ -77,7 +77,7 @@ impl Emitter<'_> {
             // it out cannot be told.
             if let Some(at) = last.iter().position(|other| other.local == argument.local) {
                 if !matches!(last[at].value, Expr::Number(_) | Expr::Var(_) | Expr::Vacant) {
-                    self.unmapped("two arguments for one local");
+                    self.out.unmapped("two arguments for one local");
                 }
                 last.remove(at);
             }
@@ -112,8 +112,8 @@ impl Emitter<'_> {
             arguments.iter().filter_map(|argument| Some((letter(argument.local)?, argument.local))).collect();
         if letters.len() < arguments.len() || !self.goes_by_place(&letters) {
             return match arguments.iter().find(|a| control.argument_letter(a.local).is_none()) {
-                Some(a) => self.unmapped(format_args!("an argument for #{} in this list", a.local)),
-                None => self.unmapped("these arguments in one list"),
+                Some(a) => self.out.unmapped(format_args!("an argument for #{} in this list", a.local)),
+                None => self.out.unmapped("these arguments in one list"),
             };
         }
         for ((letter, _), argument) in letters.iter().zip(arguments) {
@@ -143,17 +143,17 @@ impl Emitter<'_> {
     }
 
     fn argument(&mut self, letter: char, value: &Expr) {
-        self.space();
-        self.push(letter);
+        self.out.space();
+        self.out.push(letter);
         self.place = Place::Whole;
         match value {
-            Expr::Number(number) => self.number(*number, true),
+            Expr::Number(number) => self.out.number(*number, true),
             Expr::Increments(count) => self.bare_argument(letter, *count),
             Expr::Negate(inner) => match &**inner {
-                Expr::Number(number) => self.number(-number, true),
+                Expr::Number(number) => self.out.number(-number, true),
                 Expr::Increments(count) => self.bare_argument(letter, -count),
                 inner => {
-                    self.push('-');
+                    self.out.push('-');
                     self.behind_letter(inner);
                 }
             },
@@ -164,9 +164,9 @@ impl Emitter<'_> {
 
     fn bare_argument(&mut self, letter: char, count: f64) {
         if self.control.bare_argument(letter) == BareLength::Increments && count.fract() == 0.0 {
-            self.number(count, false);
+            self.out.number(count, false);
         } else {
-            self.unmapped(format_args!("a count of increments in the argument {letter}"));
+            self.out.unmapped(format_args!("a count of increments in the argument {letter}"));
         }
     }
 }

@@ -16,7 +16,7 @@ impl Emitter<'_> {
     /// and the opposite of two that both hold is that one of their opposites does.
     pub(super) fn condition(&mut self, condition: &Cond, negated: bool) {
         if self.nested >= 300 {
-            return self.unmapped("a condition of so many parts");
+            return self.out.unmapped("a condition of so many parts");
         }
         self.nested += 1;
         match condition {
@@ -24,18 +24,18 @@ impl Emitter<'_> {
                 let relation = if negated { relation.negated() } else { *relation };
                 let text = self.spellings.relation(relation).text;
                 if text.is_empty() {
-                    self.unmapped(format_args!("the comparison {relation:?}"));
+                    self.out.unmapped(format_args!("the comparison {relation:?}"));
                 }
                 self.compared(a, relation);
-                self.push(' ');
-                self.push_str(text);
-                self.push(' ');
+                self.out.push(' ');
+                self.out.push_str(text);
+                self.out.push(' ');
                 self.compared(b, relation);
             }
             Cond::Not(inner) => self.condition(inner, !negated),
             Cond::And(parts) => self.joined(parts, !negated, negated),
             Cond::Or(parts) => self.joined(parts, negated, negated),
-            Cond::Switch(_) => self.unmapped("the block-skip switch in a condition"),
+            Cond::Switch(_) => self.out.unmapped("the block-skip switch in a condition"),
         }
         self.nested -= 1;
     }
@@ -45,18 +45,18 @@ impl Emitter<'_> {
             return self.condition(only, negated);
         }
         if parts.is_empty() || !self.control.is(Question::ConditionAndOr) {
-            return self.unmapped("conditions joined by AND or OR");
+            return self.out.unmapped("conditions joined by AND or OR");
         }
         let (truth, bits) = if all { ("and", "and.bits") } else { ("or", "or.bits") };
         let control = self.control;
         let Some(row) = control.operator(truth).or_else(|| control.operator(bits)) else {
-            return self.unmapped(format_args!("the operator '{truth}' between conditions"));
+            return self.out.unmapped(format_args!("the operator '{truth}' between conditions"));
         };
         for (at, part) in parts.iter().enumerate() {
             if at > 0 {
-                self.push(' ');
-                self.push_str(&row.spelling);
-                self.push(' ');
+                self.out.push(' ');
+                self.out.push_str(&row.spelling);
+                self.out.push(' ');
             }
             self.bracketed_condition(part, negated);
         }

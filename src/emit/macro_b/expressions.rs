@@ -62,37 +62,37 @@ impl Emitter<'_> {
 
     /// Opens a bracket.
     pub(super) fn open(&mut self) {
-        self.push('[');
+        self.out.push('[');
         self.depth += 1;
         if let Some(most) = self.spellings.brackets
             && self.depth == most.saturating_add(1)
         {
-            self.refuse(Code::NestsTooDeep, format!("more than {most} brackets inside one another"));
+            self.out.refuse(Code::NestsTooDeep, format!("more than {most} brackets inside one another"));
         }
     }
 
     /// Closes a bracket.
     pub(super) fn close(&mut self) {
-        self.push(']');
+        self.out.push(']');
         self.depth = self.depth.saturating_sub(1);
     }
 
     fn expression(&mut self, value: &Expr, spot: Spot) {
         if self.nested >= DEEPEST {
-            return self.unmapped("an expression of so many operations");
+            return self.out.unmapped("an expression of so many operations");
         }
         self.nested += 1;
         match value {
             Expr::Number(number) if number.is_sign_negative() && !spot.sign => self.bracketed(value),
-            Expr::Number(number) => self.number(*number, false),
-            Expr::Increments(_) => self.unmapped("a count of increments in an expression"),
+            Expr::Number(number) => self.out.number(*number, false),
+            Expr::Increments(_) => self.out.unmapped("a count of increments in an expression"),
             Expr::Vacant => self.state(Sys::Empty, &[], false),
             Expr::Var(var) => self.variable(*var),
             Expr::Indirect(bank, number) => self.indirect(*bank, number),
             Expr::System(state, subscripts) => self.state(*state, subscripts, false),
             Expr::Negate(_) if !spot.sign => self.bracketed(value),
             Expr::Negate(inner) => {
-                self.push('-');
+                self.out.push('-');
                 self.signed(inner);
             }
             Expr::Binary(op, operands) => self.binary(*op, operands, spot),
@@ -102,7 +102,7 @@ impl Emitter<'_> {
                 self.condition(condition, false);
                 self.close();
             }
-            Expr::Truth(_) => self.unmapped("a comparison as a value"),
+            Expr::Truth(_) => self.out.unmapped("a comparison as a value"),
         }
         self.nested -= 1;
     }
@@ -129,7 +129,7 @@ impl Emitter<'_> {
     fn joined_by(&mut self, op: BinOp, a: &Expr, b: &Expr, spot: Spot) {
         let Operator { text, rank } = self.spellings.binary(op);
         if text.is_empty() {
-            return self.unmapped(format_args!("the operator {op:?}"));
+            return self.out.unmapped(format_args!("the operator {op:?}"));
         }
         let bracket = spot.rank > rank;
         if bracket {
@@ -140,11 +140,11 @@ impl Emitter<'_> {
         let sign = (spot.sign || bracket) && matches!(op, BinOp::Add | BinOp::Sub);
         self.operand(a, op, Spot { rank: left, sign });
         if text.bytes().all(|byte| byte.is_ascii_alphabetic()) {
-            self.push(' ');
-            self.push_str(text);
-            self.push(' ');
+            self.out.push(' ');
+            self.out.push_str(text);
+            self.out.push(' ');
         } else {
-            self.push_str(text);
+            self.out.push_str(text);
         }
         self.operand(b, op, Spot { rank: right, sign: false });
         if bracket {
@@ -185,7 +185,7 @@ impl Emitter<'_> {
         let row = self.spellings.function(listed, arguments.len()).filter(|_| !misread);
         let Some(row) = row else {
             let n = arguments.len();
-            return self.unmapped(format_args!("the function '{function}' of {n} operands here"));
+            return self.out.unmapped(format_args!("the function '{function}' of {n} operands here"));
         };
         match arguments {
             [a, b] if row.form.as_deref() == Some("slash") => {
@@ -193,20 +193,20 @@ impl Emitter<'_> {
                 if bracket {
                     self.open();
                 }
-                self.push_str(&row.spelling);
+                self.out.push_str(&row.spelling);
                 self.bracketed(a);
-                self.push('/');
+                self.out.push('/');
                 self.bracketed(b);
                 if bracket {
                     self.close();
                 }
             }
             _ => {
-                self.push_str(&row.spelling);
+                self.out.push_str(&row.spelling);
                 self.open();
                 for (at, argument) in arguments.iter().enumerate() {
                     if at > 0 {
-                        self.push(',');
+                        self.out.push(',');
                     }
                     self.value(argument);
                 }
@@ -219,11 +219,11 @@ impl Emitter<'_> {
     pub(super) fn variable(&mut self, var: Var) {
         match self.register(var) {
             Some(number) => {
-                self.push('#');
-                self.integer(number);
+                self.out.push('#');
+                self.out.integer(number);
             }
             None => {
-                self.unmapped(format_args!(
+                self.out.unmapped(format_args!(
                     "the variable {:?} {}: it has no register",
                     var.class, var.number
                 ));
@@ -243,9 +243,9 @@ impl Emitter<'_> {
     /// Writes the variable with a computed number.
     pub(super) fn indirect(&mut self, bank: Bank, number: &Expr) {
         if bank != Bank::Numbered {
-            return self.unmapped("a computed variable of another control's numbering");
+            return self.out.unmapped("a computed variable of another control's numbering");
         }
-        self.push('#');
+        self.out.push('#');
         self.bracketed(number);
     }
 }

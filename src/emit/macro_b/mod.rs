@@ -1,6 +1,6 @@
 //! The text of the Macro B family: what Fanuc and Haas write alike.
 //!
-//! The program is laid out in source order by a `flow::Plan`, which decides
+//! The program is laid out in source order by a `common::flow::Plan`, which decides
 //! for each block how its end is written: as nothing, GOTO, IF, or a loop. The
 //! plan says which blocks need a sequence number, `labels` gives them, and one walk over
 //! the blocks writes the lines. Nothing is looked up twice: the spellings of
@@ -9,14 +9,7 @@
 mod calls;
 mod conditions;
 mod expressions;
-mod flow;
-mod labels;
-mod line;
-mod loops;
-mod numbers;
 mod program;
-mod reach;
-mod remarks;
 mod spellings;
 mod statements;
 mod system;
@@ -25,16 +18,15 @@ mod taken;
 mod tests;
 mod words;
 
-use super::{Emitted, Naming, Writer};
-use crate::diag::{Code, Diagnostic};
+use super::{Naming, Writer};
 use crate::dialect::Control;
-use crate::ir::Program;
-use crate::text::Span;
-use labels::Labels;
-use line::Line;
+use crate::emit::common::lines::Kind;
+use crate::emit::common::sheet::{Forms, Sheet};
+use crate::ir::{Program, Site};
 use spellings::Spellings;
-use std::string::FromUtf8Error;
-use std::sync::Arc;
+
+/// `O0001`, `N10`.
+const FORMS: Forms = Forms { sequence: 'N', program: 'O', program_digits: 4 };
 
 /// What tells the dialects of the family apart beyond their tables.
 #[derive(Clone, Copy, Debug)]
@@ -53,23 +45,14 @@ pub fn emit<'a>(names: &'a Naming, control: &'a Control, style: &'static Style) 
             control,
             style,
             spellings: &spellings,
-            labels: Labels::default(),
-            text: Vec::new(),
-            emitted: Emitted::default(),
-            faults: Vec::new(),
-            span: Span::default(),
-            line: Line::default(),
+            out: Sheet::new(control, FORMS),
             depth: 0,
             holds_back: false,
             nested: 0,
             place: expressions::Place::Statement,
         };
         emitter.program();
-        let Emitter { text, emitted, faults, .. } = emitter;
-        // It is ASCII; were it not, nothing would be lost.
-        let lossy = |fault: FromUtf8Error| String::from_utf8_lossy(fault.as_bytes()).into_owned();
-        let text = String::from_utf8(text).unwrap_or_else(lossy);
-        if faults.is_empty() { Ok(Emitted { text, ..emitted }) } else { Err(faults) }
+        emitter.out.end()
     })
 }
 
@@ -80,15 +63,7 @@ struct Emitter<'p> {
     control: &'p Control,
     style: &'p Style,
     spellings: &'p Spellings<'p>,
-    labels: Labels,
-    /// What is written so far. Bytes, because most of them are written one by one.
-    text: Vec<u8>,
-    /// Everything else about it.
-    emitted: Emitted,
-    faults: Vec<Diagnostic>,
-    /// Where the statement that is being written comes from.
-    span: Span,
-    line: Line<'p>,
+    out: Sheet<'p>,
     /// Brackets that are open.
     depth: u32,
     /// True behind a limit on reading ahead: empty blocks there have their use.
@@ -98,40 +73,15 @@ struct Emitter<'p> {
     place: expressions::Place,
 }
 
-impl Emitter<'_> {
-    /// Notes that the program cannot be written.
-    fn refuse(&mut self, code: Code, message: impl Into<Arc<str>>) {
-        self.faults.push(Diagnostic::new(code, self.span, message));
-    }
-
-    /// Notes what a person must look at.
-    fn review(&mut self, code: Code, message: String) {
-        self.emitted.findings.push(Diagnostic::new(code, self.span, message));
-    }
-
-    /// Notes that the target's table lacks something.
-    fn unmapped(&mut self, what: impl std::fmt::Display) {
-        let message = format!("{} has no way to write {what}", self.control.dialect().title);
-        self.refuse(Code::Unmapped, message);
-    }
-
-    /// Notes it where the control lacks a statement; true where it has it.
-    fn has_statement(&mut self, name: &str) -> bool {
-        let known = self.control.statement(name).is_some();
-        if !known {
-            self.unmapped(format_args!("the statement '{name}'"));
+impl<'p> Emitter<'p> {
+    /// Starts a line; `message` is the text that its statement shows, if it shows any.
+    fn begin(&mut self, site: &'p Site, kind: Kind, message: Option<&str>) {
+        self.out.begin(site, kind, message);
+        if let Some(condition) = self.out.line.condition.take() {
+            self.out.space();
+            self.out.push_str("IF ");
+            self.bracketed_condition(condition, false);
+            self.out.push_str(" THEN");
         }
-        known
-    }
-
-    fn push(&mut self, c: char) {
-        match u8::try_from(c) {
-            Ok(byte) if byte.is_ascii() => self.text.push(byte),
-            _ => self.push_str(c.encode_utf8(&mut [0; 4])),
-        }
-    }
-
-    fn push_str(&mut self, text: &str) {
-        self.text.extend_from_slice(text.as_bytes());
     }
 }

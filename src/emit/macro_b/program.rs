@@ -1,12 +1,13 @@
 //! A program from its name to its end.
 
 use super::Emitter;
-use super::flow::{Abilities, Arrivals, Form, Plan};
-use super::labels::{self, Labels, Standing};
-use super::line::Kind;
-use super::reach::Reach;
 use crate::diag::Code;
 use crate::dialect::Question;
+use crate::emit::common::arrivals::{Arrivals, callees};
+use crate::emit::common::flow::{Abilities, Form, Plan};
+use crate::emit::common::labels::{self, Labels, Standing};
+use crate::emit::common::lines::Kind;
+use crate::emit::common::reach::Reach;
 use crate::ir::{Block, BlockId, Cond, Site, TermKind};
 use crate::syntax::Label;
 
@@ -17,9 +18,9 @@ impl<'p> Emitter<'p> {
     /// Writes the program.
     pub(super) fn program(&mut self) {
         let program = self.program;
-        self.span = program.site.span;
+        self.out.span = program.site.span;
         if !self.is_closed() {
-            return self.unmapped("a jump to a block that does not exist");
+            return self.out.unmapped("a jump to a block that does not exist");
         }
         let names = self.names;
         let kept = |number| names.is_returned_to(number);
@@ -38,29 +39,29 @@ impl<'p> Emitter<'p> {
             made = lay_out(true);
         }
         let (plan, labels, faults) = made;
-        self.emitted.invents = labels.invents();
-        self.labels = labels;
+        self.out.emitted.invents = labels.invents();
+        self.out.labels = labels;
         let count = program.blocks.iter().map(|block| block.stmts.len() + 1).sum();
-        self.text.reserve(count * USUAL_LINE);
-        self.emitted.blocks.reserve(count);
+        self.out.text.reserve(count * USUAL_LINE);
+        self.out.emitted.blocks.reserve(count);
         for fault in faults {
-            self.refuse(Code::NoSequenceNumber, fault);
+            self.out.refuse(Code::NoSequenceNumber, fault);
         }
         self.header();
         self.taken_registers();
         for (at, (block, form)) in program.blocks.iter().zip(&plan.forms).enumerate() {
             self.block(at, block, *form);
         }
-        self.flush_label();
-        if let Some(end) = self.labels.number(program.blocks.len()) {
-            self.label_line(end, None);
+        self.out.flush_label();
+        if let Some(end) = self.out.labels.number(program.blocks.len()) {
+            self.out.label_line(end, None);
         }
     }
 
     fn is_closed(&self) -> bool {
         let count = self.program.blocks.len();
         self.program.blocks.iter().all(|block| {
-            let mut all = block.term.kind.successors().into_iter().chain(super::flow::callees(block));
+            let mut all = block.term.kind.successors().into_iter().chain(callees(block));
             all.all(|to| to.index() < count)
         })
     }
@@ -81,19 +82,19 @@ impl<'p> Emitter<'p> {
     fn header(&mut self) {
         let site = &self.program.site;
         let Some(name) = &self.program.name else {
-            site.remarks.iter().for_each(|remark| self.remark_lines(&remark.text));
+            site.remarks.iter().for_each(|remark| self.out.remark_lines(&remark.text));
             return;
         };
         let most = self.control.text().program_max;
         let Some(number) = self.names.program(name).filter(|number| (1..=most).contains(number)) else {
-            return self.unmapped(format_args!("the name of the program, {name}"));
+            return self.out.unmapped(format_args!("the name of the program, {name}"));
         };
-        self.program_line(site, number);
+        self.out.program_line(site, number);
     }
 
     fn block(&mut self, at: usize, block: &'p Block, form: Form) {
         self.label(at, block, form);
-        self.line.block = at;
+        self.out.line.block = at;
         let joined = self.is_joined(block);
         let (alone, last) = match block.stmts.split_last() {
             Some((last, rest)) if joined => (rest, Some(last)),
@@ -104,7 +105,7 @@ impl<'p> Emitter<'p> {
         }
         if let Some(stmt) = last {
             self.begin(&stmt.site, Kind::Words, None);
-            self.carry(&block.term.site);
+            self.out.carry(&block.term.site);
             self.words_of(stmt);
         }
         self.end(block, form, joined);
@@ -114,12 +115,12 @@ impl<'p> Emitter<'p> {
     /// The label of an empty block before stays for this line too, but not before a loop: a jump from
     /// inside the loop to its WHILE would enter it once more.
     fn label(&mut self, at: usize, block: &'p Block, form: Form) {
-        let chosen = self.labels.number(at);
+        let chosen = self.out.labels.number(at);
         let mut own = chosen;
         let mut others = Vec::new();
         for number in labels::numbers(block).filter(|number| Some(*number) != chosen) {
             let stands = || block.stmts.iter().map(|s| &s.site).chain([&block.term.site]);
-            let written = match self.labels.standing(number, at) {
+            let written = match self.out.labels.standing(number, at) {
                 Standing::Label => true,
                 Standing::Free => stands().all(|site| site.sequence != Some(number)),
                 Standing::Barred => false,
@@ -130,18 +131,18 @@ impl<'p> Emitter<'p> {
                 None => own = Some(number),
             }
         }
-        let jumped_to = self.line.label.is_some_and(|label| self.labels.is_claimed(label));
+        let jumped_to = self.out.line.label.is_some_and(|label| self.out.labels.is_claimed(label));
         let loops = matches!(form, Form::While { .. }) && jumped_to;
-        if own.is_some_and(|own| Some(own) != self.line.label) || loops {
-            self.flush_label();
+        if own.is_some_and(|own| Some(own) != self.out.line.label) || loops {
+            self.out.flush_label();
         }
         for number in others {
-            self.flush_label();
-            self.label_line(number, None);
+            self.out.flush_label();
+            self.out.label_line(number, None);
         }
         if own.is_some() {
-            self.line.label = own;
-            self.line.name = block.labels.iter().find_map(|label| match label {
+            self.out.line.label = own;
+            self.out.line.name = block.labels.iter().find_map(|label| match label {
                 Label::Name(name) if chosen.is_some() => Some(name.as_str()),
                 _ => None,
             });
@@ -161,19 +162,19 @@ impl<'p> Emitter<'p> {
                 self.begin(site, Kind::Macro, None);
                 self.test("IF", "if.goto", condition, negated);
                 self.jump(to);
-                self.finish();
+                self.out.finish();
                 otherwise.into_iter().for_each(|to| self.goto(site, to));
             }
             Form::Then => {
-                self.carry(site);
-                self.line.condition = condition;
+                self.out.carry(site);
+                self.out.line.condition = condition;
             }
             Form::Skip(level) => {
-                self.carry(site);
-                self.line.skip = Some(level);
+                self.out.carry(site);
+                self.out.line.skip = Some(level);
             }
             Form::SkipGoto { level, to, otherwise } => {
-                self.line.skip = Some(level);
+                self.out.line.skip = Some(level);
                 self.goto(site, to);
                 otherwise.into_iter().for_each(|to| self.goto(site, to));
             }
@@ -181,12 +182,12 @@ impl<'p> Emitter<'p> {
                 self.begin(site, Kind::Macro, None);
                 self.test("WHILE", "while", condition, negated);
                 self.numbered("DO", number);
-                self.finish();
+                self.out.finish();
             }
             Form::EndDo(number) => {
                 self.begin(site, Kind::Macro, None);
                 self.numbered("END", number);
-                self.finish();
+                self.out.finish();
             }
             Form::Own(then) => {
                 self.leave(block, joined);
@@ -197,48 +198,48 @@ impl<'p> Emitter<'p> {
 
     /// Writes what stood beside an end that is not written itself.
     fn bare(&mut self, site: &'p Site) {
-        self.carry(site);
-        if self.has_carried() {
+        self.out.carry(site);
+        if self.out.has_carried() {
             self.begin(site, Kind::Words, None);
-            self.finish();
+            self.out.finish();
         }
     }
 
     fn test(&mut self, word: &str, statement: &str, condition: Option<&Cond>, negated: bool) {
-        if self.has_statement(statement)
+        if self.out.has_statement(statement)
             && let Some(condition) = condition
         {
-            self.word(word);
-            self.push(' ');
+            self.out.word(word);
+            self.out.push(' ');
             self.bracketed_condition(condition, negated);
         }
     }
 
     fn numbered(&mut self, word: &str, number: u32) {
-        self.word(word);
-        self.integer(number);
+        self.out.word(word);
+        self.out.integer(number);
     }
 
     /// Writes a jump on a line of its own.
     fn goto(&mut self, site: &'p Site, to: BlockId) {
         self.begin(site, Kind::Macro, None);
         self.jump(to);
-        self.finish();
+        self.out.finish();
     }
 
     fn jump(&mut self, to: BlockId) {
-        if self.has_statement("goto") {
-            self.word("GOTO ");
+        if self.out.has_statement("goto") {
+            self.out.word("GOTO ");
             self.sequence_of(to);
         }
     }
 
     /// Writes the number that a block is found by.
     pub(super) fn sequence_of(&mut self, block: BlockId) {
-        match self.labels.number(block.index()) {
-            Some(number) => self.integer(number),
+        match self.out.labels.number(block.index()) {
+            Some(number) => self.out.integer(number),
             // Told when the numbers were given out.
-            None => debug_assert!(!self.faults.is_empty(), "a target without a number"),
+            None => debug_assert!(!self.out.faults.is_empty(), "a target without a number"),
         }
     }
 }

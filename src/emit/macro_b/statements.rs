@@ -1,12 +1,12 @@
 //! Statements, and the ends of blocks that are no jumps.
 
 use super::Emitter;
-use super::line::Kind;
-use super::reach::is_steady;
-use super::remarks::{is_writable, write_remark};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::Code;
 use crate::dialect::Question;
+use crate::emit::common::lines::Kind;
+use crate::emit::common::reach::is_steady;
+use crate::emit::common::remarks::{is_writable, write_remark};
 use crate::ir::{
     Block, Cond, Expr, Nc, NcItem, OutputPart, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
 };
@@ -24,12 +24,12 @@ impl<'p> Emitter<'p> {
             StmtKind::Nc(_) => {
                 self.begin(&stmt.site, Kind::Words, None);
                 self.words_of(stmt);
-                self.finish();
+                self.out.finish();
             }
             StmtKind::Assign { target, value } => {
                 self.begin(&stmt.site, Kind::Macro, None);
                 self.assign(target, value);
-                self.finish();
+                self.out.finish();
             }
             StmtKind::Alarm { number, text } => self.message(&stmt.site, Sys::Alarm, number, text),
             StmtKind::StopMessage { number, text } => {
@@ -39,7 +39,7 @@ impl<'p> Emitter<'p> {
                 let alone = matches!(kind, StmtKind::Output(_) | StmtKind::SetNames { .. });
                 self.begin(&stmt.site, if alone { Kind::Alone } else { Kind::Words }, None);
                 self.special(kind);
-                self.finish();
+                self.out.finish();
                 self.holds_back = matches!(kind, StmtKind::LimitLookahead(_));
             }
         }
@@ -50,16 +50,16 @@ impl<'p> Emitter<'p> {
             StmtKind::ModalCall(call) => self.call_by(Op::CallModal, call),
             StmtKind::ModalCallOff => self.code(Op::CallModalOff),
             StmtKind::Output(parts) => self.output(parts),
-            StmtKind::OpenPort if self.has_statement("output.open") => self.word("POPEN"),
-            StmtKind::ClosePort if self.has_statement("output.close") => self.word("PCLOS"),
+            StmtKind::OpenPort if self.out.has_statement("output.open") => self.out.word("POPEN"),
+            StmtKind::ClosePort if self.out.has_statement("output.close") => self.out.word("PCLOS"),
             StmtKind::LimitLookahead(count) => self.words(&Nc {
                 items: vec![NcItem::Op(Op::LimitLookahead), NcItem::Word(Role::Lookahead, count.clone())],
             }),
             StmtKind::SetNames { first, names } => self.set_names(*first, names),
-            StmtKind::Print { .. } => self.unmapped("output without a number format"),
-            StmtKind::Input { .. } => self.unmapped("a question to the operator"),
-            StmtKind::ClearAll(_) => self.unmapped("the clearing of all variables"),
-            StmtKind::Sync => self.unmapped("a wait for the moves ahead"),
+            StmtKind::Print { .. } => self.out.unmapped("output without a number format"),
+            StmtKind::Input { .. } => self.out.unmapped("a question to the operator"),
+            StmtKind::ClearAll(_) => self.out.unmapped("the clearing of all variables"),
+            StmtKind::Sync => self.out.unmapped("a wait for the moves ahead"),
             _ => {}
         }
     }
@@ -67,15 +67,15 @@ impl<'p> Emitter<'p> {
     /// Writes a comment, or an empty block: one for a block of the source, and all that hold back a control that
     /// reads ahead.
     fn remark(&mut self, site: &'p Site, held: bool) {
-        let repeated = self.is_last_span(site.span);
-        self.carry(site);
-        if self.is_waiting() {
+        let repeated = self.out.is_last_span(site.span);
+        self.out.carry(site);
+        if self.out.is_waiting() {
             self.begin(site, Kind::Words, None);
-            self.finish();
+            self.out.finish();
         } else if (held || !repeated) && !site.span.is_empty() {
             self.begin(site, Kind::Words, None);
-            self.word(";");
-            self.finish();
+            self.out.word(";");
+            self.out.finish();
         }
     }
 
@@ -87,13 +87,13 @@ impl<'p> Emitter<'p> {
     }
 
     fn assign(&mut self, target: &Place, value: &Expr) {
-        self.space();
+        self.out.space();
         match target {
             Place::Var(var) => self.variable(*var),
             Place::Indirect(bank, number) => self.indirect(*bank, number),
             Place::System(state, subscripts) => self.state(*state, subscripts, true),
         }
-        self.push('=');
+        self.out.push('=');
         self.value(value);
     }
 
@@ -107,90 +107,92 @@ impl<'p> Emitter<'p> {
             .limit(if state == Sys::Alarm { "message.alarm" } else { "message" })
             .map_or(usize::MAX, |most| most as usize);
         if !text.is_empty() {
-            self.push(' ');
-            write_remark(&mut self.text, text);
+            self.out.push(' ');
+            write_remark(&mut self.out.text, text);
         }
         if !is_writable(text) || text.len() > most {
             let message = format!("the message '{text}' cannot be shown as it is, or not all of it");
-            self.review(Code::MessageAltered, message);
+            self.out.review(Code::MessageAltered, message);
         }
-        self.finish();
+        self.out.finish();
     }
 
     /// `DPRNT[X#1[53]*TEXT]`.
     fn output(&mut self, parts: &[OutputPart]) {
-        if !self.has_statement("output.formatted") {
+        if !self.out.has_statement("output.formatted") {
             return;
         }
-        self.word("DPRNT[");
+        self.out.word("DPRNT[");
         for part in parts {
             match part {
                 OutputPart::Text(text) => self.output_text(text),
                 OutputPart::Value { value, whole, fraction } => {
                     match value {
                         Expr::Var(_) | Expr::System(..) => self.value(value),
-                        _ => self.unmapped("the output of anything but a variable"),
+                        _ => self.out.unmapped("the output of anything but a variable"),
                     }
                     // One digit each, eight in all, and not none.
                     if *whole > 8 || *fraction > 8 || !(1..=8).contains(&(whole + fraction)) {
-                        self.unmapped(format_args!("{whole} and {fraction} digits of output"));
+                        self.out.unmapped(format_args!("{whole} and {fraction} digits of output"));
                     }
-                    self.push('[');
-                    self.integer(*whole);
-                    self.integer(*fraction);
-                    self.push(']');
+                    self.out.push('[');
+                    self.out.integer(*whole);
+                    self.out.integer(*fraction);
+                    self.out.push(']');
                 }
             }
         }
-        self.push(']');
+        self.out.push(']');
     }
 
     fn output_text(&mut self, text: &str) {
         for c in text.chars() {
             match c {
-                ' ' => self.push('*'),
-                'A'..='Z' | 'a'..='z' | '0'..='9' | '+' | '-' | '/' | '.' | ',' | ':' | '=' => self.push(c),
-                _ => return self.refuse(Code::TextUnwritable, format!("the output of '{c}'")),
+                ' ' => self.out.push('*'),
+                'A'..='Z' | 'a'..='z' | '0'..='9' | '+' | '-' | '/' | '.' | ',' | ':' | '=' => {
+                    self.out.push(c)
+                }
+                _ => return self.out.refuse(Code::TextUnwritable, format!("the output of '{c}'")),
             }
         }
     }
 
     /// `SETVN 500[NAME,NAME]`.
     fn set_names(&mut self, first: Var, names: &[String]) {
-        if !self.has_statement("setvn") {
+        if !self.out.has_statement("setvn") {
             return;
         }
         let Some(number) = self.register(first) else {
-            return self.unmapped("the names of variables without a register");
+            return self.out.unmapped("the names of variables without a register");
         };
         for (offset, name) in (0..).zip(names) {
             let var = Var { class: first.class, number: first.number.saturating_add(offset) };
             if self.register(var) != number.checked_add(offset) {
-                return self.unmapped("names for variables that are not neighbours here");
+                return self.out.unmapped("names for variables that are not neighbours here");
             }
             let letters = name.bytes().all(|b| b.is_ascii_graphic() && !b"()[]:,;%".contains(&b));
             if !letters || name.len() > 8 || !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-                return self.refuse(Code::TextUnwritable, format!("the variable name '{name}'"));
+                return self.out.refuse(Code::TextUnwritable, format!("the variable name '{name}'"));
             }
         }
-        self.word("SETVN ");
-        self.integer(number);
-        self.push('[');
+        self.out.word("SETVN ");
+        self.out.integer(number);
+        self.out.push('[');
         for (at, name) in names.iter().enumerate() {
             if at > 0 {
-                self.push(',');
+                self.out.push(',');
             }
-            self.push_str(name);
+            self.out.push_str(name);
         }
-        self.push(']');
+        self.out.push(']');
     }
 
     /// Writes the code of an operation that has no words.
     fn code(&mut self, op: Op) {
         let spellings = self.spellings;
         match spellings.bare_code(op) {
-            Some(code) => self.word(&code.text),
-            None => self.unmapped(format_args!("the operation '{op}'")),
+            Some(code) => self.out.word(&code.text),
+            None => self.out.unmapped(format_args!("the operation '{op}'")),
         }
     }
 
@@ -231,7 +233,7 @@ impl<'p> Emitter<'p> {
     /// Writes the end of a block that leaves it.
     pub(super) fn leave(&mut self, block: &'p Block, joined: bool) {
         match &block.term.kind {
-            TermKind::Computed { value, .. } => self.guard(&block.term.site, value, self.labels.guard()),
+            TermKind::Computed { value, .. } => self.guard(&block.term.site, value, self.out.labels.guard()),
             TermKind::Return { to: Some(to) } if to.constant().is_none() => {
                 self.guard(&block.term.site, to, self.names.guard());
             }
@@ -244,36 +246,36 @@ impl<'p> Emitter<'p> {
             TermKind::Call { call, .. } => self.call_once(call),
             TermKind::Return { to } => self.return_to(to.as_ref()),
             TermKind::End { rewind } => self.code(end_op(*rewind)),
-            TermKind::Chain(_) => self.unmapped("the start of another program"),
-            TermKind::Computed { value, .. } if self.has_statement("goto.computed") => {
-                self.word("GOTO ");
+            TermKind::Chain(_) => self.out.unmapped("the start of another program"),
+            TermKind::Computed { value, .. } if self.out.has_statement("goto.computed") => {
+                self.out.word("GOTO ");
                 match value {
-                    Expr::Number(number) => self.number(*number, false),
+                    Expr::Number(number) => self.out.number(*number, false),
                     value => self.behind_letter(value),
                 }
             }
             TermKind::Computed { .. } | TermKind::Jump(_) | TermKind::Branch { .. } | TermKind::Stray => {}
         }
-        self.finish();
+        self.out.finish();
     }
 
     /// Stops before a jump to a number that the source has no block of: `IF [#1 GT 8999] THEN #3000=1 (..)`.
     fn guard(&mut self, site: &'p Site, value: &Expr, floor: Option<u32>) {
         let Some(floor) = floor else { return };
-        if !is_steady(value) || !self.has_statement("if.then") {
+        if !is_steady(value) || !self.out.has_statement("if.then") {
             let what =
                 "a computed jump may look for any number, and this program needs one that it must not find";
-            return self.refuse(Code::NoSequenceNumber, what);
+            return self.out.refuse(Code::NoSequenceNumber, what);
         }
         self.begin(site, Kind::Macro, None);
         let last = Expr::Number(f64::from(floor.saturating_sub(1)));
         let condition = Cond::Compare(Relation::Greater, value.clone(), last);
-        self.word("IF ");
+        self.out.word("IF ");
         self.bracketed_condition(&condition, false);
-        self.push_str(" THEN");
+        self.out.push_str(" THEN");
         self.assign(&Place::System(Sys::Alarm, ThinVec::new()), &Expr::Number(1.0));
-        self.push_str(" (NO SUCH BLOCK)");
-        self.finish();
+        self.out.push_str(" (NO SUCH BLOCK)");
+        self.out.finish();
     }
 
     /// True where M99 P goes to a block of the caller; elsewhere it jumps in the program that runs.
@@ -290,11 +292,11 @@ impl<'p> Emitter<'p> {
         let letter = spellings.letter(Role::Sequence, code.as_slice());
         match letter {
             Some(((letter, _), _)) if self.returns_to_caller() => {
-                self.space();
-                self.push(letter);
+                self.out.space();
+                self.out.push(letter);
                 self.word_value(Role::Sequence, to);
             }
-            _ => self.unmapped("a return to a sequence number of the caller"),
+            _ => self.out.unmapped("a return to a sequence number of the caller"),
         }
     }
 }

@@ -21,12 +21,12 @@ impl Emitter<'_> {
         let number = rows.filter_map(|row| row.number_of(subscripts)?).next();
         match number {
             Some(number) => {
-                self.push('#');
-                self.integer(number);
+                self.out.push('#');
+                self.out.integer(number);
             }
             None => {
                 let verb = if written { "written" } else { "read" };
-                self.unmapped(format_args!("the state '{state}' {subscripts:?} where it is {verb}"));
+                self.out.unmapped(format_args!("the state '{state}' {subscripts:?} where it is {verb}"));
             }
         }
     }
@@ -37,7 +37,7 @@ impl Emitter<'_> {
         let control = self.control;
         let fitting = control.system_runs(state).filter(|row| row.name == "#" && allows(row, written));
         let Some((base, terms)) = fitting.filter_map(|row| terms(row, subscripts)).next() else {
-            return self.unmapped(format_args!("the state '{state}' with computed subscripts"));
+            return self.out.unmapped(format_args!("the state '{state}' with computed subscripts"));
         };
         let mut sum: Option<Expr> = (base != 0).then_some(Expr::Number(base as f64));
         for (step, subscript) in terms {
@@ -50,7 +50,7 @@ impl Emitter<'_> {
                 None => term,
             });
         }
-        self.push('#');
+        self.out.push('#');
         self.bracketed(&sum.unwrap_or(Expr::Number(0.0)));
     }
 }

@@ -45,7 +45,7 @@ impl<'p> Emitter<'p> {
             match item {
                 NcItem::Op(_) => {
                     if let Some(Some(code)) = codes.next() {
-                        self.word(&code.text);
+                        self.out.word(&code.text);
                     }
                 }
                 NcItem::Word(role, value) => self.role_word(*role, value, &known, &mut used),
@@ -77,7 +77,7 @@ impl<'p> Emitter<'p> {
             let Some(head) = code.row.head() else { continue };
             let read = self.control.code(head.letter, head.number(), &written);
             if read.is_none_or(|read| read.op != code.row.op) {
-                self.unmapped(format_args!(
+                self.out.unmapped(format_args!(
                     "{} beside these words, which make another code of it",
                     code.text
                 ));
@@ -87,17 +87,17 @@ impl<'p> Emitter<'p> {
 
     /// Writes a code by its number, which the control must have where it is constant.
     fn computed_code(&mut self, letter: char, value: &Expr) {
-        self.space();
-        self.push(letter);
+        self.out.space();
+        self.out.push(letter);
         match value.constant() {
             Some(number) => {
                 let head = CodeHead::new(letter, number);
                 let known =
                     self.control.dialect().codes.iter().any(|row| head.is_some() && row.head() == head);
                 if !known && self.control.site_code(letter, number).is_none() {
-                    self.unmapped(format_args!("the code {letter}{number}"));
+                    self.out.unmapped(format_args!("the code {letter}{number}"));
                 }
-                self.number(number, false);
+                self.out.number(number, false);
             }
             None => self.word_value(Role::Tool, value),
         }
@@ -117,7 +117,7 @@ impl<'p> Emitter<'p> {
             });
             let by_word = || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some());
             if op.is_flow() || (code.is_none() && !by_word()) {
-                self.unmapped(format_args!("the operation '{op}' with these words"));
+                self.out.unmapped(format_args!("the operation '{op}' with these words"));
             }
             codes.push(code);
         }
@@ -128,7 +128,7 @@ impl<'p> Emitter<'p> {
         let most = self.spellings.m_codes;
         let computed = nc.items.iter().filter(|item| matches!(item, NcItem::Code('M', _))).count();
         if codes.iter().filter(|code| code.is_m()).count() + computed > most {
-            self.unmapped(format_args!("more than {most} M codes in one block"));
+            self.out.unmapped(format_args!("more than {most} M codes in one block"));
         }
     }
 
@@ -140,29 +140,29 @@ impl<'p> Emitter<'p> {
         }
         let spellings = self.spellings;
         let Some((letter, code)) = spellings.letter(role, codes) else {
-            return self.unmapped(format_args!(
+            return self.out.unmapped(format_args!(
                 "the word '{role}' ({}) here: no letter has that role",
                 meaning(role)
             ));
         };
         let misread = codes.iter().any(|c| c.words.iter().any(|(l, r)| *l == letter && *r != role));
         if misread || used.twice(letter) {
-            return self.unmapped(format_args!(
+            return self.out.unmapped(format_args!(
                 "the word '{role}' ({}) here: {} means something else",
                 meaning(role),
                 letter.0
             ));
         }
-        self.space();
+        self.out.space();
         if letter.1 {
-            self.push(',');
+            self.out.push(',');
         }
-        self.push(letter.0);
+        self.out.push(letter.0);
         if spellings.is_literal_only(role)
             && value.constant().is_none()
             && !matches!(value, Expr::Increments(_))
         {
-            return self.unmapped(format_args!("a computed value behind {}", letter.0));
+            return self.out.unmapped(format_args!("a computed value behind {}", letter.0));
         }
         if spellings.is_shifted(role, code) {
             return self.shifted(role, value, code);
@@ -178,10 +178,10 @@ impl<'p> Emitter<'p> {
         match value.constant() {
             Some(number) => match self.control.written(row, role, number) {
                 Some(written) => self.literal(role, written),
-                None => self.unmapped(format_args!("{number} as the word '{role}'")),
+                None => self.out.unmapped(format_args!("{number} as the word '{role}'")),
             },
             None if code.is_some_and(|code| code.adds(role, add)) => self.word_value(role, base),
-            None => self.unmapped(format_args!("a computed value of the word '{role}'")),
+            None => self.out.unmapped(format_args!("a computed value of the word '{role}'")),
         }
     }
 
@@ -195,7 +195,7 @@ impl<'p> Emitter<'p> {
                 Expr::Number(number) => self.literal(role, -number),
                 Expr::Increments(count) => self.increments(role, -count),
                 inner => {
-                    self.push('-');
+                    self.out.push('-');
                     self.behind_letter(inner);
                 }
             },
@@ -214,9 +214,9 @@ impl<'p> Emitter<'p> {
 
     fn literal(&mut self, role: Role, value: f64) {
         match role {
-            _ if has_point(role) => self.number(value, true),
-            Role::SpeedLimit | Role::Builder => self.number(value, false),
-            _ if value.fract() == 0.0 => self.number(value, false),
+            _ if has_point(role) => self.out.number(value, true),
+            Role::SpeedLimit | Role::Builder => self.out.number(value, false),
+            _ if value.fract() == 0.0 => self.out.number(value, false),
             // A constant with a point would be an alarm, one in brackets is rounded.
             _ if role.is_integer() && self.control.is(Question::IntegerWordRounds) => {
                 self.bracketed(&Expr::Number(value));
@@ -224,18 +224,18 @@ impl<'p> Emitter<'p> {
             Role::DwellMs | Role::CycleDwell
                 if self.control.behaviour(Question::DwellPoint).is_some_and(|b| b.value == "ms") =>
             {
-                self.number(value, true);
+                self.out.number(value, true);
             }
-            _ => self.unmapped(format_args!("a fraction in the word '{role}'")),
+            _ => self.out.unmapped(format_args!("a fraction in the word '{role}'")),
         }
     }
 
     fn increments(&mut self, role: Role, count: f64) {
         let bare = if role == Role::Feed { self.control.bare_feed() } else { self.control.bare_length() };
         if bare == BareLength::Increments && count.fract() == 0.0 && has_point(role) {
-            self.number(count, false);
+            self.out.number(count, false);
         } else {
-            self.unmapped(format_args!("a count of increments in the word '{role}'"));
+            self.out.unmapped(format_args!("a count of increments in the word '{role}'"));
         }
     }
 }

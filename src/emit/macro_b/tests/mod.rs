@@ -34,7 +34,7 @@ fn emit_with(
     names: &Naming,
 ) -> Result<Emitted, Vec<crate::diag::Diagnostic>> {
     let control = Control::plain(dialect).unwrap();
-    registry::find(dialect).unwrap().emit.unwrap()(names, &control)(Valid::of(program, 0).unwrap())
+    registry::find(dialect).unwrap().emit.unwrap()(names, &control)(Valid::unchecked(program))
 }
 
 /// The text of a program, which the target reads without error.

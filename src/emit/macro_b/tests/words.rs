@@ -108,7 +108,7 @@ fn increments_are_written_only_where_the_control_counts_so() {
     let control = Control::from_profile(calculator);
     let Ok(control) = control else { panic!("{control:?}") };
     let program = one([nc([word(Role::X, Expr::Increments(10.0))])]);
-    let faults = crate::emit::fanuc::emit(&names(), &control)(Valid::of(&program, 0).unwrap()).unwrap_err();
+    let faults = crate::emit::fanuc::emit(&names(), &control)(Valid::unchecked(&program)).unwrap_err();
     assert_eq!(faults[0].code, Code::Unmapped);
     // What F counts without a point no source says here.
     assert_eq!(refused("fanuc", &one([nc([word(Role::Feed, Expr::Increments(12.0))])])), [Code::Unmapped]);

@@ -3,12 +3,12 @@
 use crate::text::likeness;
 
 /// Adds `( )` and a comment's text between them.
-pub(super) fn write_remark(out: &mut Vec<u8>, text: &str) {
+pub(in crate::emit) fn write_remark(out: &mut Vec<u8>, text: &str) {
     write_spelled(out, &spelled(text));
 }
 
 /// Adds `( )` and between them a text that is spelled as the target spells it.
-pub(super) fn write_spelled(out: &mut Vec<u8>, spelled: &str) {
+pub(in crate::emit) fn write_spelled(out: &mut Vec<u8>, spelled: &str) {
     out.push(b'(');
     out.extend_from_slice(spelled.as_bytes());
     out.push(b')');
@@ -19,7 +19,7 @@ pub(super) fn write_spelled(out: &mut Vec<u8>, spelled: &str) {
 /// A comment ends at its first closing bracket and may hold nothing that ends a block or
 /// a tape: those characters become others that look alike, so that every comment stays
 /// one. Letters outside ASCII lose their accents; what has no like becomes `?`.
-pub(super) fn spelled(text: &str) -> String {
+pub(in crate::emit) fn spelled(text: &str) -> String {
     let text = unfenced(text);
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -48,12 +48,12 @@ fn unfenced(text: &str) -> &str {
 }
 
 /// True where a message comes out as it is written.
-pub(super) fn is_writable(text: &str) -> bool {
+pub(in crate::emit) fn is_writable(text: &str) -> bool {
     text.chars().all(|c| matches!(c, ' '..='~') && !matches!(c, '(' | ')' | '%' | ';'))
 }
 
 /// Splits a comment into pieces of at most `most` characters, at spaces where there are any.
-pub(super) fn wrap(text: &str, most: usize) -> Vec<&str> {
+pub(in crate::emit) fn wrap(text: &str, most: usize) -> Vec<&str> {
     let mut lines = Vec::new();
     let mut rest = text.trim_end();
     while let Some((cut, _)) = rest.char_indices().nth(most.max(1)) {

@@ -12,7 +12,7 @@ use crate::ir::{Expr, Program, TermKind};
 
 /// What computed jumps to a program's blocks look for.
 #[derive(Debug, Default)]
-pub(super) struct Reach {
+pub(in crate::emit) struct Reach {
     /// By jumps of this program.
     jumps: Numbers,
     /// By jumps, and by returns of other programs.
@@ -61,7 +61,7 @@ impl Reach {
 }
 
 /// True where a value is the same when it is read twice.
-pub(super) fn is_steady(value: &Expr) -> bool {
+pub(in crate::emit) fn is_steady(value: &Expr) -> bool {
     let mut steady = true;
     value.walk(&mut |part| steady &= !matches!(part, Expr::System(..) | Expr::Indirect(..)));
     steady

@@ -1,14 +1,14 @@
 //! How the end of each block is written, given that blocks stand in source order.
 
+use super::arrivals::{Arrivals, callees};
 use super::loops;
 use crate::dialect::Control;
-use crate::ir::{Block, BlockId, Call, Callee, Cond, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Cond, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::shares_line;
-use crate::syntax::Label;
 
 /// How the end of a block is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Form {
+pub(in crate::emit) enum Form {
     /// Not at all: the block behind it is the next one.
     #[default]
     Fall,
@@ -51,7 +51,7 @@ pub(super) enum Form {
 
 /// How a program is laid out.
 #[derive(Debug, Default)]
-pub(super) struct Plan {
+pub(in crate::emit) struct Plan {
     /// By block.
     pub forms: Vec<Form>,
     /// Which blocks need a sequence number; one more than there are blocks, for the end of the text.
@@ -60,7 +60,7 @@ pub(super) struct Plan {
 
 /// What the target can write, as far as layout depends on it.
 #[derive(Clone, Copy)]
-pub(super) struct Abilities<'c> {
+pub(in crate::emit) struct Abilities<'c> {
     /// The target.
     pub control: &'c Control,
     /// True where a computed jump is stopped before it looks for an invented number: it takes two lines then.
@@ -71,83 +71,6 @@ pub(super) struct Abilities<'c> {
     pub then_words: bool,
     /// Loops inside one another; 0 where there is no WHILE.
     pub loops: u32,
-}
-
-/// The ways into each block.
-pub(super) struct Arrivals {
-    from: Vec<Vec<usize>>,
-    entered: Vec<bool>,
-}
-
-impl Arrivals {
-    /// Collects them; `kept` tells sequence numbers that other programs return to.
-    pub fn of_program(program: &Program, kept: impl Fn(u32) -> bool) -> Self {
-        let count = program.blocks.len();
-        let mut all = Self { from: vec![Vec::new(); count], entered: vec![false; count] };
-        all.enter(BlockId(0));
-        for (at, block) in program.blocks.iter().enumerate() {
-            for to in block.term.kind.successors() {
-                if let Some(from) = all.from.get_mut(to.index()) {
-                    from.push(at);
-                }
-            }
-            callees(block).for_each(|entry| all.enter(entry));
-            if block.labels.iter().any(|label| matches!(label, Label::Number(n) if kept(*n))) {
-                all.enter(BlockId(at as u32));
-            }
-        }
-        all
-    }
-
-    fn enter(&mut self, block: BlockId) {
-        if let Some(entered) = self.entered.get_mut(block.index()) {
-            *entered = true;
-        }
-    }
-
-    /// The blocks that go on at this one.
-    pub fn of(&self, block: usize) -> &[usize] {
-        self.from.get(block).map_or(&[], Vec::as_slice)
-    }
-
-    /// True where control comes in from outside the program or by a call.
-    pub fn is_entered(&self, block: usize) -> bool {
-        self.entered.get(block).copied().unwrap_or(true)
-    }
-
-    fn is_only_from(&self, block: usize, from: usize) -> bool {
-        !self.is_entered(block) && self.of(block) == [from]
-    }
-}
-
-/// The blocks that a block calls.
-pub(super) fn callees(block: &Block) -> impl Iterator<Item = BlockId> {
-    let entry = |call: &Call| match call.callee {
-        Callee::Block(entry) => Some(entry),
-        _ => None,
-    };
-    let modal = block.stmts.iter().filter_map(move |stmt| match &stmt.kind {
-        StmtKind::ModalCall(call) => entry(call),
-        _ => None,
-    });
-    modal.chain(match &block.term.kind {
-        TermKind::Call { call, .. } => entry(call),
-        _ => None,
-    })
-}
-
-/// True where a condition asks the block-skip switch.
-pub(super) fn has_switch(condition: &Cond) -> bool {
-    let mut work = vec![condition];
-    while let Some(condition) = work.pop() {
-        match condition {
-            Cond::Switch(_) => return true,
-            Cond::Not(inner) => work.push(inner),
-            Cond::And(parts) | Cond::Or(parts) => work.extend(parts),
-            Cond::Compare(..) => {}
-        }
-    }
-    false
 }
 
 impl Plan {

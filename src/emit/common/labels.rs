@@ -18,7 +18,7 @@ const SPARE: u32 = 9000;
 
 /// What becomes of a sequence number of the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Standing {
+pub(in crate::emit) enum Standing {
     /// It is written.
     Free,
     /// It is a label of its block, which writes it at its head.
@@ -29,7 +29,7 @@ pub(super) enum Standing {
 
 /// The sequence numbers of one program.
 #[derive(Debug, Default)]
-pub(super) struct Labels {
+pub(in crate::emit) struct Labels {
     /// By block, and one for the end of the text.
     numbers: Vec<Option<u32>>,
     claimed: HashMap<u32, usize>,
@@ -151,7 +151,7 @@ impl Labels {
 }
 
 /// The labels of a block that are numbers.
-pub(super) fn numbers(block: &Block) -> impl Iterator<Item = u32> {
+pub(in crate::emit) fn numbers(block: &Block) -> impl Iterator<Item = u32> {
     block.labels.iter().filter_map(|label| match label {
         Label::Number(number) => Some(*number),
         Label::Name(_) => None,

@@ -1,59 +1,12 @@
 //! Numbers: the shortest digits that read back as the same value, never with an exponent.
 
-use super::Emitter;
-use crate::diag::Code;
 use std::io::Write;
 
 /// Largest number of which every smaller whole number is exact.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
-impl Emitter<'_> {
-    /// Writes a number, its sign included; with `point` it has a decimal point even when whole.
-    pub(super) fn number(&mut self, value: f64, point: bool) {
-        if !value.is_finite() {
-            return self.unmapped("a number that is not finite");
-        }
-        let start = self.text.len();
-        if value.is_sign_negative() {
-            self.text.push(b'-');
-        }
-        let has_point = write_digits(&mut self.text, value.abs());
-        if point && !has_point {
-            self.text.push(b'.');
-        }
-        if let Some(most) = self.control.numbers().digits {
-            self.limit_digits(start, most as usize);
-        }
-    }
-
-    /// The zero before the point counts as a digit, so it goes first.
-    fn limit_digits(&mut self, start: usize, most: usize) {
-        let written = &self.text[start..];
-        if written.len() <= most {
-            return;
-        }
-        let digits = written.iter().filter(|byte| byte.is_ascii_digit()).count();
-        if digits <= most {
-            return;
-        }
-        let sign = usize::from(written.starts_with(b"-"));
-        if digits == most + 1 && written[sign..].starts_with(b"0.") {
-            self.text.remove(start + sign);
-            return;
-        }
-        let written = String::from_utf8_lossy(written);
-        let message = format!("{written} has {digits} digits, the control takes {most}");
-        self.refuse(Code::NumberTooLong, message);
-    }
-
-    /// Writes a whole number.
-    pub(super) fn integer(&mut self, value: u32) {
-        write_integer(&mut self.text, u64::from(value));
-    }
-}
-
 /// Writes a number that is not negative; true where it has a decimal point.
-fn write_digits(out: &mut Vec<u8>, value: f64) -> bool {
+pub(in crate::emit) fn write_digits(out: &mut Vec<u8>, value: f64) -> bool {
     // Signed, because processors turn such to and from floating point in one step.
     if value < EXACT && value as i64 as f64 == value {
         write_integer(out, value as u64);
@@ -76,7 +29,8 @@ fn write_digits(out: &mut Vec<u8>, value: f64) -> bool {
     value.fract() != 0.0
 }
 
-fn write_integer(out: &mut Vec<u8>, value: u64) {
+/// Writes a whole number.
+pub(in crate::emit) fn write_integer(out: &mut Vec<u8>, value: u64) {
     write_decimal(out, value, 0);
 }
 
@@ -97,7 +51,7 @@ fn write_decimal(out: &mut Vec<u8>, value: u64, places: usize) {
 }
 
 /// Writes a whole number with leading zeros.
-pub(super) fn write_padded(out: &mut Vec<u8>, value: u64, places: u32) {
+pub(in crate::emit) fn write_padded(out: &mut Vec<u8>, value: u64, places: u32) {
     let digits = value.checked_ilog10().map_or(1, |log| log + 1);
     (digits..places).for_each(|_| out.push(b'0'));
     write_integer(out, value);

@@ -9,8 +9,8 @@
 //! deeper than the control allows. Jumps out of the body are allowed.
 //! Counter-example: `N1 IF[..]GOTO9 .. IF[..]GOTO1 .. GOTO1 N9` goes back twice and stays as it is.
 
-use super::flow::Arrivals;
-use crate::ir::{Block, BlockId, Program, StmtKind, TermKind};
+use super::arrivals::Arrivals;
+use crate::ir::{Block, BlockId, Cond, Program, StmtKind, TermKind};
 
 /// A loop, in the layout of its program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub(super) fn find(program: &Program, arrivals: &Arrivals, deepest: u32) -> Vec<
 fn loop_at(program: &Program, arrivals: &Arrivals, header: usize) -> Option<(usize, bool)> {
     let block = program.blocks.get(header)?;
     let TermKind::Branch { cond, yes, no } = &block.term.kind else { return None };
-    if !only_remarks(block) || super::flow::has_switch(cond) {
+    if !only_remarks(block) || has_switch(cond) {
         return None;
     }
     let (exit, negated) = match (yes.index(), no.index()) {
@@ -68,4 +68,18 @@ fn loop_at(program: &Program, arrivals: &Arrivals, header: usize) -> Option<(usi
 
 fn only_remarks(block: &Block) -> bool {
     block.stmts.iter().all(|stmt| stmt.kind == StmtKind::Remark && stmt.site.skip.is_none())
+}
+
+/// True where a condition asks the block-skip switch.
+fn has_switch(condition: &Cond) -> bool {
+    let mut work = vec![condition];
+    while let Some(condition) = work.pop() {
+        match condition {
+            Cond::Switch(_) => return true,
+            Cond::Not(inner) => work.push(inner),
+            Cond::And(parts) | Cond::Or(parts) => work.extend(parts),
+            Cond::Compare(..) => {}
+        }
+    }
+    false
 }

@@ -1,9 +1,9 @@
 //! Lines: what stands before and behind the words of a block.
 
-use super::Emitter;
+use super::digits::write_padded;
 use super::labels::Standing;
-use super::numbers::write_padded;
 use super::remarks::{spelled, wrap, write_remark, write_spelled};
+use super::sheet::Sheet;
 use crate::diag::Code;
 use crate::dialect::Question;
 use crate::ir::{Cond, Remark, Site};
@@ -11,7 +11,7 @@ use crate::text::Span;
 
 /// What a line holds, as far as its comments and its length go.
 #[derive(Clone, Copy, Default, PartialEq)]
-pub(super) enum Kind {
+pub(in crate::emit) enum Kind {
     /// Words.
     #[default]
     Words,
@@ -24,7 +24,7 @@ pub(super) enum Kind {
 
 /// The line that is being written, and what waits for the next one.
 #[derive(Default)]
-pub(super) struct Line<'p> {
+pub(in crate::emit) struct Line<'p> {
     start: usize,
     head_end: usize,
     body: usize,
@@ -47,10 +47,10 @@ pub(super) struct Line<'p> {
     last: Option<&'p Site>,
 }
 
-impl<'p> Emitter<'p> {
+impl<'p> Sheet<'p> {
     /// Keeps the sequence number and the comments of a site for the next line, but for
     /// those that the line before had already, coming from the same block.
-    pub(super) fn carry(&mut self, site: &'p Site) {
+    pub fn carry(&mut self, site: &'p Site) {
         if self.line.last.is_some_and(|last| std::ptr::eq(last, site)) {
             return;
         }
@@ -65,22 +65,22 @@ impl<'p> Emitter<'p> {
     }
 
     /// True where a label, comments or a sequence number wait for a line.
-    pub(super) fn is_waiting(&self) -> bool {
+    pub fn is_waiting(&self) -> bool {
         self.line.label.is_some() || self.has_carried()
     }
 
     /// True where comments or a sequence number wait for a line.
-    pub(super) fn has_carried(&self) -> bool {
+    pub fn has_carried(&self) -> bool {
         self.line.sequence.is_some() || !self.line.waiting.is_empty()
     }
 
     /// True where the line before came from the same bytes.
-    pub(super) fn is_last_span(&self, span: Span) -> bool {
+    pub fn is_last_span(&self, span: Span) -> bool {
         !span.is_empty() && self.line.last.is_some_and(|last| last.span == span)
     }
 
     /// Starts a line; `message` is the text that its statement shows, if it shows any.
-    pub(super) fn begin(&mut self, site: &'p Site, kind: Kind, message: Option<&str>) {
+    pub fn begin(&mut self, site: &'p Site, kind: Kind, message: Option<&str>) {
         self.span = site.span;
         self.carry(site);
         let skip = self.line.skip.take().or(site.skip);
@@ -105,9 +105,7 @@ impl<'p> Emitter<'p> {
         self.line.head_end = self.text.len();
         if let Some(number) = unprinted {
             self.space();
-            self.push_str("(N");
-            self.integer(number);
-            self.push(')');
+            write_remark(&mut self.text, &format!("{}{number}", self.forms.sequence));
         }
         for at in 0..self.line.remarks.len() {
             if let Some(&remark) = self.line.remarks.get(at).filter(|remark| remark.leading) {
@@ -116,12 +114,6 @@ impl<'p> Emitter<'p> {
             }
         }
         self.line.body = self.text.len();
-        if let Some(condition) = self.line.condition.take() {
-            self.space();
-            self.push_str("IF ");
-            self.bracketed_condition(condition, false);
-            self.push_str(" THEN");
-        }
     }
 
     /// Writes the sequence number. A number that the line cannot have is handed back, to be
@@ -132,7 +124,7 @@ impl<'p> Emitter<'p> {
         let standing = sequence.map(|n| (n, self.labels.standing(n, self.line.block)));
         if let Some(label) = self.line.label.take() {
             self.space();
-            self.push('N');
+            self.push(self.forms.sequence);
             self.integer(label);
             if let Some(name) = self.line.name.take() {
                 self.space();
@@ -143,7 +135,7 @@ impl<'p> Emitter<'p> {
         match standing? {
             (number, Standing::Free) => {
                 self.space();
-                self.push('N');
+                self.push(self.forms.sequence);
                 self.integer(number);
                 None
             }
@@ -163,27 +155,27 @@ impl<'p> Emitter<'p> {
     }
 
     /// Separates a word from what stands before it on the line.
-    pub(super) fn space(&mut self) {
+    pub fn space(&mut self) {
         if self.text.len() > self.line.start && self.text.last() != Some(&b'/') {
             self.text.push(b' ');
         }
     }
 
     /// Adds a word of its own.
-    pub(super) fn word(&mut self, text: &str) {
+    pub fn word(&mut self, text: &str) {
         self.space();
         self.push_str(text);
     }
 
     /// Writes `O0001 (COMMENT)`: the name is the first on its line, so comments that find no room there
     /// follow on lines of their own. A sequence number beside it is left out: nothing goes there by it.
-    pub(super) fn program_line(&mut self, site: &'p Site, number: u32) {
+    pub fn program_line(&mut self, site: &'p Site, number: u32) {
         self.carry(site);
         self.line.sequence = None;
         self.span = site.span;
         self.line.start = self.text.len();
-        self.push('O');
-        write_padded(&mut self.text, u64::from(number), 4);
+        self.push(self.forms.program);
+        write_padded(&mut self.text, u64::from(number), self.forms.program_digits);
         let mut remarks = std::mem::take(&mut self.line.waiting).into_iter().peekable();
         let limit = self.control.text().line.map_or(usize::MAX, |limit| limit as usize);
         while let Some(remark) = remarks.peek() {
@@ -201,7 +193,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Ends the line.
-    pub(super) fn finish(&mut self) {
+    pub fn finish(&mut self) {
         let end = self.text.len();
         for at in 0..self.line.remarks.len() {
             if let Some(&remark) = self.line.remarks.get(at).filter(|remark| !remark.leading) {
@@ -251,7 +243,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Writes a comment on lines of its own.
-    pub(super) fn remark_lines(&mut self, text: &str) {
+    pub fn remark_lines(&mut self, text: &str) {
         let room = self.control.text().line.map_or(usize::MAX, |most| most.saturating_sub(2) as usize);
         for piece in wrap(&spelled(text), room) {
             let start = self.text.len();
@@ -264,7 +256,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Writes the waiting label on a line of its own, if there is one.
-    pub(super) fn flush_label(&mut self) {
+    pub fn flush_label(&mut self) {
         if let Some(label) = self.line.label.take() {
             let name = self.line.name.take();
             self.label_line(label, name);
@@ -272,11 +264,11 @@ impl<'p> Emitter<'p> {
     }
 
     /// Writes a line with nothing but a sequence number.
-    pub(super) fn label_line(&mut self, label: u32, name: Option<&str>) {
+    pub fn label_line(&mut self, label: u32, name: Option<&str>) {
         self.span = Span::default();
         self.line.flushed = Some(label);
         self.line.start = self.text.len();
-        self.push('N');
+        self.push(self.forms.sequence);
         self.integer(label);
         if let Some(name) = name {
             self.space();
