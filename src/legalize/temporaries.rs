@@ -5,7 +5,7 @@
 //! gets a number that no other has.
 
 use super::Context;
-use crate::ir::analysis::{Cfg, Temps, Transfer, behind, live_before};
+use crate::ir::analysis::{Cfg, Temps, Transfer, live_after};
 use crate::ir::{Block, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeSet;
@@ -102,8 +102,8 @@ fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
         transfer
     };
     let transfers: Vec<Transfer> = program.blocks.iter().zip(&mut naming).map(transfer).collect();
-    let live_in = live_before(&cfg, &transfers);
-    let out = program.ids().map(|id| behind(&cfg, id, &live_in)).collect();
+    let live = live_after(program, &cfg, &transfers);
+    let out = program.ids().map(|id| live.at(id).cloned().unwrap_or_default()).collect();
     (out, naming)
 }
 

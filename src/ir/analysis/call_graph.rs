@@ -1,5 +1,6 @@
 //! Who calls whom, for analyses over all programs.
 
+use super::dataflow::Worklist;
 use std::collections::BTreeSet;
 
 /// Programs by index, and whether a call opens a level of locals.
@@ -24,17 +25,43 @@ impl CallGraph {
         &self.callees[program]
     }
 
+    /// Adds to the summary of each program those of its callees, until nothing changes: `join` is given a caller's, a
+    /// callee's, and whether the call opens a level of locals, and is true where that changed the caller's. Callees come
+    /// first where they can; those that call one another come again until they agree.
+    pub fn bottom_up<S: Clone>(&self, summaries: &mut [S], join: impl Fn(&mut S, &S, bool) -> bool) {
+        self.settle(|at| {
+            let add = |changed, (callee, level): &(usize, bool)| {
+                join_at(summaries, at, *callee, |mine, theirs| join(mine, theirs, *level)) || changed
+            };
+            self.callees[at].iter().fold(false, add)
+        });
+    }
+
+    /// Adds to what each program is entered with what its callers are, until nothing changes: `join` is given a callee's
+    /// state, a caller's, and whether the call opens a level of locals, and is true where that changed the callee's.
+    pub fn top_down<S: Clone>(&self, entries: &mut [S], join: impl Fn(&mut S, &S, bool) -> bool) {
+        let order = self.callees_first();
+        let mut work = Worklist::ranked(ranks(order.iter().rev()));
+        order.iter().for_each(|program| work.add(*program));
+        while let Some(at) = work.next() {
+            for (callee, level) in &self.callees[at] {
+                if join_at(entries, *callee, at, |theirs, mine| join(theirs, mine, *level)) {
+                    work.add(*callee);
+                }
+            }
+        }
+    }
+
     /// Calls `step` on every program, and on the callers of one for which it says that something changed,
     /// until nothing does. Callees come first where they can.
     pub fn settle(&self, mut step: impl FnMut(usize) -> bool) {
-        let order = self.callees_first();
-        let mut place = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(at, program)| place[*program] = at);
         // Those that call one another settle before anyone looks at them who does not.
-        let mut work: BTreeSet<usize> = (0..order.len()).collect();
-        while let Some(program) = work.pop_first().map(|at| order[at]) {
+        let order = self.callees_first();
+        let mut work = Worklist::ranked(ranks(order.iter()));
+        order.iter().for_each(|program| work.add(*program));
+        while let Some(program) = work.next() {
             if step(program) {
-                work.extend(self.callers[program].iter().map(|caller| place[*caller]));
+                self.callers[program].iter().for_each(|caller| work.add(*caller));
             }
         }
     }
@@ -61,5 +88,28 @@ impl CallGraph {
             }
         }
         order
+    }
+}
+
+/// By program, its place in an order.
+fn ranks<'o>(order: impl ExactSizeIterator<Item = &'o usize>) -> Vec<u32> {
+    let mut ranks = vec![0; order.len()];
+    (0..).zip(order).for_each(|(rank, program)| ranks[*program] = rank);
+    ranks
+}
+
+/// Joins one of some states into another, or into itself.
+fn join_at<S: Clone>(
+    states: &mut [S],
+    to: usize,
+    from: usize,
+    join: impl FnOnce(&mut S, &S) -> bool,
+) -> bool {
+    match states.get_disjoint_mut([to, from]) {
+        Ok([mine, theirs]) => join(mine, theirs),
+        Err(_) => {
+            let theirs = states[from].clone();
+            join(&mut states[to], &theirs)
+        }
     }
 }

@@ -166,15 +166,9 @@ impl Summaries {
     fn spread(&mut self, graph: &Graph) {
         // The modal calls stand behind the programs, as one more.
         self.written.push(std::mem::take(&mut self.modal));
-        graph.calls.settle(|at| {
-            let mut mine = std::mem::take(&mut self.written[at]);
-            let mut changed = false;
-            for (callee, level) in graph.calls.callees(at) {
-                changed |= mine.join(Seen { vars: &self.written[*callee], level: *level });
-            }
-            self.written[at] = mine;
-            changed
-        });
+        graph
+            .calls
+            .bottom_up(&mut self.written, |mine, callee, level| mine.join(Seen { vars: callee, level }));
         self.modal = self.written.pop().unwrap_or_default();
         if graph.modal_body {
             self.modal = self.everything.clone();

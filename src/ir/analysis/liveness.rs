@@ -2,10 +2,11 @@
 //!
 //! Nothing outside a program sees its temporaries, so no call reads them but one of a body in the program itself.
 
+use super::dataflow::{Analysis, Direction, Lattice, States, solve};
 use super::effects::moves_values;
 use super::{Cfg, Temps, may_come_back};
 use crate::ir::{Block, BlockId, Callee, Class, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
-use std::collections::VecDeque;
+use std::borrow::Cow;
 
 /// What the programs of a library do to one another's ways.
 #[derive(Clone, Copy, Debug)]
@@ -27,87 +28,73 @@ impl Ways {
 #[derive(Clone, Debug)]
 pub struct Liveness<'p> {
     program: &'p Program,
-    ways: Ways,
-    /// Live at the start of each block, those two of [`Cfg::whole`] included.
-    before: Vec<Temps>,
-    cfg: Cfg,
-    /// True where a modal call runs a body of the program, whose return may go behind any NC block.
-    modal_body: bool,
+    rules: Rules,
+    /// Live at the end of each block, those two of [`Cfg::whole`] included.
+    ends: States<Temps>,
 }
 
-/// What a block does to what is live behind it.
+/// What a block does to what is live after it.
 #[derive(Clone, Debug, Default)]
 pub struct Transfer {
-    /// Live before it, if nothing were behind it.
+    /// Live before it, if nothing were after it.
     pub reads: Temps,
     /// What it surely writes.
     pub writes: Temps,
-    /// True where what is live behind it has no say.
+    /// True where what is live after it has no say.
     pub fills: bool,
 }
 
-/// What is live at the start of each block of a graph; a block without a transfer does nothing.
-///
-/// Only where something is live is anything done: temporaries live for a few blocks of many.
-pub fn live_before(cfg: &Cfg, transfers: &[Transfer]) -> Vec<Temps> {
-    let mut before = vec![Temps::default(); cfg.len()];
-    // Blocks that the entry does not reach are answered for too: they may be kept.
-    let mut work: VecDeque<BlockId> = VecDeque::new();
-    let mut waiting = vec![false; cfg.len()];
-    let look = |id: BlockId, work: &mut VecDeque<BlockId>, waiting: &mut [bool]| {
-        for pred in cfg.preds(id) {
-            if !std::mem::replace(&mut waiting[pred.index()], true) {
-                work.push_back(*pred);
-            }
-        }
-    };
-    for (at, transfer) in
-        transfers.iter().enumerate().rev().filter(|(_, transfer)| !transfer.reads.is_empty())
-    {
-        before[at] = transfer.reads.clone();
-        look(BlockId(at as u32), &mut work, &mut waiting);
+impl Lattice for Temps {
+    fn join(&mut self, other: &Self) -> bool {
+        Temps::join(self, other)
     }
-    while let Some(id) = work.pop_front() {
-        waiting[id.index()] = false;
-        let transfer = transfers.get(id.index());
-        if transfer.is_some_and(|transfer| transfer.fills) {
-            continue;
-        }
-        let mut live = behind(cfg, id, &before);
-        transfer.iter().for_each(|transfer| live.subtract(&transfer.writes));
-        if before[id.index()].join(&live) {
-            look(id, &mut work, &mut waiting);
-        }
-    }
-    before
 }
 
-/// What is live where a block ends.
-pub fn behind(cfg: &Cfg, id: BlockId, before: &[Temps]) -> Temps {
-    let mut live = Temps::default();
-    for there in cfg.succs(id).iter().map(|to| &before[to.index()]).filter(|there| !there.is_empty()) {
-        live.join(there);
+/// Blocks by their transfers.
+struct Transfers<'t>(&'t [Transfer]);
+
+impl Analysis for Transfers<'_> {
+    type State = Temps;
+    const DIRECTION: Direction = Direction::Backward;
+
+    /// Only where something is read is anything done: temporaries live for a few blocks of many. Blocks that the entry
+    /// does not reach are answered for too: they may be kept.
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, Temps)> {
+        let reads = self.0.iter().enumerate().filter(|(_, transfer)| !transfer.reads.is_empty());
+        reads.map(|(at, _)| (BlockId(at as u32), Temps::default())).collect()
     }
-    live
+
+    fn block(&self, id: BlockId, _: &Block, live: &mut Temps) {
+        let Some(transfer) = self.0.get(id.index()) else { return };
+        if transfer.fills {
+            *live = Temps::default();
+        }
+        live.subtract(&transfer.writes);
+        live.join(&transfer.reads);
+    }
+
+    fn edge<'s>(&self, _: BlockId, _: BlockId, live: &'s Temps) -> Option<Cow<'s, Temps>> {
+        (!live.is_empty()).then_some(Cow::Borrowed(live))
+    }
 }
 
-impl<'p> Liveness<'p> {
-    /// Computes it.
-    pub fn of(program: &'p Program, ways: Ways) -> Self {
-        let modal_body = has_modal_body(program);
-        let cfg = Cfg::whole(program, ways.come_back);
-        let mut live = Self { program, ways, before: Vec::new(), cfg, modal_body };
-        let transfers: Vec<Transfer> = program.blocks.iter().map(|block| live.transfer(block)).collect();
-        live.before = live_before(&live.cfg, &transfers);
-        live
-    }
+/// What is live at the end of each block of a program, by what its blocks do.
+pub fn live_after(program: &Program, cfg: &Cfg, transfers: &[Transfer]) -> States<Temps> {
+    solve(&Transfers(transfers), program, cfg)
+}
 
+/// What statements and ends of blocks do to what is live.
+#[derive(Clone, Debug)]
+struct Rules {
+    ways: Ways,
+    /// True where a modal call runs a body of the program, whose return may go to after any NC block.
+    modal_body: bool,
+}
+
+impl Rules {
     fn transfer(&self, block: &Block) -> Transfer {
         let mut transfer = Transfer { fills: self.returns_anywhere(block), ..Transfer::default() };
-        if transfer.fills {
-            transfer.reads = Temps::all();
-        }
-        read_by_term(&block.term.kind, &mut transfer.reads);
+        self.end(block, &mut transfer.reads);
         for stmt in block.stmts.iter().rev() {
             self.stmt(stmt, &mut transfer.reads);
             transfer.fills |= self.fills(&stmt.kind);
@@ -116,20 +103,20 @@ impl<'p> Liveness<'p> {
         transfer
     }
 
-    /// True for a block whose return may go behind any NC block.
+    /// True for a block whose return may go to after any NC block.
     fn returns_anywhere(&self, block: &Block) -> bool {
         self.modal_body && matches!(block.term.kind, TermKind::Return { .. })
     }
 
-    /// Live behind a block's terminator.
-    fn after(&self, id: BlockId) -> Temps {
-        if self.program.block(id).is_some_and(|block| self.returns_anywhere(block)) {
-            return Temps::all();
+    /// Before a block's terminator, of what is live after it.
+    fn end(&self, block: &Block, live: &mut Temps) {
+        if self.returns_anywhere(block) {
+            *live = Temps::all();
         }
-        behind(&self.cfg, id, &self.before)
+        block.term.kind.exprs(&mut |e| read(e, live));
     }
 
-    /// Before a statement, of what is live behind it.
+    /// Before a statement, of what is live after it.
     fn stmt(&self, stmt: &Stmt, live: &mut Temps) {
         sure(stmt).into_iter().for_each(|temp| live.remove(temp));
         if self.fills(&stmt.kind) {
@@ -142,21 +129,36 @@ impl<'p> Liveness<'p> {
     fn fills(&self, kind: &StmtKind) -> bool {
         matches!(kind, StmtKind::Nc(nc) if self.ways.modal_body || moves_values(nc))
     }
+}
 
-    /// True where a temporary is live at the start of a block.
-    pub fn is_live_before(&self, id: BlockId, temp: Var) -> bool {
-        self.before.get(id.index()).is_some_and(|live| temp.class == Class::Temp && live.has(temp.number))
+impl<'p> Liveness<'p> {
+    /// Computes it.
+    pub fn of(program: &'p Program, ways: Ways) -> Self {
+        let rules = Rules { ways, modal_body: has_modal_body(program) };
+        let transfers: Vec<Transfer> = program.blocks.iter().map(|block| rules.transfer(block)).collect();
+        let ends = live_after(program, &Cfg::whole(program, ways.come_back), &transfers);
+        Self { program, rules, ends }
     }
 
-    /// Calls `f` on each statement of a block, last first, with what is live behind it.
+    /// Calls `f` on each statement of a block, last first, with what is live after it.
     pub fn backward(&self, id: BlockId, f: &mut dyn FnMut(usize, super::Holds<'_, Var>)) {
-        let Some(Block { stmts, term, .. }) = self.program.block(id) else { return };
-        let mut live = self.after(id);
-        read_by_term(&term.kind, &mut live);
-        for (at, stmt) in stmts.iter().enumerate().rev() {
+        let Some(block) = self.program.block(id) else { return };
+        let mut live = self.ends.at(id).cloned().unwrap_or_default();
+        self.rules.end(block, &mut live);
+        for (at, stmt) in block.stmts.iter().enumerate().rev() {
             f(at, &|var: &Var| var.class == Class::Temp && live.has(var.number));
-            self.stmt(stmt, &mut live);
+            self.rules.stmt(stmt, &mut live);
         }
+    }
+
+    /// True where a temporary is live at the start of a block.
+    #[cfg(test)]
+    pub fn is_live_before(&self, id: BlockId, temp: Var) -> bool {
+        let Some(block) = self.program.block(id) else { return false };
+        let mut live = self.ends.at(id).cloned().unwrap_or_default();
+        self.rules.end(block, &mut live);
+        block.stmts.iter().rev().for_each(|stmt| self.rules.stmt(stmt, &mut live));
+        temp.class == Class::Temp && live.has(temp.number)
     }
 }
 
@@ -166,10 +168,6 @@ fn sure(stmt: &Stmt) -> Option<u32> {
         Some(Place::Var(var)) if var.class == Class::Temp && stmt.site.skip.is_none() => Some(var.number),
         _ => None,
     }
-}
-
-fn read_by_term(kind: &TermKind, live: &mut Temps) {
-    kind.exprs(&mut |e| read(e, live));
 }
 
 fn read(e: &Expr, live: &mut Temps) {

@@ -1,14 +1,14 @@
 //! Questions about programs: where control goes, which temporaries are live, what may be vacant, which
 //! constants a variable may hold, between which bounds.
 //!
-//! Every answer errs to the safe side. Nothing recurses on the size of a program.
+//! Every answer errs to the safe side. Nothing recurses on the size of a program. What is followed until nothing
+//! changes is followed by [`dataflow`].
 
 mod call_graph;
 mod cfg;
-mod dominators;
+pub mod dataflow;
 mod effects;
 mod liveness;
-mod loops;
 mod ranges;
 mod set;
 mod temps;
@@ -17,10 +17,8 @@ mod values;
 
 pub use call_graph::CallGraph;
 pub use cfg::{Cfg, may_come_back};
-pub use dominators::Dominators;
 pub use effects::{Seen, Summaries, Vars};
-pub use liveness::{Liveness, Transfer, Ways, behind, live_before};
-pub use loops::{Loop, Loops};
+pub use liveness::{Liveness, Transfer, Ways, live_after};
 pub use ranges::{Numbers, Ranges, Values};
 pub use set::{Row, Universe, VarSet};
 pub use temps::Temps;

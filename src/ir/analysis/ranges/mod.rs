@@ -21,10 +21,12 @@ pub use values::Values;
 
 use super::Cfg;
 use super::cfg::labelled;
+use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve_within};
 use super::effects::{Summaries, Vars};
 use crate::ir::{
     Bank, Block, BlockId, Call, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var,
 };
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -45,145 +47,77 @@ type State = Vec<Values>;
 
 /// The values of a program's variables.
 pub struct Ranges<'p> {
+    rules: Rules<'p>,
+    /// At the start of each block; none where it takes too long to find out.
+    starts: Option<States<State>>,
+    /// Where the last question was, and the values there.
+    cursor: RefCell<Cursor<State>>,
+}
+
+/// What statements, and ways between blocks, do to values.
+struct Rules<'p> {
     program: &'p Program,
     summaries: &'p Summaries,
     places: BTreeMap<Var, usize>,
     /// The statements that assign an input.
     inputs: BTreeSet<(BlockId, usize)>,
-    /// By block, at its start; none where control does not come.
-    starts: Vec<Option<State>>,
-    /// Where the last question was, and the values there.
-    cursor: RefCell<Option<(BlockId, usize, State)>>,
+    /// Where bounds may stop.
+    stops: Vec<f64>,
 }
 
-impl<'p> Ranges<'p> {
-    /// The values in a program of the library that `summaries` are of; a literal at its head is an input unless the
-    /// program assigns its variable elsewhere.
-    pub fn of(program: &'p Program, summaries: &'p Summaries) -> Self {
-        let inputs = head_literals(program).into_iter().filter(|(.., var)| assigned(program, *var) == 1);
-        Self::with(program, summaries, inputs.map(|(id, at, _)| (id, at)).collect())
+impl Lattice for State {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined: Self = self.iter().zip(other).map(|(a, b)| a.join(b)).collect();
+        let changed = *self != joined;
+        *self = joined;
+        changed
     }
+}
 
-    /// As [`Ranges::of`]; every literal at the head is an input.
-    pub fn of_any_inputs(program: &'p Program, summaries: &'p Summaries) -> Self {
-        let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
-        Self::with(program, summaries, inputs.collect())
-    }
+impl Analysis for Rules<'_> {
+    type State = State;
+    const DIRECTION: Direction = Direction::Forward;
 
-    fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
-        let places = followed(program).into_iter().enumerate().map(|(at, var)| (var, at)).collect();
-        let mut all =
-            Self { program, summaries, places, inputs, starts: Vec::new(), cursor: RefCell::new(None) };
-        if !all.places.is_empty() && all.settle().is_none() {
-            all.places.clear();
-            all.starts.clear();
-        }
-        all
-    }
-
-    /// What an expression may be before statement `at` of a block; past the last, before its end.
-    pub fn at(&self, id: BlockId, at: usize, expr: &Expr) -> Values {
-        if self.places.is_empty() {
-            return evaluate(expr, &|_| Values::ANY);
-        }
-        let (Some(Some(start)), Some(block)) = (self.starts.get(id.index()), self.program.block(id)) else {
-            return Values::Few(Vec::new());
-        };
-        let mut cursor = self.cursor.borrow_mut();
-        let (mut from, mut state) = match cursor.take() {
-            Some((block, before, state)) if block == id && before <= at => (before, state),
-            _ => (0, start.clone()),
-        };
-        while from < at {
-            if let Some(stmt) = block.stmts.get(from) {
-                self.step((id, from), stmt, &mut state);
-            }
-            from += 1;
-        }
-        let found = self.evaluate(expr, &state);
-        *cursor = Some((id, at, state));
-        found
-    }
-
-    fn evaluate(&self, expr: &Expr, state: &State) -> Values {
-        evaluate(expr, &|var| self.value(var, state))
-    }
-
-    fn value(&self, var: Var, state: &State) -> Values {
-        self.places.get(&var).and_then(|at| state.get(*at)).cloned().unwrap_or(Values::ANY)
-    }
-
-    /// Follows values until nothing changes; none where that takes too long.
-    fn settle(&mut self) -> Option<()> {
-        let cfg = Cfg::of(self.program);
-        let stops = stops(self.program);
-        self.starts = vec![None; self.program.blocks.len()];
-        let mut changes = vec![0u32; self.program.blocks.len()];
-        let mut steps = STEPS / self.places.len().max(1);
-        let mut work: BTreeSet<(usize, BlockId)> = BTreeSet::new();
-        let any: State = vec![Values::ANY; self.places.len()];
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, State)> {
         let come_back = labelled(self.program).filter(|_| self.summaries.come_back());
-        for id in cfg.roots().iter().copied().chain(come_back) {
-            self.starts[id.index()] = Some(any.clone());
-            work.insert((cfg.place(id).unwrap_or(usize::MAX), id));
-        }
-        while let Some((_, id)) = work.pop_first() {
-            let block = self.program.block(id)?;
-            let mut state = self.starts[id.index()].clone()?;
-            steps = steps.checked_sub(1 + block.stmts.len())?;
-            for (at, stmt) in block.stmts.iter().enumerate() {
-                self.step((id, at), stmt, &mut state);
-            }
-            self.leave(block, &mut state);
-            for to in cfg.succs(id) {
-                let Some(there) = self.edge(block, *to, &state) else { continue };
-                let before = self.starts[to.index()].take();
-                let next = match &before {
-                    None => there,
-                    Some(before) => {
-                        changes[to.index()] += 1;
-                        let joined = before.iter().zip(&there).map(|(a, b)| {
-                            let joined = a.join(b);
-                            match changes[to.index()] {
-                                _ if joined == *a => joined,
-                                0..=PATIENCE => joined,
-                                more if more <= MOST_CHANGES => joined.widened(a, &stops),
-                                _ => Values::ANY,
-                            }
-                        });
-                        joined.collect()
-                    }
-                };
-                if before.as_ref() != Some(&next) {
-                    work.insert((cfg.place(*to).unwrap_or(usize::MAX), *to));
-                }
-                self.starts[to.index()] = Some(next);
-            }
-        }
-        Some(())
+        let all: BTreeSet<BlockId> = cfg.roots().iter().copied().chain(come_back).collect();
+        all.into_iter().map(|id| (id, vec![Values::ANY; self.places.len()])).collect()
     }
 
-    /// What is known where a block goes on at `to`; none where it never does.
-    fn edge(&self, block: &Block, to: BlockId, state: &State) -> Option<State> {
-        let TermKind::Branch { cond, yes, no } = &block.term.kind else { return Some(state.clone()) };
-        if yes == no {
-            return Some(state.clone());
-        }
-        let negated = (to == *no).then(|| Cond::Not(Box::new(cond.clone())));
-        let mut kept = state.clone();
-        evaluate::narrow(
-            negated.as_ref().unwrap_or(cond),
-            &|var| self.value(var, state),
-            &mut |var, values| {
-                if let Some(at) = self.places.get(&var) {
-                    kept[*at] = kept[*at].meet(&values);
-                }
-            },
-        );
-        kept.iter().zip(state).all(|(kept, before)| before.is_empty() || !kept.is_empty()).then_some(kept)
+    fn block(&self, id: BlockId, block: &Block, state: &mut State) {
+        self.stmts(id, block, state);
+        self.leave(block, state);
     }
 
-    fn step(&self, place: (BlockId, usize), stmt: &Stmt, state: &mut State) {
+    fn edge<'s>(&self, from: BlockId, to: BlockId, state: &'s State) -> Option<Cow<'s, State>> {
+        match self.program.block(from).map(|block| &block.term.kind) {
+            Some(TermKind::Branch { cond, yes, no }) if yes != no => {
+                self.narrowed(cond, to == *yes, state).map(Cow::Owned)
+            }
+            _ => Some(Cow::Borrowed(state)),
+        }
+    }
+
+    /// A loop that counts goes on to where it may stop, and one that never settles tells nothing.
+    fn merge(&self, state: &mut State, other: &State, before: u32) -> bool {
+        let mut changed = false;
+        for (mine, theirs) in state.iter_mut().zip(other) {
+            let joined = mine.join(theirs);
+            let next = match before {
+                _ if joined == *mine => continue,
+                0..PATIENCE => joined,
+                PATIENCE..MOST_CHANGES => joined.widened(mine, &self.stops),
+                _ => Values::ANY,
+            };
+            changed |= *mine != next;
+            *mine = next;
+        }
+        changed
+    }
+}
+
+impl Steps for Rules<'_> {
+    fn stmt(&self, place: (BlockId, usize), stmt: &Stmt, state: &mut State) {
         let skipped = stmt.site.skip.is_some();
         match &stmt.kind {
             StmtKind::Assign { target: Place::Var(var), value } => {
@@ -212,6 +146,64 @@ impl<'p> Ranges<'p> {
             }
             _ => {}
         }
+    }
+}
+
+impl<'p> Ranges<'p> {
+    /// The values in a program of the library that `summaries` are of; a literal at its head is an input unless the
+    /// program assigns its variable elsewhere.
+    pub fn of(program: &'p Program, summaries: &'p Summaries) -> Self {
+        let inputs = head_literals(program).into_iter().filter(|(.., var)| assigned(program, *var) == 1);
+        Self::with(program, summaries, inputs.map(|(id, at, _)| (id, at)).collect())
+    }
+
+    /// As [`Ranges::of`]; every literal at the head is an input.
+    pub fn of_any_inputs(program: &'p Program, summaries: &'p Summaries) -> Self {
+        let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
+        Self::with(program, summaries, inputs.collect())
+    }
+
+    fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
+        let places: BTreeMap<Var, usize> =
+            followed(program).into_iter().enumerate().map(|(at, var)| (var, at)).collect();
+        let limit = STEPS.checked_div(places.len());
+        let rules = Rules { program, summaries, places, inputs, stops: stops(program) };
+        let starts = limit.and_then(|limit| solve_within(&rules, program, &Cfg::of(program), limit));
+        Self { rules, starts, cursor: RefCell::default() }
+    }
+
+    /// What an expression may be before statement `at` of a block; past the last, before its end.
+    pub fn at(&self, id: BlockId, at: usize, expr: &Expr) -> Values {
+        let Some(starts) = &self.starts else { return evaluate(expr, &|_| Values::ANY) };
+        let mut cursor = self.cursor.borrow_mut();
+        let state = cursor.seek(&self.rules, starts, self.rules.program, (id, at));
+        state.map_or(Values::Few(Vec::new()), |state| self.rules.evaluate(expr, state))
+    }
+}
+
+impl Rules<'_> {
+    fn evaluate(&self, expr: &Expr, state: &State) -> Values {
+        evaluate(expr, &|var| self.value(var, state))
+    }
+
+    fn value(&self, var: Var, state: &State) -> Values {
+        self.places.get(&var).and_then(|at| state.get(*at)).cloned().unwrap_or(Values::ANY)
+    }
+
+    /// What is known where a condition holds or does not; none where it never does.
+    fn narrowed(&self, cond: &Cond, holds: bool, state: &State) -> Option<State> {
+        let negated = (!holds).then(|| Cond::Not(Box::new(cond.clone())));
+        let mut kept = state.clone();
+        evaluate::narrow(
+            negated.as_ref().unwrap_or(cond),
+            &|var| self.value(var, state),
+            &mut |var, values| {
+                if let Some(at) = self.places.get(&var) {
+                    kept[*at] = kept[*at].meet(&values);
+                }
+            },
+        );
+        kept.iter().zip(state).all(|(kept, before)| before.is_empty() || !kept.is_empty()).then_some(kept)
     }
 
     /// A variable with a computed number is written: one of those that the number may name.

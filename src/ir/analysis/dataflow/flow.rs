@@ -1,0 +1,126 @@
+//! States of nodes, and which nodes are to be looked at again.
+
+use super::Lattice;
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+/// Nodes that wait to be looked at, each once, in the order of their ranks.
+#[derive(Clone, Debug)]
+pub struct Worklist {
+    /// By node.
+    ranks: Vec<u32>,
+    /// By node.
+    waits: Vec<bool>,
+    queue: BinaryHeap<Reverse<(u32, u32)>>,
+}
+
+impl Worklist {
+    /// Of nodes with these ranks, the least of which comes first; among equals the first node does.
+    pub fn ranked(ranks: Vec<u32>) -> Self {
+        Self { waits: vec![false; ranks.len()], ranks, queue: BinaryHeap::new() }
+    }
+
+    /// Lets a node wait.
+    pub fn add(&mut self, node: usize) {
+        if let Some(waits) = self.waits.get_mut(node)
+            && !std::mem::replace(waits, true)
+        {
+            self.queue.push(Reverse((self.ranks[node], node as u32)));
+        }
+    }
+
+    /// The first node that waits, which does so no more.
+    pub fn next(&mut self) -> Option<usize> {
+        let Reverse((_, node)) = self.queue.pop()?;
+        self.waits[node as usize] = false;
+        Some(node as usize)
+    }
+}
+
+/// The states of a graph's nodes while they are followed. Whoever follows them takes the next node that waits, and
+/// flows what it makes of its state into others.
+///
+/// Where ranks are a reverse postorder, a node comes after what leads to it.
+#[derive(Clone, Debug)]
+pub struct Flow<S> {
+    /// By node; none where no way leads.
+    states: Vec<Option<S>>,
+    /// By node: how often something was joined into its state.
+    joined: Vec<u32>,
+    work: Worklist,
+}
+
+impl<S: Lattice> Flow<S> {
+    /// Of so many nodes, the first of which comes first.
+    pub fn new(nodes: usize) -> Self {
+        Self::ranked((0..nodes as u32).collect())
+    }
+
+    /// Of nodes with these ranks, the least of which comes first.
+    pub fn ranked(ranks: Vec<u32>) -> Self {
+        let nodes = ranks.len();
+        Self { states: vec![None; nodes], joined: vec![0; nodes], work: Worklist::ranked(ranks) }
+    }
+
+    /// Joins a state into that of a node, which waits where that changed it; true then.
+    pub fn flow(&mut self, to: usize, state: &S) -> bool {
+        self.flow_by(to, state, |mine, theirs, _| mine.join(theirs))
+    }
+
+    /// The same by a join of the caller's own, which is told how often this node's state was joined into before.
+    pub fn flow_by(&mut self, to: usize, state: &S, join: impl FnOnce(&mut S, &S, u32) -> bool) -> bool {
+        let changed = match self.states.get_mut(to) {
+            Some(Some(mine)) => {
+                let times = self.joined[to];
+                self.joined[to] = times.saturating_add(1);
+                join(mine, state, times)
+            }
+            Some(none) => {
+                *none = Some(state.clone());
+                true
+            }
+            None => false,
+        };
+        if changed {
+            self.work.add(to);
+        }
+        changed
+    }
+
+    /// Lets a node be looked at again, as what else it depends on has changed.
+    pub fn again(&mut self, node: usize) {
+        self.work.add(node);
+    }
+
+    /// The next node that is to be looked at.
+    pub fn next(&mut self) -> Option<usize> {
+        self.work.next()
+    }
+
+    /// The state of a node; none where no way led there so far.
+    pub fn state(&self, node: usize) -> Option<&S> {
+        self.states.get(node)?.as_ref()
+    }
+
+    /// The states of all nodes.
+    pub fn into_states(self) -> Vec<Option<S>> {
+        self.states
+    }
+}
+
+/// These nodes, and all that ways lead to from them; `ways` calls its last argument with where a node leads.
+pub fn reached<N: Copy + Ord>(
+    from: impl IntoIterator<Item = N>,
+    mut ways: impl FnMut(N, &mut dyn FnMut(N)),
+) -> BTreeSet<N> {
+    let mut seen: BTreeSet<N> = from.into_iter().collect();
+    let mut work: Vec<N> = seen.iter().copied().collect();
+    while let Some(node) = work.pop() {
+        ways(node, &mut |to| {
+            if seen.insert(to) {
+                work.push(to);
+            }
+        });
+    }
+    seen
+}
