@@ -5,10 +5,11 @@
 //! finds what it began itself.
 
 use super::calls_of;
-use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Flow, Lattice, solve};
+use crate::ir::analysis::{CallGraph, Cfg};
 use crate::ir::{Block, BlockId, Call, Callee, Module, Program, Stmt, StmtKind, TermKind};
 use crate::syntax::ProgramName;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Calls `found` with every statement, by program, that may come after one that `sets` and before one that `ends`.
 pub fn behind(
@@ -70,28 +71,19 @@ impl<'m> Library<'m> {
 
     /// Finds what programs begin through their calls.
     fn close(&mut self, module: &Module) {
-        let mut callers: Vec<Vec<usize>> = vec![Vec::new(); module.programs.len()];
-        let mut work: Vec<usize> = Vec::new();
+        let mut callees = vec![BTreeSet::new(); module.programs.len()];
         for (index, program) in module.programs.iter().enumerate() {
             for call in program.blocks.iter().flat_map(calls_of) {
                 match self.callees(call) {
                     Callees::Own => {}
                     Callees::Any | Callees::Outside => self.within[index] = true,
-                    Callees::These(callees) => callees.iter().for_each(|callee| callers[*callee].push(index)),
+                    Callees::These(these) => callees[index].extend(these.iter().map(|at| (*at, false))),
                 }
             }
-            for callee in program.blocks.iter().flat_map(|block| self.chained(block)) {
-                callers[*callee].push(index);
-            }
-            work.extend(self.within[index].then_some(index));
+            let chained = program.blocks.iter().flat_map(|block| self.chained(block));
+            callees[index].extend(chained.map(|at| (*at, false)));
         }
-        while let Some(callee) = work.pop() {
-            for caller in &callers[callee] {
-                if !std::mem::replace(&mut self.within[*caller], true) {
-                    work.push(*caller);
-                }
-            }
-        }
+        CallGraph::new(callees).bottom_up(&mut self.within, |mine, callee, _| mine.join(callee));
     }
 
     /// The programs that a block goes on in for good.
@@ -123,16 +115,18 @@ impl<'m> Library<'m> {
 
     /// By program, whether it may be in force where it is called.
     fn entries(&self, module: &Module, step: &dyn Fn(&Stmt, bool) -> bool) -> Vec<bool> {
-        let mut entries = vec![false; module.programs.len()];
+        let count = module.programs.len();
+        let mut entries = Flow::new(count);
         // Each program comes twice at the most: as it is, and where it is entered so.
-        let mut work: Vec<usize> = (0..module.programs.len()).collect();
-        while let Some(index) = work.pop() {
+        for index in 0..count {
+            entries.flow(index, &false);
+        }
+        while let Some(index) = entries.pop() {
             let Some(program) = module.programs.get(index) else { continue };
-            let starts = self.starts(index, program, entries[index], step);
+            let before = entries.state(index).copied().unwrap_or_default();
+            let starts = self.starts(index, program, before, step);
             let mut enter = |callee: usize| {
-                if !std::mem::replace(&mut entries[callee], true) {
-                    work.push(callee);
-                }
+                entries.flow(callee, &true);
             };
             for (block, start) in program.blocks.iter().zip(starts) {
                 let on = block.stmts.iter().fold(start, |on, stmt| step(stmt, on));
@@ -147,13 +141,13 @@ impl<'m> Library<'m> {
                     }
                     match self.callees(call) {
                         Callees::Own | Callees::Outside => {}
-                        Callees::Any => (0..module.programs.len()).for_each(&mut enter),
+                        Callees::Any => (0..count).for_each(&mut enter),
                         Callees::These(callees) => callees.iter().copied().for_each(&mut enter),
                     }
                 }
             }
         }
-        entries
+        entries.into_states().into_iter().map(Option::unwrap_or_default).collect()
     }
 
     /// By block, whether it may be in force at its start; `before`: at the start of the program.
@@ -164,33 +158,42 @@ impl<'m> Library<'m> {
         before: bool,
         step: &dyn Fn(&Stmt, bool) -> bool,
     ) -> Vec<bool> {
-        let mut starts = vec![false; program.blocks.len()];
         let within = self.within[index];
         if !before && !within {
-            return starts;
+            return vec![false; program.blocks.len()];
         }
-        let cfg = Cfg::of(program);
-        let called = |call: &Call| self.begins(call) || within && matches!(call.callee, Callee::Block(_));
-        let end = |block: &Block, on: bool| {
-            block.stmts.iter().fold(on, |on, stmt| step(stmt, on)) || calls_of(block).any(called)
-        };
+        let starts = solve(&InForce { library: self, within, before, step }, program, &Cfg::of(program));
+        program.ids().map(|id| starts.at(id).copied().unwrap_or_default()).collect()
+    }
+}
+
+/// What the blocks of a program do to whether it is in force.
+struct InForce<'a, 'm> {
+    library: &'a Library<'m>,
+    /// True where the program, or what it calls, begins it.
+    within: bool,
+    /// True where it may be in force at the start of the program.
+    before: bool,
+    step: &'a dyn Fn(&Stmt, bool) -> bool,
+}
+
+impl Analysis for InForce<'_, '_> {
+    type State = bool;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
         // A subroutine is entered from wherever it is called.
-        cfg.roots().iter().for_each(|root| starts[root.index()] = before || within && *root != BlockId(0));
-        let mut changed = true;
-        // Each round makes one more true, or is the last.
-        while changed {
-            changed = false;
-            for (at, block) in program.blocks.iter().enumerate() {
-                let end = end(block, starts[at]);
-                for to in cfg.succs(BlockId(at as u32)) {
-                    if let Some(start) = starts.get_mut(to.index()).filter(|start| end && !**start) {
-                        *start = true;
-                        changed = true;
-                    }
-                }
-            }
-        }
-        starts
+        let entered = |root: BlockId| self.before || self.within && root != BlockId(0);
+        let roots = cfg.roots().iter().map(|root| (*root, entered(*root)));
+        // What no way leads to counts too.
+        (0..cfg.len() as u32).map(|id| (BlockId(id), false)).chain(roots).collect()
+    }
+
+    fn block(&self, _: BlockId, block: &Block, on: &mut bool) {
+        let library = self.library;
+        let called =
+            |call: &Call| library.begins(call) || self.within && matches!(call.callee, Callee::Block(_));
+        *on = block.stmts.iter().fold(*on, |on, stmt| (self.step)(stmt, on)) || calls_of(block).any(called);
     }
 }
 

@@ -6,8 +6,9 @@ use super::computed_numbers::constant_part;
 use super::rewrite::{Part, highest_temp, rebuild};
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Every, reached, solve};
 use crate::ir::{
-    Bank, Block, Call, Callee, Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var,
+    Bank, Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var,
 };
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
@@ -22,19 +23,17 @@ pub type Numbers = RangeInclusive<u32>;
 pub fn local(module: &Module, called: &CalledPrograms, at: usize, numbers: &Numbers) -> Option<u32> {
     let mut written = Locals::new();
     // What shares the level: subprograms, whatever they call at the same level, and where they return to.
-    let mut shared = BTreeSet::from([at]);
-    let mut work = vec![at];
-    while let Some(index) = work.pop() {
+    let shared = reached([at], |index, go| {
         let program = &module.programs[index];
         written.extend(program.blocks.iter().flat_map(|block| may_write(block, numbers)));
         for (id, block) in program.ids().zip(&program.blocks) {
             if let TermKind::Call { call, .. } = &block.term.kind
                 && !call.level
             {
-                work.extend(called.by((index, id), call).iter().filter(|callee| shared.insert(**callee)));
+                called.by((index, id), call).iter().for_each(|callee| go(*callee));
             }
         }
-    }
+    });
     let of_others = shared.iter().filter(|other| **other != at).map(|other| &module.programs[*other]);
     let mut read: Locals =
         of_others.flat_map(|other| other.blocks.iter().flat_map(|block| reads(block, numbers))).collect();
@@ -151,29 +150,12 @@ pub fn sets(program: &Program, local: Var) -> bool {
 
 /// What a program may read before it wrote it.
 fn early(program: &Program, numbers: &Numbers) -> Locals {
-    let cfg = Cfg::of(program);
     let all: Locals = program.blocks.iter().flat_map(writes).collect();
-    // What is written on every way to a block; at first, all.
-    let mut sure = vec![all; program.blocks.len()];
-    if let Some(entry) = sure.first_mut() {
-        entry.clear();
-    }
-    let mut changed = true;
-    while std::mem::take(&mut changed) {
-        for (id, block) in program.ids().zip(&program.blocks) {
-            let mut behind = sure[id.index()].clone();
-            behind.extend(writes(block));
-            for to in cfg.succs(id) {
-                if let Some(there) = sure.get_mut(to.index()) {
-                    let before = there.len();
-                    there.retain(|local| behind.contains(local));
-                    changed |= there.len() != before;
-                }
-            }
-        }
-    }
+    let before = solve(&Written, program, &Cfg::of(program));
     let mut found = Locals::new();
-    for (block, mut sure) in program.blocks.iter().zip(sure) {
+    for (id, block) in program.ids().zip(&program.blocks) {
+        // Where no way leads, all is.
+        let mut sure = before.at(id).map_or_else(|| all.clone(), |before| before.0.clone());
         let mut look = |e: &Expr, sure: &Locals| {
             found.extend(locals(e, numbers).into_iter().filter(|l| !sure.contains(l)))
         };
@@ -184,6 +166,22 @@ fn early(program: &Program, numbers: &Numbers) -> Locals {
         block.term.kind.exprs(&mut |e| look(e, &sure));
     }
     found
+}
+
+/// The locals that every way to a place writes.
+struct Written;
+
+impl Analysis for Written {
+    type State = Every<u32>;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, Every<u32>)> {
+        vec![(BlockId(0), Every(Locals::new()))]
+    }
+
+    fn block(&self, _: BlockId, block: &Block, written: &mut Every<u32>) {
+        written.0.extend(writes(block));
+    }
 }
 
 fn written(place: &Place) -> Option<u32> {

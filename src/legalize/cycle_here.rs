@@ -44,10 +44,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let named = Programmed::of(program, &summaries, &|id| facts.at(index, id));
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
-            let mut named = named[at].clone();
+            let mut named = named.at(BlockId(at as u32)).cloned();
             for stmt in &mut block.stmts {
                 state.step(stmt);
-                named.step(stmt, &state, &summaries);
+                named.iter_mut().for_each(|named| named.step(stmt, &state, &summaries));
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere));
                 nc.items.retain(|item| *item != NcItem::Op(Op::CycleHere));
@@ -75,7 +75,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         "a cycle that is defined without a position is taken to be stored only; a repeat of none does that on the target, where it is so taken",
                     )
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
-                    match named.words().filter(|_| across[0].0 == Role::X) {
+                    match named.as_ref().and_then(Programmed::words).filter(|_| across[0].0 == Role::X) {
                         Some([x, y]) => {
                             nc.items.extend([NcItem::Word(Role::X, x), NcItem::Word(Role::Y, y)]);
                             Some("the cycle is run at the turned place by naming that place again")

@@ -12,7 +12,8 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
 use std::collections::BTreeMap;
 
 /// The words of a cycle but for its planes, which every cycle has.
@@ -32,10 +33,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
     let parts = parts(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let starts = starts(program, index, &facts, parts, context);
-        for ((at, block), start) in program.blocks.iter_mut().enumerate().zip(starts) {
-            let mut state = facts.at(index, BlockId(at as u32));
-            let mut lasting = start.unwrap_or_default();
+        let rules = Rules { index, facts: &facts, parts, context };
+        let starts = solve(&rules, program, &Cfg::of(program));
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let mut state = facts.at(index, id);
+            let mut lasting = starts.at(id).cloned().unwrap_or_default();
             for stmt in &mut block.stmts {
                 let before = state.op(Group::Cycle);
                 state.step(stmt);
@@ -136,8 +138,9 @@ impl Lasting {
             self.join(&old);
         }
     }
+}
 
-    /// Joins what lasts on another way; true where that changed anything.
+impl Lattice for Lasting {
     fn join(&mut self, other: &Self) -> bool {
         let old = self.clone();
         if self.dwell != other.dwell {
@@ -148,52 +151,44 @@ impl Lasting {
     }
 }
 
-/// What lasts at the start of each block; none where no way leads.
-fn starts(
-    program: &Program,
+/// What blocks of a program do to what lasts.
+struct Rules<'r> {
     index: usize,
-    facts: &ModalFacts,
+    facts: &'r ModalFacts,
+    /// True where any block of the library tells the target another dwell than the source.
     parts: bool,
-    context: &Context<'_>,
-) -> Vec<Option<Lasting>> {
-    let cycle = |id: BlockId| facts.at(index, id).op(Group::Cycle);
-    let unknown = || Lasting { dwell: Dwell::Many, away: parts };
-    let cfg = Cfg::of(program);
-    let mut starts: Vec<Option<Lasting>> = vec![None; program.blocks.len()];
-    for root in cfg.roots() {
-        // Who calls it under a cycle has told that something.
-        let under = *root != BlockId(0) || cycle(*root).is_some_and(Op::is_cycle);
-        starts[root.index()] = Some(if under { unknown() } else { Lasting::default() });
+    context: &'r Context<'r>,
+}
+
+impl Rules<'_> {
+    fn unknown(&self) -> Lasting {
+        Lasting { dwell: Dwell::Many, away: self.parts }
     }
-    let mut work: Vec<BlockId> = cfg.roots().to_vec();
-    while let Some(id) = work.pop() {
-        let (Some(block), Some(mut lasting)) = (program.block(id), starts[id.index()].clone()) else {
-            continue;
-        };
-        let mut state = facts.at(index, id);
+}
+
+impl Analysis for Rules<'_> {
+    type State = Lasting;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Lasting)> {
+        let cycle = |id: BlockId| self.facts.at(self.index, id).op(Group::Cycle);
+        // Who calls it under a cycle has told that something.
+        let under = |root: BlockId| root != BlockId(0) || cycle(root).is_some_and(Op::is_cycle);
+        let roots = cfg.roots().iter().copied();
+        roots.map(|root| (root, if under(root) { self.unknown() } else { Lasting::default() })).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, lasting: &mut Lasting) {
+        let mut state = self.facts.at(self.index, id);
         for stmt in &block.stmts {
             let before = state.op(Group::Cycle);
             state.step(stmt);
-            lasting.step(stmt, before, state.op(Group::Cycle), context);
+            lasting.step(stmt, before, state.op(Group::Cycle), self.context);
         }
         if matches!(block.term.kind, TermKind::Call { .. }) {
-            lasting = unknown();
-        }
-        for to in cfg.succs(id) {
-            let start = &mut starts[to.index()];
-            let changed = match start {
-                Some(start) => start.join(&lasting),
-                None => {
-                    *start = Some(lasting.clone());
-                    true
-                }
-            };
-            if changed {
-                work.push(*to);
-            }
+            *lasting = self.unknown();
         }
     }
-    starts
 }
 
 /// True where any block of a library tells the target another dwell than the source.

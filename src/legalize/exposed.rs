@@ -1,10 +1,15 @@
 //! Which shared variables a program may read before anything in it, or in what it calls, wrote them.
 
+mod written;
+
 use super::calls_of;
-use crate::ir::analysis::{CallGraph, Row, Universe, VarSet};
+use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
+use crate::ir::analysis::{CallGraph, Cfg, Row, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use written::Written;
 
 /// A routine: a program entered at a block.
 type Routine = (usize, BlockId);
@@ -30,12 +35,10 @@ impl Exposed {
     pub fn among(module: &Module, universe: Universe) -> Self {
         let callees = Callees::of(module);
         let written = Written::of(module, &callees, &universe);
-        let (none, everything) = (universe.none(), universe.all());
+        let none = universe.none();
         let own = (0..module.programs.len()).map(|index| (index, BlockId(0)));
-        let routines = written.0.keys().copied().chain(own);
+        let routines = written.routines().chain(own);
         let mut entries: BTreeMap<Routine, Row> = routines.map(|routine| (routine, none.clone())).collect();
-        // Live at the start of each block of one program: what a library of them would take stays small.
-        let mut live_in: Vec<Row> = Vec::new();
         callees.graph(module).settle(|index| {
             let program = &module.programs[index];
             let transfer = |block| Transfer::of(block, &universe, |call| callees.called(index, call));
@@ -47,52 +50,26 @@ impl Exposed {
                     anywhere.join(row);
                 });
             }
-            live_in.clear();
-            live_in.resize(program.blocks.len(), none.clone());
+            // What each block has at its end of a library of them would take much: one program's are kept at a time.
+            let live = Live {
+                program,
+                transfers: &transfers,
+                entries: &entries,
+                anywhere,
+                written: &written,
+                none: &none,
+            };
+            let ends = solve(&live, program, &Cfg::of(program));
             let own = || (index, BlockId(0))..(index + 1, BlockId(0));
-            for (routine, row) in entries.range(own()) {
-                live_in.get_mut(routine.1.index()).into_iter().for_each(|live| live.clone_from(row));
-            }
-            let back = seen_before(program);
-            let mut changed = true;
-            let mut live = none.clone();
-            while std::mem::take(&mut changed) {
-                for (at, block) in program.blocks.iter().enumerate().rev() {
-                    let Transfer { reads, passes, called: callee, modal } = &transfers[at];
-                    live.clone_from(&none);
-                    for to in block.term.kind.successors() {
-                        live.join(live_in.get(to.index()).unwrap_or(&none));
-                    }
-                    if let Some(Called::One(routine)) = callee
-                        && let Some(sure) = written.by_end(*routine, block)
-                    {
-                        live.subtract(sure);
-                    }
-                    let called = |live: &mut Row, callee: Called, passes: &Row| {
-                        let mut there = match callee {
-                            Called::Any => &anywhere,
-                            Called::One(routine) => {
-                                let own = live_in.get(routine.1.index()).filter(|_| routine.0 == index);
-                                own.or_else(|| entries.get(&routine)).unwrap_or(&none)
-                            }
-                        }
-                        .clone();
-                        there.intersect(passes);
-                        live.join(&there);
-                    };
-                    callee.iter().for_each(|callee| called(&mut live, *callee, &everything));
-                    live.intersect(passes);
-                    live.join(reads);
-                    // It runs at moves behind it, before what is written later.
-                    modal.iter().for_each(|(callee, passes)| called(&mut live, *callee, passes));
-                    changed |= live_in[at].join(&live) && back[at];
-                }
-            }
-            let mut any = false;
-            for (routine, row) in entries.range_mut(own()) {
-                any |= live_in.get(routine.1.index()).is_some_and(|live| row.join(live));
-            }
-            any
+            let found: Vec<Row> = (entries.range(own()))
+                .map(|((_, id), _)| {
+                    let mut start = ends.at(*id).unwrap_or(&none).clone();
+                    program.block(*id).iter().for_each(|block| live.block(*id, block, &mut start));
+                    start
+                })
+                .collect();
+            let rows = entries.range_mut(own()).zip(&found);
+            rows.fold(false, |changed, ((_, row), live)| row.join(live) || changed)
         });
         Self { universe, entries }
     }
@@ -107,6 +84,63 @@ impl Exposed {
     pub fn at_entry(&self, program: usize) -> BTreeSet<Var> {
         let row = self.entries.get(&(program, BlockId(0)));
         row.into_iter().flat_map(|row| self.universe.members(row)).collect()
+    }
+}
+
+/// What is live at the end of each block of a program, where its calls enter what is known to be live there so far.
+struct Live<'l> {
+    program: &'l Program,
+    transfers: &'l [Transfer],
+    entries: &'l BTreeMap<Routine, Row>,
+    /// What is live where any program is entered.
+    anywhere: Row,
+    written: &'l Written,
+    none: &'l Row,
+}
+
+impl Live<'_> {
+    fn called(&self, callee: Called) -> Option<&Row> {
+        match callee {
+            Called::Any => Some(&self.anywhere),
+            Called::One(routine) => self.entries.get(&routine),
+        }
+    }
+}
+
+impl Analysis for Live<'_> {
+    type State = Row;
+    const DIRECTION: Direction = Direction::Backward;
+
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, Row)> {
+        self.program.ids().map(|id| (id, self.none.clone())).collect()
+    }
+
+    fn block(&self, id: BlockId, _: &Block, live: &mut Row) {
+        let Some(Transfer { reads, passes, called, modal }) = self.transfers.get(id.index()) else { return };
+        called.iter().filter_map(|callee| self.called(*callee)).for_each(|there| {
+            live.join(there);
+        });
+        live.intersect(passes);
+        live.join(reads);
+        // It runs at moves after it, before what is written later.
+        for (callee, passes) in modal {
+            let mut there = self.called(*callee).cloned().unwrap_or_default();
+            there.intersect(passes);
+            live.join(&there);
+        }
+    }
+
+    /// What a call surely writes is not live before it for what comes after it.
+    fn edge<'s>(&self, from: BlockId, _: BlockId, live: &'s Row) -> Option<Cow<'s, Row>> {
+        let called = self.transfers.get(from.index()).and_then(|transfer| transfer.called);
+        let sure = match (called, self.program.block(from)) {
+            (Some(Called::One(routine)), Some(block)) => self.written.by_end(routine, block),
+            _ => None,
+        };
+        let Some(sure) = sure else { return Some(Cow::Borrowed(live)) };
+        let mut live = live.clone();
+        live.subtract(sure);
+        Some(Cow::Owned(live))
     }
 }
 
@@ -169,125 +203,6 @@ impl<'m> Callees<'m> {
             _ => None,
         }
     }
-}
-
-/// What every way through a called routine writes; absent while no way through it is known.
-struct Written(BTreeMap<Routine, Option<Row>>);
-
-impl Written {
-    fn of(module: &Module, callees: &Callees<'_>, universe: &Universe) -> Self {
-        let mut written = Self(BTreeMap::new());
-        for (index, program) in module.programs.iter().enumerate() {
-            for call in program.blocks.iter().flat_map(calls_of) {
-                if let Some(routine) = callees.routine(index, call) {
-                    written.0.insert(routine, None);
-                }
-            }
-        }
-        // From "all variables" down: each round can only take variables away.
-        callees.graph(module).settle(|index| {
-            let own = (index, BlockId(0))..(index + 1, BlockId(0));
-            let routines: Vec<Routine> = written.0.range(own).map(|(routine, _)| *routine).collect();
-            let mut any = false;
-            let mut changed = true;
-            while std::mem::take(&mut changed) {
-                for &routine in &routines {
-                    let now = written.through(module, routine, callees, universe);
-                    if written.0.get(&routine) != Some(&now) {
-                        written.0.insert(routine, now);
-                        changed = true;
-                    }
-                }
-                any |= changed;
-            }
-            any
-        });
-        written
-    }
-
-    /// What is surely written when a call at the end of a block comes back.
-    fn by_end(&self, routine: Routine, block: &Block) -> Option<&Row> {
-        match &block.term.kind {
-            TermKind::Call { call, .. } if runs(call) => self.0.get(&routine)?.as_ref(),
-            _ => None,
-        }
-    }
-
-    fn through(
-        &self,
-        module: &Module,
-        routine: Routine,
-        callees: &Callees<'_>,
-        universe: &Universe,
-    ) -> Option<Row> {
-        let program = module.programs.get(routine.0)?;
-        let mut at_start: BTreeMap<BlockId, Row> = BTreeMap::from([(routine.1, universe.none())]);
-        let mut work = vec![routine.1];
-        let mut result: Option<Row> = None;
-        while let Some(id) = work.pop() {
-            let (Some(block), Some(before)) = (program.block(id), at_start.get(&id)) else { continue };
-            let mut after = before.clone();
-            for stmt in block.stmts.iter().filter(|stmt| stmt.site.skip.is_none()) {
-                if let Some(Place::Var(var)) = stmt.kind.target() {
-                    universe.place(*var).iter().for_each(|at| after.insert(*at));
-                }
-            }
-            if let TermKind::Call { call, .. } = &block.term.kind
-                && let Some(callee) = callees.routine(routine.0, call).filter(|_| runs(call))
-            {
-                match self.0.get(&callee) {
-                    // It is not known to come back so far.
-                    Some(None) => continue,
-                    Some(Some(sure)) => {
-                        after.join(sure);
-                    }
-                    None => {}
-                }
-            }
-            if let TermKind::Return { .. } = block.term.kind {
-                match &mut result {
-                    None => result = Some(after.clone()),
-                    Some(so_far) => so_far.intersect(&after),
-                }
-            }
-            for to in block.term.kind.successors() {
-                match at_start.get_mut(&to) {
-                    None => drop(at_start.insert(to, after.clone())),
-                    Some(known) => {
-                        let mut both = known.clone();
-                        both.intersect(&after);
-                        if both == *known {
-                            continue;
-                        }
-                        *known = both;
-                    }
-                }
-                work.push(to);
-            }
-        }
-        result
-    }
-}
-
-/// True where the call surely runs its callee, and once at least.
-fn runs(call: &Call) -> bool {
-    call.count.as_ref().is_none_or(|count| count.constant().is_some_and(|n| n >= 1.0))
-}
-
-/// By block: true where what is live at its start says something of a block that stands behind it or of itself.
-fn seen_before(program: &Program) -> Vec<bool> {
-    let mut seen = vec![false; program.blocks.len()];
-    let mut note = |to: BlockId| seen.get_mut(to.index()).into_iter().for_each(|seen| *seen = true);
-    for (at, block) in program.blocks.iter().enumerate() {
-        block.term.kind.successors().into_iter().filter(|to| to.index() <= at).for_each(&mut note);
-        calls_of(block).for_each(|call| match &call.callee {
-            Callee::Block(entry) => note(*entry),
-            // It may be the program itself.
-            Callee::Program(name) if program.name.as_ref() == Some(name) => note(BlockId(0)),
-            _ => {}
-        });
-    }
-    seen
 }
 
 /// What a block makes of what is live behind it.

@@ -9,7 +9,8 @@ use super::{Context, ModalFacts};
 use crate::canon::{Group, Op, Role};
 use crate::dialect::Question;
 use crate::ir::analysis::Cfg;
-use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Steps, solve};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
 
 const FACT: Question = Question::LengthWordPicksRadius;
 
@@ -23,9 +24,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let compensates = stmts().filter_map(|stmt| stmt.kind.nc()).any(compensates);
     let facts = ModalFacts::of(module, &context.entry);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let looked_at = looked_at(program, elsewhere);
-        for (at, (block, mut live)) in program.blocks.iter_mut().zip(looked_at).enumerate() {
-            let mut state = facts.at(index, BlockId(at as u32));
+        let rules = LookedAt { elsewhere };
+        let ends = solve(&rules, program, &Cfg::of(program));
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let mut live = ends.at(id).copied().unwrap_or_default();
+            rules.first(id, block, &mut live);
+            let mut state = facts.at(index, id);
             let off = block.stmts.iter().map(|stmt| {
                 let off = state.op(Group::RadiusComp) == Some(Op::RadiusOff);
                 state.step(stmt);
@@ -79,28 +83,34 @@ fn before(nc: &Nc, skipped: bool, behind: bool) -> bool {
     if nc.word(Role::RadiusOffset).is_some() { skipped && behind } else { behind || looks(nc) }
 }
 
-/// Whether the radius in force at the end of each block may be looked at; `elsewhere`: in what is called, and by callers.
-fn looked_at(program: &Program, elsewhere: bool) -> Vec<bool> {
-    let cfg = Cfg::of(program);
-    let mut starts = vec![false; program.blocks.len()];
-    let mut ends = vec![false; program.blocks.len()];
-    let mut changed = true;
-    // Each round makes one more true, or is the last.
-    while changed {
-        changed = false;
-        for (at, block) in program.blocks.iter().enumerate().rev() {
-            let follows =
-                cfg.succs(BlockId(at as u32)).iter().any(|to| starts.get(to.index()) == Some(&true));
-            let leaves = matches!(block.term.kind, TermKind::Call { .. } | TermKind::Return { .. });
-            let end = follows || leaves && elsewhere;
-            let step = |behind, stmt: &Stmt| match stmt.kind.nc() {
-                Some(nc) => before(nc, stmt.site.skip.is_some(), behind),
-                None => behind,
-            };
-            let start = block.stmts.iter().rev().fold(end, step);
-            changed |= start != starts[at] || end != ends[at];
-            (starts[at], ends[at]) = (start, end);
+/// What blocks do to whether the radius in force may be looked at; `elsewhere`: in what is called, and by callers.
+struct LookedAt {
+    elsewhere: bool,
+}
+
+impl Analysis for LookedAt {
+    type State = bool;
+    const DIRECTION: Direction = Direction::Backward;
+
+    /// At the end of each block.
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, bool)> {
+        (0..cfg.len() as u32).map(|id| (BlockId(id), false)).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, looked_at: &mut bool) {
+        self.stmts(id, block, looked_at);
+    }
+}
+
+impl Steps for LookedAt {
+    fn first(&self, _: BlockId, block: &Block, looked_at: &mut bool) {
+        let leaves = matches!(block.term.kind, TermKind::Call { .. } | TermKind::Return { .. });
+        *looked_at |= leaves && self.elsewhere;
+    }
+
+    fn stmt(&self, _: (BlockId, usize), stmt: &Stmt, looked_at: &mut bool) {
+        if let Some(nc) = stmt.kind.nc() {
+            *looked_at = before(nc, stmt.site.skip.is_some(), *looked_at);
         }
     }
-    ends
 }

@@ -2,6 +2,7 @@
 
 use super::tool_word::ToolWord;
 use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::dataflow::{Lattice, reached_among};
 use crate::ir::{Block, BlockId, Call, Expr, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -288,9 +289,10 @@ impl Modal {
             self.settings[Group::Cycle as usize] = Setting::Known(Op::CycleOff, None);
         }
     }
+}
 
-    /// Joins the state of another path; true where that changed anything.
-    pub(super) fn join(&mut self, other: &Modal) -> bool {
+impl Lattice for Modal {
+    fn join(&mut self, other: &Self) -> bool {
         if other.is_unreached() {
             return false;
         }
@@ -345,14 +347,9 @@ pub fn span_of(block: &Block, call: &Call) -> Span {
 
 /// The blocks that a routine entered at `entry` can run, calls stepped over.
 pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
-    let mut seen = vec![false; program.blocks.len()];
-    let mut work = vec![entry];
-    while let Some(id) = work.pop() {
-        if let Some(block) = program.block(id)
-            && !std::mem::replace(&mut seen[id.index()], true)
-        {
-            work.extend(block.term.kind.successors());
-        }
-    }
+    let seen = reached_among(program.blocks.len(), [entry.index()], |at, go| {
+        let block = program.blocks.get(at).into_iter();
+        block.flat_map(|block| block.term.kind.successors()).for_each(|to| go(to.index()));
+    });
     program.ids().filter(|id| seen[id.index()]).collect()
 }

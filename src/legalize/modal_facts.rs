@@ -8,6 +8,7 @@
 
 use super::computed_calls::{Callees, computed_calls};
 use super::{Modal, calls_of, reachable};
+use crate::ir::analysis::dataflow::{Flow, Lattice};
 use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, TermKind};
 use crate::syntax::{Label, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,11 +17,26 @@ use std::rc::Rc;
 /// The modal state at the start of every block of a library.
 #[derive(Clone, Debug)]
 pub struct ModalFacts {
-    entries: Vec<Vec<Entry>>,
+    /// By block of all programs, one program after the other; none where no path leads. Most blocks change nothing, and
+    /// start in one state.
+    entries: Vec<Option<Rc<Modal>>>,
+    /// By program, the place of its first block; at last, that of the end.
+    firsts: Vec<usize>,
 }
 
-/// The state at the start of a block; none where no path leads. Most blocks change nothing, and start in one state.
-type Entry = Option<Rc<Modal>>;
+impl Lattice for Rc<Modal> {
+    fn join(&mut self, other: &Self) -> bool {
+        if Rc::ptr_eq(self, other) || self == other {
+            return false;
+        }
+        let mut joined = Modal::clone(self);
+        let changed = joined.join(&**other);
+        if changed {
+            *self = if joined == **other { Rc::clone(other) } else { Rc::new(joined) };
+        }
+        changed
+    }
+}
 
 impl ModalFacts {
     /// Analyses a library whose runs begin in the state `entry`.
@@ -30,7 +46,7 @@ impl ModalFacts {
 
     /// Nothing known anywhere.
     pub fn unknown() -> Self {
-        Self { entries: Vec::new() }
+        Self { entries: Vec::new(), firsts: Vec::new() }
     }
 
     /// The same where the macro of a modal call that stands inside another is a copy of its own: then its
@@ -41,7 +57,11 @@ impl ModalFacts {
 
     /// The state at the start of a block.
     pub fn at(&self, program: usize, block: BlockId) -> Modal {
-        let entry = self.entries.get(program).and_then(|p| p.get(block.index()));
+        let own = match self.firsts.get(program..) {
+            Some([first, end, ..]) => self.entries.get(*first..*end),
+            _ => None,
+        };
+        let entry = own.and_then(|own| own.get(block.index()));
         entry.and_then(Option::as_deref).cloned().unwrap_or_else(Modal::unknown)
     }
 }
@@ -55,16 +75,24 @@ struct Analysis<'m> {
     copies: bool,
     by_name: BTreeMap<&'m ProgramName, usize>,
     computed: BTreeMap<Routine, Callees>,
-    entries: Vec<Vec<Entry>>,
+    /// By block of all programs, one program after the other.
+    entries: Flow<Rc<Modal>>,
+    /// By program, the place of its first block; at last, that of the end.
+    firsts: Vec<usize>,
     exits: BTreeMap<Routine, Modal>,
     /// Call blocks to look at again when a routine's exit changes.
     callers: BTreeMap<Routine, BTreeSet<Routine>>,
     reach: BTreeMap<Routine, BTreeSet<BlockId>>,
-    work: BTreeSet<Routine>,
 }
 
 impl<'m> Analysis<'m> {
     fn new(module: &'m Module, copies: bool) -> Self {
+        let mut firsts = vec![0];
+        let counts = module.programs.iter().map(|program| program.blocks.len());
+        firsts.extend(counts.scan(0, |place, count| {
+            *place += count;
+            Some(*place)
+        }));
         Self {
             module,
             copies,
@@ -75,11 +103,11 @@ impl<'m> Analysis<'m> {
                 .filter_map(|(i, p)| Some((p.name.as_ref()?, i)))
                 .collect(),
             computed: computed_calls(module),
-            entries: module.programs.iter().map(|p| vec![None; p.blocks.len()]).collect(),
+            entries: Flow::new(firsts.last().copied().unwrap_or_default()),
+            firsts,
             exits: BTreeMap::new(),
             callers: BTreeMap::new(),
             reach: BTreeMap::new(),
-            work: BTreeSet::new(),
         }
     }
 
@@ -95,18 +123,24 @@ impl<'m> Analysis<'m> {
         self.drain();
         // Programs that only call one another: nothing outside says how they start.
         for index in 0..self.module.programs.len() {
-            if self.entries[index].first().is_some_and(Option::is_none) {
+            if !self.module.programs[index].blocks.is_empty() && self.state(index, BlockId(0)).is_none() {
                 self.flow(index, BlockId(0), entry);
                 self.drain();
             }
         }
-        ModalFacts { entries: self.entries }
+        ModalFacts { entries: self.entries.into_states(), firsts: self.firsts }
     }
 
     fn drain(&mut self) {
-        while let Some((program, id)) = self.work.pop_first() {
-            self.block(program, id);
+        while let Some(place) = self.entries.pop() {
+            // Programs without blocks begin where the next one does.
+            let program = self.firsts.partition_point(|first| *first <= place) - 1;
+            self.block(program, BlockId((place - self.firsts[program]) as u32));
         }
+    }
+
+    fn state(&self, program: usize, id: BlockId) -> Option<&Rc<Modal>> {
+        self.entries.state(self.firsts[program] + id.index())
     }
 
     fn called_programs(&self) -> BTreeSet<usize> {
@@ -124,31 +158,14 @@ impl<'m> Analysis<'m> {
     }
 
     fn flow(&mut self, program: usize, to: BlockId, state: &Rc<Modal>) {
-        let Some(entry) = self.entries[program].get_mut(to.index()) else { return };
-        let changed = match entry {
-            _ if state.is_unreached() => false,
-            None => {
-                *entry = Some(Rc::clone(state));
-                true
-            }
-            Some(entry) if Rc::ptr_eq(entry, state) || *entry == *state => false,
-            Some(entry) => {
-                let mut joined = Modal::clone(entry);
-                let changed = joined.join(state);
-                if changed {
-                    *entry = if joined == **state { Rc::clone(state) } else { Rc::new(joined) };
-                }
-                changed
-            }
-        };
-        if changed {
-            self.work.insert((program, to));
+        if self.module.programs[program].block(to).is_some() && !state.is_unreached() {
+            self.entries.flow(self.firsts[program] + to.index(), state);
         }
     }
 
     fn block(&mut self, index: usize, id: BlockId) {
         let Some(block) = self.module.programs[index].block(id) else { return };
-        let Some(entry) = self.entries[index][id.index()].clone() else { return };
+        let Some(entry) = self.state(index, id).cloned() else { return };
         let mut state = Rc::clone(&entry);
         for stmt in block.stmts.iter().filter(|stmt| Modal::may_step(stmt)) {
             let nested = state.calls.as_ref().is_some_and(|calls| !calls.is_empty());
@@ -194,8 +211,12 @@ impl<'m> Analysis<'m> {
             // Its returns may have been looked at before anybody was known to call it.
             let program = &self.module.programs[routine.0];
             let body = self.reach.entry(routine).or_insert_with(|| reachable(program, routine.1));
-            let returns = body.iter().filter(|&&id| self.entries[routine.0][id.index()].is_some());
-            self.work.extend(returns.map(|&id| (routine.0, id)));
+            let (first, entries) = (self.firsts[routine.0], &mut self.entries);
+            for place in body.iter().map(|id| first + id.index()) {
+                if entries.state(place).is_some() {
+                    entries.again(place);
+                }
+            }
         }
         self.flow(routine.0, routine.1, state);
         let after = Rc::new(self.exits.get(&routine).cloned().unwrap_or_default());
@@ -217,7 +238,8 @@ impl<'m> Analysis<'m> {
                 continue;
             }
             if self.exits.entry(routine).or_default().join(state) {
-                self.work.extend(self.callers[&routine].iter().copied());
+                let callers = self.callers.get(&routine).into_iter().flatten();
+                callers.for_each(|(caller, id)| self.entries.again(self.firsts[*caller] + id.index()));
             }
             if let Some(to) = to {
                 let callers: BTreeSet<usize> = self.callers[&routine].iter().map(|caller| caller.0).collect();

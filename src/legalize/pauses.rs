@@ -15,9 +15,12 @@ use super::modal_facts::ModalFacts;
 use super::{Context, Modal};
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::CallGraph;
+use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{BlockId, Module, Nc, NcItem, Site, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 use after::After;
+use std::collections::BTreeSet;
 
 /// True where something that may be running is started, or runs from the start: in a piece of a program.
 pub fn concerns(census: &Census, entry: &Modal) -> bool {
@@ -110,26 +113,18 @@ fn started(module: &Module) -> Vec<[bool; 2]> {
             Running::ALL.map(|running| starts_in(&census, running))
         })
         .collect();
-    let calls = CalledPrograms::of(module).pairs(module);
-    // First what a program or those that it calls start, then what was started by those that call it.
-    spread(&mut found, calls.iter().map(|(caller, callee)| (*callee, *caller)));
-    spread(&mut found, calls.iter().copied());
-    found
-}
-
-/// Carries what is started along pairs, until nothing changes.
-fn spread(found: &mut [[bool; 2]], pairs: impl Iterator<Item = (usize, usize)>) {
-    let mut next = vec![Vec::new(); found.len()];
-    pairs.for_each(|(from, to)| next[from].push(to));
-    let mut work: Vec<usize> = (0..found.len()).collect();
-    while let Some(from) = work.pop() {
-        for to in &next[from] {
-            let either = [0, 1].map(|at| found[from][at] || found[*to][at]);
-            if std::mem::replace(&mut found[*to], either) != either {
-                work.push(*to);
-            }
-        }
+    let mut callees = vec![BTreeSet::new(); found.len()];
+    for (caller, callee) in CalledPrograms::of(module).pairs(module) {
+        callees[caller].insert((callee, false));
     }
+    let graph = CallGraph::new(callees);
+    let either = |mine: &mut [bool; 2], theirs: &[bool; 2], _| {
+        mine.iter_mut().zip(theirs).fold(false, |changed, (mine, theirs)| mine.join(theirs) || changed)
+    };
+    // First what a program or those that it calls start, then what was started by those that call it.
+    graph.bottom_up(&mut found, either);
+    graph.top_down(&mut found, either);
+    found
 }
 
 /// Lays down a stop, and before it what ends what is running; the words beside the stop come first.

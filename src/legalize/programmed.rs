@@ -6,58 +6,65 @@
 
 use super::Modal;
 use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, States, solve};
 use crate::ir::analysis::{Cfg, Summaries, Vars};
-use crate::ir::{BlockId, Expr, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Expr, Program, Stmt, StmtKind, TermKind};
 
-/// The last position in X and Y that the program named, absolute, where it is known.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Programmed {
-    /// No path leads here.
-    #[default]
-    Unreached,
-    /// These words still name it.
-    Known([Option<Expr>; 2]),
+/// The last position in X and Y that the program named, absolute: the words that still name it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Programmed([Option<Expr>; 2]);
+
+const NOWHERE: Programmed = Programmed([None, None]);
+
+impl Lattice for Programmed {
+    fn join(&mut self, other: &Self) -> bool {
+        let mut changed = false;
+        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
+            if mine.is_some() && mine != theirs {
+                *mine = None;
+                changed = true;
+            }
+        }
+        changed
+    }
 }
 
-const NOWHERE: Programmed = Programmed::Known([None, None]);
+/// What blocks do to it; `modal` says what is in force at the start of each.
+struct Rules<'r> {
+    summaries: &'r Summaries,
+    modal: &'r dyn Fn(BlockId) -> Modal,
+}
+
+impl Analysis for Rules<'_> {
+    type State = Programmed;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Programmed)> {
+        cfg.roots().iter().map(|root| (*root, NOWHERE)).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, here: &mut Programmed) {
+        let mut state = (self.modal)(id);
+        for stmt in &block.stmts {
+            state.step(stmt);
+            here.step(stmt, &state, self.summaries);
+        }
+        if matches!(block.term.kind, TermKind::Call { .. }) {
+            *here = NOWHERE;
+        }
+    }
+}
 
 impl Programmed {
     /// The position at the start of every block of a program. `modal` says what is in force there.
-    pub fn of(program: &Program, summaries: &Summaries, modal: &dyn Fn(BlockId) -> Modal) -> Vec<Self> {
-        let cfg = Cfg::of(program);
-        let mut entries = vec![Self::Unreached; program.blocks.len()];
-        for root in cfg.roots() {
-            entries[root.index()] = NOWHERE;
-        }
-        // Each entry loses at most two words, so this ends.
-        let mut changed = true;
-        while changed {
-            changed = false;
-            for &id in cfg.order() {
-                let Some(block) = program.block(id) else { continue };
-                let (mut here, mut state) = (entries[id.index()].clone(), modal(id));
-                if here == Self::Unreached {
-                    continue;
-                }
-                for stmt in &block.stmts {
-                    state.step(stmt);
-                    here.step(stmt, &state, summaries);
-                }
-                if matches!(block.term.kind, TermKind::Call { .. }) {
-                    here = NOWHERE;
-                }
-                for to in cfg.succs(id) {
-                    changed |= entries[to.index()].join(&here);
-                }
-            }
-        }
-        entries
+    pub fn of(program: &Program, summaries: &Summaries, modal: &dyn Fn(BlockId) -> Modal) -> States<Self> {
+        solve(&Rules { summaries, modal }, program, &Cfg::of(program))
     }
 
     /// Both words, where both are known.
     pub fn words(&self) -> Option<[Expr; 2]> {
-        match self {
-            Self::Known([Some(x), Some(y)]) => Some([x.clone(), y.clone()]),
+        match &self.0 {
+            [Some(x), Some(y)] => Some([x.clone(), y.clone()]),
             _ => None,
         }
     }
@@ -82,10 +89,8 @@ impl Programmed {
             }
             _ => {}
         }
-        if let Self::Known(words) = self {
-            for word in words {
-                *word = word.take().filter(|word| !reads(word, &written));
-            }
+        for word in &mut self.0 {
+            *word = word.take().filter(|word| !reads(word, &written));
         }
         if let Some(before) = before {
             self.join(&before);
@@ -93,30 +98,12 @@ impl Programmed {
     }
 
     fn moved(&mut self, to: [Option<&Expr>; 2], distance: Option<Op>) {
-        let Self::Known(words) = self else { return };
-        for (word, to) in words.iter_mut().zip(to) {
+        for (word, to) in self.0.iter_mut().zip(to) {
             if let Some(to) = to {
                 let stays = distance == Some(Op::Absolute) && is_plain(to);
                 *word = stays.then(|| to.clone());
             }
         }
-    }
-
-    /// Joins what is known on another path; true where that changed anything.
-    fn join(&mut self, other: &Self) -> bool {
-        let Self::Known(theirs) = other else { return false };
-        let Self::Known(mine) = self else {
-            *self = other.clone();
-            return true;
-        };
-        let mut changed = false;
-        for (mine, theirs) in mine.iter_mut().zip(theirs) {
-            if mine.is_some() && mine != theirs {
-                *mine = None;
-                changed = true;
-            }
-        }
-        changed
     }
 }
 

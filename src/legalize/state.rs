@@ -9,6 +9,7 @@ use super::{Context, Position, Rewriter, rewrite_program, tool_word};
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
+use crate::ir::analysis::dataflow::reached;
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -318,17 +319,12 @@ fn write_radius(
 }
 
 /// The programs, and all that call them, directly or not.
-fn callers_of(module: &Module, mut programs: BTreeSet<usize>) -> BTreeSet<usize> {
+fn callers_of(module: &Module, programs: BTreeSet<usize>) -> BTreeSet<usize> {
     let mut callers: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (caller, callee) in CalledPrograms::of(module).pairs(module) {
         callers.entry(callee).or_default().push(caller);
     }
-    let mut work: Vec<usize> = programs.iter().copied().collect();
-    while let Some(index) = work.pop() {
-        let all = callers.get(&index).into_iter().flatten();
-        work.extend(all.copied().filter(|caller| programs.insert(*caller)));
-    }
-    programs
+    reached(programs, |index, go| callers.get(&index).into_iter().flatten().for_each(|caller| go(*caller)))
 }
 
 /// Sets the timer to 0 where each main program that reads it starts.

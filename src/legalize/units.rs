@@ -18,6 +18,8 @@ use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Units;
+use crate::ir::analysis::CallGraph;
+use crate::ir::analysis::dataflow::{Lattice, reached};
 use crate::ir::{
     BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
 };
@@ -149,8 +151,10 @@ fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'sta
 fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
     let called = CalledPrograms::of(module);
     let mut open = vec![false; module.programs.len()];
-    let mut calls: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); open.len()];
+    let mut calls: Vec<BTreeSet<(usize, bool)>> = vec![BTreeSet::new(); open.len()];
     for (index, program) in module.programs.iter().enumerate() {
+        let own = &mut calls[index];
+        let mut enter = |callees: &[usize]| own.extend(callees.iter().map(|callee| (*callee, false)));
         for id in with_subroutines(program) {
             // What it calls says no more of one that is open itself.
             let Some(block) = program.block(id).filter(|_| !open[index]) else { break };
@@ -162,43 +166,34 @@ fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
                 if before.or(state.op(Group::Units)).is_none() {
                     open[index] |= has_length(&stmt.kind);
                     if let StmtKind::ModalCall(call) = &stmt.kind {
-                        calls[index].extend(called.by((index, id), call));
+                        enter(called.by((index, id), call));
                     }
                 }
             }
             if state.op(Group::Units).is_none() {
                 open[index] |= reads_length(|f| block.term.kind.exprs(f));
                 if let TermKind::Call { call, .. } = &block.term.kind {
-                    calls[index].extend(called.by((index, id), call));
+                    enter(called.by((index, id), call));
                 }
             }
         }
     }
-    let mut changed = true;
-    while std::mem::take(&mut changed) {
-        for index in 0..open.len() {
-            if !open[index] && calls[index].iter().any(|&callee| open[callee]) {
-                open[index] = true;
-                changed = true;
-            }
-        }
-    }
+    CallGraph::new(calls).bottom_up(&mut open, |mine, callee, _| mine.join(callee));
     open
 }
 
 /// The blocks that a program can run, those of its subroutines too.
 fn with_subroutines(program: &Program) -> BTreeSet<BlockId> {
-    let mut all = BTreeSet::new();
-    let mut work = vec![BlockId(0)];
-    while let Some(entry) = work.pop() {
-        for id in reachable(program, entry) {
-            let Some(block) = program.block(id).filter(|_| all.insert(id)) else { continue };
-            work.extend(calls_of(block).filter_map(|call| match call.callee {
-                Callee::Block(entry) => Some(entry),
-                _ => None,
-            }));
-        }
-    }
+    let mut all = reached([BlockId(0)], |id, go| {
+        let Some(block) = program.block(id) else { return };
+        block.term.kind.successors().into_iter().for_each(&mut *go);
+        calls_of(block).for_each(|call| {
+            if let Callee::Block(entry) = call.callee {
+                go(entry);
+            }
+        });
+    });
+    all.retain(|id| program.block(*id).is_some());
     all
 }
 

@@ -18,6 +18,7 @@ use super::{Context, ModalFacts, calls_of};
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
+use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{Cfg, Summaries, Vacancy};
 use crate::ir::{
     BlockId, Call, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind,
@@ -87,10 +88,8 @@ fn report(index: usize, span: Span, again: bool, context: &mut Context<'_>) {
 fn runs_again(program: &Program, block: BlockId) -> bool {
     let cfg = Cfg::of(program);
     let calls_itself = |call: &Call| matches!(call.callee, Callee::Block(_)) || call.count.is_some();
-    let (mut seen, mut work) = (BTreeSet::new(), vec![block]);
-    while let Some(at) = work.pop() {
-        work.extend(cfg.succs(at).iter().copied().filter(|to| seen.insert(*to)));
-    }
+    let after = cfg.succs(block).iter().copied();
+    let seen = reached(after, |at, go| cfg.succs(at).iter().for_each(|to| go(*to)));
     seen.contains(&block) || program.blocks.iter().flat_map(calls_of).any(calls_itself)
 }
 

@@ -7,6 +7,7 @@ use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
+use crate::ir::analysis::dataflow::reached;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
 use crate::verify::{self, Certificate, Effort, Job, Names, ProgramCertificate, Side, Spent};
@@ -156,20 +157,12 @@ fn rest_on(
         callers.entry(callee).or_default().insert(caller);
     }
     for (here, programs) in by_file {
-        let all = reached(reached(programs, &callers), &calls);
+        let above = reached(programs, |at, go| callers.get(&at).into_iter().flatten().for_each(|to| go(*to)));
+        let all = reached(above, |at, go| calls.get(&at).into_iter().flatten().for_each(|to| go(*to)));
         let others = all.into_iter().map(file).filter(|other| *other != here);
         files[here].extend(others.filter(|other| conversion.texts[*other].is_some()));
     }
     files
-}
-
-/// These programs and all that ways lead to from them.
-fn reached(mut seen: BTreeSet<usize>, ways: &BTreeMap<usize, BTreeSet<usize>>) -> BTreeSet<usize> {
-    let mut work: Vec<usize> = seen.iter().copied().collect();
-    while let Some(at) = work.pop() {
-        work.extend(ways.get(&at).into_iter().flatten().filter(|next| seen.insert(**next)));
-    }
-    seen
 }
 
 /// What the conversion of a program supposes.

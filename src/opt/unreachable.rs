@@ -10,6 +10,7 @@
 //! jump or `M99 P1000` of a callee reaches: nothing falls into it.
 
 use super::pass::{Level, Library, Pass};
+use crate::ir::analysis::dataflow::reached_among;
 use crate::ir::{Block, BlockId, Callee, Program, Site, StmtKind, TermKind};
 use crate::syntax::Label;
 
@@ -30,27 +31,18 @@ impl Pass for Unreachable {
 }
 
 fn kept(program: &Program, level: Level, come_back: bool) -> Vec<bool> {
-    let mut keep = vec![false; program.blocks.len()];
-    let mut work: Vec<BlockId> = Vec::new();
-    for (id, block) in program.ids().zip(&program.blocks) {
+    let roots = program.ids().zip(&program.blocks).filter(|(id, block)| {
         let numbered = block.labels.iter().any(|label| matches!(label, Label::Number(_)));
         let root = match level {
             Level::O2 => numbered && (come_back || returns_here(program)),
             _ => !is_introduced(block),
         };
-        if id == BlockId(0) || root {
-            work.push(id);
-        }
-    }
-    while let Some(id) = work.pop() {
-        let Some(block) = program.block(id) else { continue };
-        if std::mem::replace(&mut keep[id.index()], true) {
-            continue;
-        }
-        work.extend(block.term.kind.successors());
-        work.extend(entries(block));
-    }
-    keep
+        *id == BlockId(0) || root
+    });
+    reached_among(program.blocks.len(), roots.map(|(id, _)| id.index()), |at, go| {
+        let Some(block) = program.blocks.get(at) else { return };
+        block.term.kind.successors().into_iter().chain(entries(block)).for_each(|to| go(to.index()));
+    })
 }
 
 /// True where a subroutine of the program returns to a label of it.

@@ -43,7 +43,7 @@ impl CallGraph {
         let order = self.callees_first();
         let mut work = Worklist::ranked(ranks(order.iter().rev()));
         order.iter().for_each(|program| work.add(*program));
-        while let Some(at) = work.next() {
+        while let Some(at) = work.pop() {
             for (callee, level) in &self.callees[at] {
                 if join_at(entries, *callee, at, |theirs, mine| join(theirs, mine, *level)) {
                     work.add(*callee);
@@ -59,7 +59,7 @@ impl CallGraph {
         let order = self.callees_first();
         let mut work = Worklist::ranked(ranks(order.iter()));
         order.iter().for_each(|program| work.add(*program));
-        while let Some(program) = work.next() {
+        while let Some(program) = work.pop() {
             if step(program) {
                 self.callers[program].iter().for_each(|caller| work.add(*caller));
             }

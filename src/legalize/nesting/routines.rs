@@ -1,5 +1,6 @@
 //! What can be called in a library, and how deep that nests.
 
+use crate::ir::analysis::CallGraph;
 use crate::ir::{BlockId, Callee, Module, StmtKind, TermKind};
 use crate::legalize::{reachable, span_of};
 use crate::syntax::ProgramName;
@@ -122,16 +123,17 @@ impl Routines {
         if self.crowded {
             return vec![most; self.calls.len()];
         }
+        let callees = |edges: &Vec<Edge>| edges.iter().map(|edge| (edge.to, edge.level)).collect();
         let mut depths = vec![0; self.calls.len()];
-        let mut work: Vec<usize> = (0..self.calls.len()).collect();
-        while let Some(at) = work.pop() {
-            let below = |edge: &Edge| depths[edge.to] + u32::from(counted[usize::from(edge.level)]);
-            let deep = self.calls[at].iter().map(below).max().unwrap_or(0).min(most);
-            if deep > depths[at] {
-                depths[at] = deep;
-                work.extend(&self.callers[at]);
-            }
-        }
+        CallGraph::new(self.calls.iter().map(callees).collect()).bottom_up(
+            &mut depths,
+            |mine, callee, level| {
+                let deep = (callee + u32::from(counted[usize::from(level)])).min(most);
+                let before = *mine;
+                *mine = before.max(deep);
+                *mine != before
+            },
+        );
         depths
     }
 

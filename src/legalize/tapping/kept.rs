@@ -3,7 +3,8 @@
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
-use crate::ir::{BlockId, Class, Expr, Module, Place, Site, Stmt, StmtKind, TermKind, Var};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, States, solve};
+use crate::ir::{Block, BlockId, Class, Expr, Module, Place, Program, Site, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::ModalFacts;
 use crate::legalize::modal::Modal;
 use crate::legalize::rewrite::highest_temp;
@@ -41,7 +42,7 @@ pub struct Kept {
     readable: bool,
     /// True where a program may call another or return in the middle of a tap.
     open: bool,
-    entries: Vec<Vec<Option<Feed>>>,
+    entries: Vec<States<Feed>>,
     /// What holds the feed, in those programs that need it.
     registers: Vec<Option<Var>>,
 }
@@ -68,45 +69,25 @@ impl Kept {
         kept
     }
 
-    /// Follows the feed where programs begin, and go on behind calls, in this state. True where one calls or returns
+    /// Follows the feed where programs begin, and go on after calls, in this state. True where one calls or returns
     /// in another.
     fn flow(&mut self, module: &Module, facts: &ModalFacts, begins: Feed) -> bool {
         let mut open = false;
-        self.entries = module.programs.iter().map(|program| vec![None; program.blocks.len()]).collect();
+        let mut entries = Vec::with_capacity(module.programs.len());
         for (index, program) in module.programs.iter().enumerate() {
-            let cfg = Cfg::of(program);
-            let mut work: Vec<(BlockId, Feed)> = cfg.roots().iter().map(|id| (*id, begins)).collect();
-            // A block's state changes twice at the most.
-            while let Some((id, feed)) = work.pop() {
-                let Some(entry) = self.entries.get_mut(index).and_then(|all| all.get_mut(id.index())) else {
-                    continue;
-                };
-                let joined = entry.map_or(feed, |old| if old == feed { old } else { Feed::Lost });
-                if *entry == Some(joined) {
-                    continue;
-                }
-                *entry = Some(joined);
-                let mut out = joined;
-                let mut modal = facts.at(index, id);
-                for stmt in program.blocks.get(id.index()).into_iter().flat_map(|block| &block.stmts) {
-                    self.step(stmt, &mut modal, &mut out);
-                    open |= out != Feed::Same && calls_by_moving(stmt, &modal);
-                }
-                let kind = program.blocks.get(id.index()).map(|block| &block.term.kind);
-                let calls = matches!(kind, Some(TermKind::Call { .. }));
-                let ends = matches!(kind, Some(TermKind::End { .. }));
-                open |= out != Feed::Same && !ends && (calls || cfg.succs(id).is_empty());
-                let out = if calls && begins == Feed::Lost { Feed::Lost } else { out };
-                work.extend(cfg.succs(id).iter().map(|to| (*to, out)));
-            }
+            let (rules, cfg) = (Follows { kept: &*self, facts, index, begins }, Cfg::of(program));
+            let starts = solve(&rules, program, &cfg);
+            open |= program.ids().any(|id| rules.is_open(program, &cfg, id, &starts));
+            entries.push(starts);
         }
+        self.entries = entries;
         open
     }
 
     /// The feed at the start of a block.
     pub fn at(&self, program: usize, id: BlockId) -> Feed {
-        let entry = self.entries.get(program).and_then(|all| all.get(id.index()));
-        entry.copied().flatten().unwrap_or(Feed::Lost)
+        let entry = self.entries.get(program).and_then(|all| all.at(id));
+        entry.copied().unwrap_or(Feed::Lost)
     }
 
     /// What holds the feed in a program.
@@ -154,6 +135,58 @@ impl Kept {
             *feed = Feed::Lost;
         }
         does
+    }
+}
+
+impl Lattice for Feed {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = if self == other { *self } else { Feed::Lost };
+        std::mem::replace(self, joined) != joined
+    }
+}
+
+/// What the blocks of a program do to the feed; it begins, and goes on after calls, as `begins` says.
+struct Follows<'f> {
+    kept: &'f Kept,
+    facts: &'f ModalFacts,
+    index: usize,
+    begins: Feed,
+}
+
+impl Follows<'_> {
+    /// True where a block calls or returns with another feed than that of the source.
+    fn is_open(&self, program: &Program, cfg: &Cfg, id: BlockId, starts: &States<Feed>) -> bool {
+        let (Some(block), Some(feed)) = (program.block(id), starts.at(id)) else { return false };
+        let (mut feed, mut modal) = (*feed, self.facts.at(self.index, id));
+        let in_block = block.stmts.iter().any(|stmt| {
+            self.kept.step(stmt, &mut modal, &mut feed);
+            feed != Feed::Same && calls_by_moving(stmt, &modal)
+        });
+        let goes = match &block.term.kind {
+            TermKind::Call { .. } => true,
+            TermKind::End { .. } => false,
+            _ => cfg.succs(id).is_empty(),
+        };
+        in_block || feed != Feed::Same && goes
+    }
+}
+
+impl Analysis for Follows<'_> {
+    type State = Feed;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Feed)> {
+        cfg.roots().iter().map(|root| (*root, self.begins)).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, feed: &mut Feed) {
+        let mut modal = self.facts.at(self.index, id);
+        for stmt in &block.stmts {
+            self.kept.step(stmt, &mut modal, feed);
+        }
+        if self.begins == Feed::Lost && matches!(block.term.kind, TermKind::Call { .. }) {
+            *feed = Feed::Lost;
+        }
     }
 }
 

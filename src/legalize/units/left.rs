@@ -48,11 +48,9 @@ impl Left {
         for (caller, callee) in called.pairs(module) {
             callees[caller].insert((callee, false));
         }
-        let graph = CallGraph::new(callees);
-        graph.settle(|index| {
-            let all =
-                graph.callees(index).iter().fold(left[index], |all, (callee, _)| all.join(left[*callee]));
-            std::mem::replace(&mut left[index], all) != all
+        CallGraph::new(callees).bottom_up(&mut left, |mine, callee, _| {
+            let all = mine.join(*callee);
+            std::mem::replace(mine, all) != all
         });
         // Whatever moves may run them.
         let macros = macros.into_iter().fold(unknown, |all, at| all.join(left[at]));

@@ -9,6 +9,7 @@ use super::graph::Graph;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
+use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, Nc, NcItem, Program, Stmt, StmtKind};
 use crate::lower::common::Findings;
 
@@ -23,15 +24,18 @@ enum State {
     Unknown,
 }
 
-impl State {
-    fn join(self, other: Self) -> Self {
-        match (self, other) {
+impl Lattice for State {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = match (*self, *other) {
             (a, b) if a == b => a,
             (State::On(_) | State::OnMixed, State::On(_) | State::OnMixed) => State::OnMixed,
             _ => State::Unknown,
-        }
+        };
+        std::mem::replace(self, joined) != joined
     }
+}
 
+impl State {
     fn is_on(self) -> bool {
         matches!(self, State::On(_) | State::OnMixed)
     }
@@ -63,7 +67,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
     if !program.blocks.iter().flat_map(|block| &block.stmts).any(is_cycle) {
         return;
     }
-    let starts = Graph::of(program).forward(program, &State::Off, |a, b| a.join(*b), through);
+    let starts = Graph::of(program).forward(program, &State::Off, through);
     for (block, mut state) in program.blocks.iter_mut().zip(starts) {
         let mut stmts = Vec::with_capacity(block.stmts.len());
         for mut stmt in std::mem::take(&mut block.stmts) {

@@ -1,5 +1,6 @@
 //! How control goes through one program, parts that it calls included.
 
+use crate::ir::analysis::dataflow::{Flow, Lattice, reached_among};
 use crate::ir::{Block, Callee, Program, TermKind};
 use std::collections::BTreeMap;
 
@@ -63,46 +64,38 @@ impl Graph {
 
     /// The state at the start of every block, as a forward analysis finds it. The entry
     /// starts in `entry`, and so does a block that nothing leads to, which then changes
-    /// nothing where control really comes. `S` must be a lattice of finite height under
-    /// `join`, or this does not end.
-    pub fn forward<S: Clone + PartialEq>(
+    /// nothing where control really comes.
+    pub fn forward<S: Lattice>(
         &self,
         program: &Program,
         entry: &S,
-        join: impl Fn(&S, &S) -> S,
         through: impl Fn(&Block, S) -> S,
     ) -> Vec<S> {
-        let mut states: Vec<Option<S>> = vec![None; self.ways.len()];
+        let mut flow = Flow::new(self.ways.len());
         // Which seed reached a node first: what an earlier one reached is settled.
         let mut reached = vec![usize::MAX; self.ways.len()];
         for seed in 0..program.blocks.len() {
-            if states[seed].is_some() {
+            if flow.state(seed).is_some() {
                 continue;
             }
-            states[seed] = Some(entry.clone());
+            flow.flow(seed, entry);
             reached[seed] = seed;
-            let mut work = vec![seed];
-            while let Some(node) = work.pop() {
-                let Some(state) = states[node].clone() else { continue };
+            while let Some(node) = flow.pop() {
+                let Some(state) = flow.state(node).cloned() else { continue };
                 let after = match program.blocks.get(node) {
                     Some(block) => through(block, state),
                     None => state,
                 };
                 for &to in self.from(node) {
-                    if reached[to] < seed {
-                        continue;
-                    }
-                    let joined = states[to].as_ref().map_or_else(|| after.clone(), |old| join(old, &after));
-                    if states[to].as_ref() != Some(&joined) {
-                        states[to] = Some(joined);
+                    if reached[to] >= seed {
                         reached[to] = seed;
-                        work.push(to);
+                        flow.flow(to, &after);
                     }
                 }
             }
         }
-        states.truncate(program.blocks.len());
-        states.into_iter().map(|state| state.unwrap_or_else(|| entry.clone())).collect()
+        let states = flow.into_states().into_iter().take(program.blocks.len());
+        states.map(|state| state.unwrap_or_else(|| entry.clone())).collect()
     }
 }
 
@@ -125,15 +118,9 @@ fn repeats(block: &Block) -> bool {
 /// The blocks of a called part, or of the main part: all that its entry leads to,
 /// calls being passed over.
 pub fn body(program: &Program, entry: usize) -> Vec<bool> {
-    let mut reached = vec![false; program.blocks.len()];
-    let mut work = vec![entry];
-    while let Some(at) = work.pop() {
-        let Some(block) = program.blocks.get(at) else { continue };
-        if !std::mem::replace(&mut reached[at], true) {
-            work.extend(onward(block, false));
-        }
-    }
-    reached
+    reached_among(program.blocks.len(), [entry], |at, go| {
+        program.blocks.get(at).into_iter().flat_map(|block| onward(block, false)).for_each(go);
+    })
 }
 
 fn onward(block: &Block, into: bool) -> Vec<usize> {

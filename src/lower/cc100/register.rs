@@ -15,6 +15,7 @@
 use super::graph::Graph;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
+use crate::ir::analysis::dataflow::{Lattice, reached_among};
 use crate::ir::{Block, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var};
 use crate::lower::common::Findings;
 
@@ -66,6 +67,14 @@ const fn bit(source: Source) -> u8 {
     1 << source as u8
 }
 
+impl Lattice for State {
+    fn join(&mut self, other: &Self) -> bool {
+        let before = (self.var, self.from);
+        *self = Self { var: self.var.filter(|_| self.var == other.var), from: self.from | other.from };
+        before != (self.var, self.from)
+    }
+}
+
 impl State {
     fn outside() -> Self {
         Self { var: None, from: OUTSIDE }
@@ -73,10 +82,6 @@ impl State {
 
     fn may(&self, source: Source) -> bool {
         self.from & bit(source) != 0
-    }
-
-    fn join(&self, other: &Self) -> Self {
-        Self { var: self.var.filter(|_| self.var == other.var), from: self.from | other.from }
     }
 
     fn step(&mut self, stmt: &Stmt) {
@@ -118,7 +123,7 @@ fn jump(block: &Block) -> Option<Relation> {
 /// Gives every jump its condition and takes the markers out.
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
     let graph = Graph::of(program);
-    let starts = graph.forward(program, &State::outside(), State::join, |block, state| state.through(block));
+    let starts = graph.forward(program, &State::outside(), |block, state| state.through(block));
     let mut seen = false;
     for (block, start) in program.blocks.iter_mut().zip(starts) {
         let Some(relation) = jump(block) else { continue };
@@ -179,27 +184,20 @@ fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findi
 /// Whether a jump can see the register as it is at the end of each block, before its jump.
 fn live_at_end(program: &Program, graph: &Graph) -> Vec<bool> {
     let back = graph.reversed();
-    let mut at_start = vec![false; graph.len()];
-    let mut at_end = vec![false; graph.len()];
-    let mut work: Vec<usize> =
-        (0..program.blocks.len()).filter(|&at| jump(&program.blocks[at]).is_some()).collect();
-    work.iter().for_each(|&at| at_end[at] = true);
-    while let Some(at) = work.pop() {
-        let sets = |stmt: &Stmt| source_of(stmt).is_some_and(|(source, _)| source != Source::Load);
-        let hides = program.blocks.get(at).is_some_and(|block| block.stmts.iter().any(sets));
-        if hides || at_start[at] {
-            continue;
+    let sets = |stmt: &Stmt| source_of(stmt).is_some_and(|(source, _)| source != Source::Load);
+    let jumps = (0..program.blocks.len()).filter(|&at| jump(&program.blocks[at]).is_some());
+    let mut ends = reached_among(graph.len(), jumps, |at, go| {
+        if program.blocks.get(at).is_some_and(|block| block.stmts.iter().any(sets)) {
+            return;
         }
-        at_start[at] = true;
         for &before in back.from(at) {
-            if !at_end[before] && !program.blocks.get(before).is_some_and(leaves) {
-                at_end[before] = true;
-                work.push(before);
+            if !program.blocks.get(before).is_some_and(leaves) {
+                go(before);
             }
         }
-    }
-    at_end.truncate(program.blocks.len());
-    at_end
+    });
+    ends.truncate(program.blocks.len());
+    ends
 }
 
 /// Turns the markers that a jump can see into assignments of the register, and drops the rest.

@@ -11,6 +11,7 @@
 use super::graph::Graph;
 use crate::canon::Func;
 use crate::dialect::Question;
+use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{BinOp, Block, Callee, Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::lower::common::Findings;
 
@@ -30,11 +31,14 @@ struct Wholes {
     always: Variables,
 }
 
-impl Wholes {
-    fn join(&self, other: &Self) -> Self {
-        Self { written: self.written & other.written, always: self.always & other.always }
+impl Lattice for Wholes {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = Self { written: self.written & other.written, always: self.always & other.always };
+        std::mem::replace(self, joined) != joined
     }
+}
 
+impl Wholes {
     fn step(self, stmt: &Stmt) -> Self {
         let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind else { return self };
         let set = |of: Variables, whole: bool| if whole { of | bit(*var) } else { of & !bit(*var) };
@@ -69,8 +73,7 @@ fn is_whole(value: &Expr, known: Variables) -> bool {
 
 /// Takes FIX out of the steps of whole variables, and reports the other steps.
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
-    let starts = Graph::of(program)
-        .forward(program, &Wholes::default(), Wholes::join, |block, known| known.through(block));
+    let starts = Graph::of(program).forward(program, &Wholes::default(), |block, known| known.through(block));
     for (block, mut known) in program.blocks.iter_mut().zip(starts) {
         for stmt in &mut block.stmts {
             let span = stmt.site.span;

@@ -8,6 +8,7 @@ use super::steps::{Step, operand, parametric, steps};
 use super::words::{Codes, word};
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
+use crate::ir::analysis::dataflow::{Flow as Places, Lattice};
 use crate::lower::common::constant;
 use crate::syntax::{Block, Expr, Item, ItemKind};
 use std::collections::BTreeSet;
@@ -20,7 +21,7 @@ pub struct Flow<'b> {
     shape: &'b Shape,
     /// What is known of the file's programs, and which of them this is.
     others: (&'b Others, usize),
-    at: Vec<Option<State>>,
+    at: Places<State>,
     returned: Vec<Option<State>>,
     modal_subs: Vec<usize>,
     /// The state where the program returns to its caller.
@@ -28,7 +29,6 @@ pub struct Flow<'b> {
     /// True where it may end in another way than by a return to behind its call.
     ends_elsewhere: bool,
     calling: BTreeSet<usize>,
-    work: BTreeSet<usize>,
 }
 
 impl<'b> Flow<'b> {
@@ -44,18 +44,17 @@ impl<'b> Flow<'b> {
             control,
             shape,
             others,
-            at: vec![None; shape.leaders.len()],
+            at: Places::new(shape.leaders.len()),
             returned: vec![None; shape.subs.len()],
             modal_subs: Vec::new(),
             left: None,
             ends_elsewhere: false,
             calling: BTreeSet::new(),
-            work: BTreeSet::new(),
         };
         // The definitions at the head are jumped over.
         let defined = shape.subs.first().is_some_and(|sub| sub.blocks.start == 0);
         flow.reach(if defined { shape.main } else { 0 }, &State::entry());
-        while let Some(run) = flow.work.pop_first() {
+        while let Some(run) = flow.at.pop() {
             flow.run(run);
         }
         flow
@@ -65,7 +64,7 @@ impl<'b> Flow<'b> {
     /// A run that nothing reaches has a state in which nothing was set.
     pub fn at(&self, block: usize) -> Option<State> {
         let run = self.shape.leaders.binary_search(&block).ok()?;
-        Some(self.at.get(run).cloned().flatten().unwrap_or_default())
+        Some(self.at.state(run).cloned().unwrap_or_default())
     }
 
     /// The state where the program returns to its caller; none where it may come back to another place.
@@ -104,7 +103,7 @@ impl<'b> Flow<'b> {
     }
 
     fn run(&mut self, run: usize) {
-        let Some(mut state) = self.at.get(run).cloned().flatten() else { return };
+        let Some(mut state) = self.at.state(run).cloned() else { return };
         let start = self.shape.leaders.get(run).copied().unwrap_or(0);
         let end = self.shape.leaders.get(run + 1).copied().unwrap_or(self.blocks.len());
         for at in start..end {
@@ -125,17 +124,7 @@ impl<'b> Flow<'b> {
 
     fn reach(&mut self, block: usize, state: &State) {
         let Ok(run) = self.shape.leaders.binary_search(&block) else { return };
-        let Some(slot) = self.at.get_mut(run) else { return };
-        let changed = match slot {
-            Some(old) => old.join(state),
-            None => {
-                *slot = Some(state.clone());
-                true
-            }
-        };
-        if changed {
-            self.work.insert(run);
-        }
+        self.at.flow(run, state);
     }
 
     fn give_back(&mut self, sub: usize, state: &State) {
@@ -148,7 +137,7 @@ impl<'b> Flow<'b> {
             }
         };
         if changed {
-            self.work.extend(&self.calling);
+            self.calling.iter().for_each(|run| self.at.again(*run));
         }
     }
 

@@ -1,6 +1,7 @@
 //! The modal state that the meaning of later blocks depends on.
 
 use super::left::Motion;
+use crate::ir::analysis::dataflow::Lattice;
 use crate::syntax::{Block, ItemKind, SetOption, for_each_item};
 
 /// How many values are told apart before the set counts as any.
@@ -145,23 +146,9 @@ pub struct State {
     pub r: [Values<u64>; 10],
 }
 
-impl State {
-    /// At a program's first block.
-    pub fn entry() -> Self {
-        Self {
-            motion_entry: true,
-            cycle: Values::one(0),
-            radians: Values::one(false),
-            radians_outside: true,
-            places: Values::one(DEFAULT_PLACES),
-            moved: true,
-            r: std::array::from_fn(|_| Values::any()),
-            ..Self::default()
-        }
-    }
-
-    /// States of `self` or of `other`. True where that changed anything.
-    pub fn join(&mut self, other: &Self) -> bool {
+/// States of `self` or of `other`.
+impl Lattice for State {
+    fn join(&mut self, other: &Self) -> bool {
         let before = self.clone();
         self.motion.join(&other.motion);
         self.cycle.join(&other.cycle);
@@ -180,6 +167,22 @@ impl State {
         self.modal_program |= other.modal_program;
         self.r.iter_mut().zip(&other.r).for_each(|(mine, theirs)| mine.join(theirs));
         *self != before
+    }
+}
+
+impl State {
+    /// At a program's first block.
+    pub fn entry() -> Self {
+        Self {
+            motion_entry: true,
+            cycle: Values::one(0),
+            radians: Values::one(false),
+            radians_outside: true,
+            places: Values::one(DEFAULT_PLACES),
+            moved: true,
+            r: std::array::from_fn(|_| Values::any()),
+            ..Self::default()
+        }
     }
 
     /// Another program ran: it may have set any variable, or what `others` do. It leaves `motion`; where that is not

@@ -4,6 +4,7 @@
 //! matters only where the variable may be vacant there, so that is what is looked for:
 //! forward over the blocks, with what assignments and tests make sure of.
 
+use crate::ir::analysis::dataflow::{Every, Flow};
 use crate::ir::{
     BlockId, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation, StmtKind, TermKind, Var,
 };
@@ -21,7 +22,7 @@ pub(super) fn signed_word(program: &Program, returns_anywhere: bool) -> Option<S
         .any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
     let at_entry = solve(program, returns_anywhere, modal);
     for (block, sure) in program.blocks.iter().zip(at_entry) {
-        let Some(mut sure) = sure else { continue };
+        let Some(Every(mut sure)) = sure else { continue };
         for stmt in &block.stmts {
             if signed(&stmt.kind).any(|var| !sure.contains(&var)) {
                 return Some(stmt.site.span);
@@ -51,61 +52,50 @@ fn signed(kind: &StmtKind) -> impl Iterator<Item = Var> + '_ {
 }
 
 /// What is sure at the head of each block; none where control never comes.
-fn solve(program: &Program, returns_anywhere: bool, modal: bool) -> Vec<Option<Sure>> {
-    let mut heads: Vec<Option<Sure>> = vec![None; program.blocks.len()];
-    let mut work: Vec<BlockId> = Vec::new();
-    let flow = |to: BlockId, sure: Sure, work: &mut Vec<BlockId>, heads: &mut Vec<Option<Sure>>| {
-        let Some(head) = heads.get_mut(to.index()) else { return };
-        let merged = match head.as_ref() {
-            None => sure,
-            Some(old) => old.intersection(&sure).copied().collect(),
-        };
-        if head.as_ref() != Some(&merged) {
-            *head = Some(merged);
-            work.push(to);
-        }
-    };
-    flow(BlockId(0), Sure::new(), &mut work, &mut heads);
+fn solve(program: &Program, returns_anywhere: bool, modal: bool) -> Vec<Option<Every<Var>>> {
+    let mut heads = Flow::new(program.blocks.len());
+    heads.flow(0, &Every(Sure::new()));
     let calls = |block: &&crate::ir::Block| matches!(block.term.kind, TermKind::Call { .. });
     if returns_anywhere && program.blocks.iter().any(|block| calls(&block)) {
-        for (id, block) in program.ids().zip(&program.blocks) {
+        for (at, block) in program.blocks.iter().enumerate() {
             if !block.labels.is_empty() {
-                flow(id, Sure::new(), &mut work, &mut heads);
+                heads.flow(at, &Every(Sure::new()));
             }
         }
     }
-    // Sets only shrink, so this ends.
-    while let Some(id) = work.pop() {
-        let (Some(block), Some(Some(mut sure))) = (program.block(id), heads.get(id.index()).cloned()) else {
-            continue;
-        };
+    while let Some(at) = heads.pop() {
+        let (Some(block), Some(head)) = (program.blocks.get(at), heads.state(at)) else { continue };
+        let mut sure = head.0.clone();
         block.stmts.iter().for_each(|stmt| step(&stmt.kind, &mut sure));
         if modal {
             sure.retain(|var| var.class == Class::Local);
         }
+        let mut flow = |to: BlockId, sure: Sure| {
+            heads.flow(to.index(), &Every(sure));
+        };
         match &block.term.kind {
             TermKind::Branch { cond, yes, no } => {
                 let mut held = sure.clone();
                 learn(cond, true, &mut held);
-                flow(*yes, held, &mut work, &mut heads);
+                flow(*yes, held);
                 learn(cond, false, &mut sure);
-                flow(*no, sure, &mut work, &mut heads);
+                flow(*no, sure);
             }
             TermKind::Call { call, next } => {
                 if let Callee::Block(entry) = call.callee {
-                    flow(entry, Sure::new(), &mut work, &mut heads);
+                    flow(entry, Sure::new());
                 }
                 sure.retain(|var| call.level && var.class == Class::Local);
-                flow(*next, sure, &mut work, &mut heads);
+                flow(*next, sure);
             }
             kind => {
                 for to in kind.successors() {
-                    flow(to, sure.clone(), &mut work, &mut heads);
+                    flow(to, sure.clone());
                 }
             }
         }
     }
-    heads
+    heads.into_states()
 }
 
 fn step(kind: &StmtKind, sure: &mut Sure) {

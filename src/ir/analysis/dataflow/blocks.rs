@@ -117,7 +117,7 @@ pub fn solve_within<A: Analysis>(
         flow.flow(id.index(), &state);
     }
     let mut left = limit;
-    while let Some(at) = flow.next() {
+    while let Some(at) = flow.pop() {
         let id = BlockId(at as u32);
         let Some(mut state) = flow.state(at).cloned() else { continue };
         if let Some(block) = program.block(id) {

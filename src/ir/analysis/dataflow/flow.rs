@@ -30,7 +30,7 @@ impl Worklist {
     }
 
     /// The first node that waits, which does so no more.
-    pub fn next(&mut self) -> Option<usize> {
+    pub fn pop(&mut self) -> Option<usize> {
         let Reverse((_, node)) = self.queue.pop()?;
         self.waits[node as usize] = false;
         Some(node as usize)
@@ -93,8 +93,8 @@ impl<S: Lattice> Flow<S> {
     }
 
     /// The next node that is to be looked at.
-    pub fn next(&mut self) -> Option<usize> {
-        self.work.next()
+    pub fn pop(&mut self) -> Option<usize> {
+        self.work.pop()
     }
 
     /// The state of a node; none where no way led there so far.
@@ -121,6 +121,26 @@ pub fn reached<N: Copy + Ord>(
                 work.push(to);
             }
         });
+    }
+    seen
+}
+
+/// The same of nodes that are counted, by node.
+pub fn reached_among(
+    count: usize,
+    from: impl IntoIterator<Item = usize>,
+    mut ways: impl FnMut(usize, &mut dyn FnMut(usize)),
+) -> Vec<bool> {
+    let mut seen = vec![false; count];
+    let mut work: Vec<usize> = Vec::new();
+    let mut note = |node: usize, work: &mut Vec<usize>| {
+        if seen.get_mut(node).is_some_and(|seen| !std::mem::replace(seen, true)) {
+            work.push(node);
+        }
+    };
+    from.into_iter().for_each(|node| note(node, &mut work));
+    while let Some(node) = work.pop() {
+        ways(node, &mut |to| note(to, &mut work));
     }
     seen
 }

@@ -18,7 +18,7 @@ mod flow;
 mod tests;
 
 pub use blocks::{Analysis, Cursor, Direction, States, Steps, solve, solve_within};
-pub use flow::{Flow, Worklist, reached};
+pub use flow::{Flow, Worklist, reached, reached_among};
 
 use std::collections::BTreeSet;
 
