@@ -27,8 +27,9 @@ fn every_mutant_has_its_place() {
     let names: BTreeSet<&str> = list.mutant.iter().map(|mutant| mutant.name.as_str()).collect();
     assert_eq!(names.len(), list.mutant.len(), "a name stands twice");
     for Mutant { name, file, text: old, with, .. } in &list.mutant {
-        let compiler =
-            ["lower", "opt", "legalize", "emit"].iter().any(|room| file.starts_with(&format!("src/{room}/")));
+        let compiler = ["lower", "ir", "opt", "legalize", "emit"]
+            .iter()
+            .any(|room| file.starts_with(&format!("src/{room}/")));
         assert!(compiler, "{name}: {file} is no part of the compiler");
         assert_eq!(text(file).matches(old.as_str()).count(), 1, "{name}: in {file}");
         assert_ne!(old, with, "{name}");

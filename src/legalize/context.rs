@@ -2,13 +2,13 @@
 
 use super::Modal;
 use super::census::Census;
-use super::computed_numbers::Reached;
-use super::locked::Locked;
-use super::program_numbers::ProgramNumbers;
-use super::registers::Registers;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
+use crate::legalize::layout::program_numbers::ProgramNumbers;
+use crate::legalize::variables::computed_numbers::Reached;
+use crate::legalize::variables::locked::Locked;
+use crate::legalize::variables::registers::Registers;
 use crate::opt::Level;
 use crate::text::Span;
 use foldhash::{HashMap, HashSet};

@@ -93,10 +93,12 @@ fn legalization() -> impl Iterator<Item = &'static Pass> {
     passes.filter(|(group, _)| group.name != "tidy").map(|(_, pass)| pass)
 }
 
-/// The passes of `chain.rs` or `functions/modulo.rs`; none of a file that runs with others.
+/// The passes of `calls/chain.rs` or `expressions/functions/modulo.rs`; none of a file that runs with others.
 fn passes_of(file: &str) -> Vec<&'static str> {
-    let first = file.split('/').next().unwrap_or(file).trim_end_matches(".rs").replace('_', "-");
-    let named = |name: &&str| *name == first || (first == "chain" && *name == "return-to");
+    let parts: Vec<String> =
+        file.split('/').skip(1).map(|part| part.trim_end_matches(".rs").replace('_', "-")).collect();
+    let named =
+        |name: &&str| parts.iter().any(|part| part == name || (part == "chain" && *name == "return-to"));
     legalization().map(|pass| pass.name).filter(named).collect()
 }
 

@@ -1,17 +1,24 @@
 //! Questions about programs: where control goes, which temporaries are live, what may be vacant, which
-//! constants a variable may hold, between which bounds.
+//! constants a variable may hold, between which bounds, what is in force, what calls come to.
 //!
 //! Every answer errs to the safe side. Nothing recurses on the size of a program. What is followed until nothing
 //! changes is followed by [`dataflow`].
 
+pub(crate) mod behind;
 mod call_graph;
 mod cfg;
+pub(crate) mod computed_calls;
 pub mod dataflow;
 mod effects;
+pub(crate) mod exposed;
 mod liveness;
+pub(crate) mod modal;
+pub(crate) mod modal_facts;
+pub(crate) mod programmed;
 mod ranges;
 mod set;
 mod temps;
+pub(crate) mod tool_word;
 mod vacancy;
 mod values;
 
@@ -19,6 +26,8 @@ pub use call_graph::CallGraph;
 pub use cfg::{Cfg, may_come_back};
 pub use effects::{Seen, Summaries, Vars};
 pub use liveness::{Liveness, Transfer, Ways, live_after};
+pub use modal::{Modal, Setting, calls_of, reachable, span_of};
+pub use modal_facts::{ModalFacts, replace_statements};
 pub use ranges::{Numbers, Ranges, Values};
 pub use set::{Row, Universe, VarSet};
 pub use temps::Temps;

@@ -2,14 +2,25 @@
 
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
+use crate::legalize::assumptions::{facts, matters};
+use crate::legalize::calls::{chain, link, modal_calls, modal_off, nesting, outline, repeats};
 use crate::legalize::census::Thing;
-use crate::legalize::{
-    active_offsets, alarms, banks, bare_arcs, beside_moves, blanks, chain, clear, codes, computed_numbers,
-    conditions, constants, cycle_here, cycle_words, dwell, external, facts, functions, heads, increments,
-    kept_length, lathe, length_radius, letters, link, lookahead, machine_codes, matters, messages, missing,
-    modal_calls, modal_off, nesting, offset_rows, operator, outline, oversize, pauses, polar, ports,
-    position_length, probe_points, program_numbers, rapid_once, reference, registers, repeats, retention,
-    set_position, shaped, shift, state, substitutes, tapping, temporaries, tool_word, truth, units, vacancy,
+use crate::legalize::codes::{
+    beside_moves, by_number, lookahead, machine_codes, missing, pauses, substitutes,
+};
+use crate::legalize::cycles::{cycle_here, cycle_words, dwell, tapping};
+use crate::legalize::expressions::{conditions, constants, functions, oversize, truth};
+use crate::legalize::layout::{blanks, heads, program_numbers};
+use crate::legalize::moves::{
+    bare_arcs, increments, lathe, polar, rapid_once, reference, shaped, shift, units,
+};
+use crate::legalize::offsets::{
+    active_offsets, external, kept_length, length_radius, offset_rows, position_length, set_position,
+    tool_word,
+};
+use crate::legalize::operator::{alarms, letters, messages, ports, questions};
+use crate::legalize::variables::{
+    banks, clear, computed_numbers, probe_points, registers, retention, state, temporaries, vacancy,
     vacant_writes,
 };
 use crate::opt::{Branches, Copies, DeadTemps, Fold, Retarget, Unreachable};
@@ -78,7 +89,7 @@ const STRUCTURE: &[Pass] = &[
 ];
 
 const BLOCKS: &[Pass] = &[
-    Pass::reports("codes", "looks up codes that are known by number only", codes::run)
+    Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
         .when(|c, _| c.has(Thing::Code)),
     Pass::rewrites(
         "beside-moves",
@@ -259,7 +270,7 @@ const EXPRESSIONS: &[Pass] = &[
     Pass::each("constants", "constants of many digits become sums", constants::run)
         .when(|c, _| c.has(Thing::Long))
         .needs(&["functions"]),
-    Pass::each("printed-values", "values to be printed go to temporaries", operator::hold_values)
+    Pass::each("printed-values", "values to be printed go to temporaries", questions::hold_values)
         .when(|c, _| c.has(Thing::Print)),
     Pass::each("oversize", "expressions are cut to the target's brackets and line", oversize::run)
         .when(|c, _| c.has(Thing::Computed))
@@ -321,12 +332,12 @@ const OPERATOR: &[Pass] = &[
     Pass::rewrites(
         "questions",
         "questions become stops at which the operator sets the register",
-        operator::questions,
+        questions::questions,
     )
     .when(|c, _| c.has(Thing::Input))
     .needs(&["registers", "letters"])
     .brings_nothing(),
-    Pass::rewrites("prints", "prints become formatted output", operator::prints)
+    Pass::rewrites("prints", "prints become formatted output", questions::prints)
         .when(|c, _| c.has(Thing::Print))
         .needs(&["questions", "letters"])
         .brings_nothing(),

@@ -1,0 +1,355 @@
+//! What is in force of every modal group at a place, and what statements do to it.
+
+use super::tool_word::ToolWord;
+use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::dataflow::{Lattice, reached_among};
+use crate::ir::{Block, BlockId, Call, Expr, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::text::Span;
+use std::collections::BTreeSet;
+
+/// What is in force of one group.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Setting {
+    /// No path leads here.
+    #[default]
+    Unreached,
+    /// This operation; for a work offset and a tool length its number, where that is constant.
+    Known(Op, Option<u32>),
+    /// Not known, or not the same on all paths.
+    Unknown,
+}
+
+impl Setting {
+    /// What is in force where ways with each of two meet.
+    fn join(self, other: Self) -> Self {
+        match (self, other) {
+            _ if self == other => self,
+            // Lengths of two rows are applied alike.
+            (Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), _), Setting::Known(there, _))
+                if op == there =>
+            {
+                Setting::Known(op, None)
+            }
+            _ => Setting::Unknown,
+        }
+    }
+}
+
+/// The number of the last feed word.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Feed {
+    #[default]
+    Unreached,
+    Known(f64),
+    Unknown,
+}
+
+/// What may have cancelled a tool length that the program did not end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LengthLost {
+    /// A return to the reference position along the axis of the length.
+    pub by_reference: Ways,
+    /// A return of other axes alone.
+    pub by_other_axes: Ways,
+    /// A move in machine coordinates along the axis of the length.
+    pub by_machine_move: Ways,
+}
+
+/// On which of the ways to a place something happens.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Ways {
+    /// On none.
+    #[default]
+    None,
+    /// On some, on others not.
+    Some,
+    /// On every one.
+    Every,
+}
+
+impl LengthLost {
+    /// Joins what other ways did; true where that changed anything.
+    fn join(&mut self, other: Self) -> bool {
+        let join = |a: Ways, b: Ways| if a == b { a } else { Ways::Some };
+        let joined = Self {
+            by_reference: join(self.by_reference, other.by_reference),
+            by_other_axes: join(self.by_other_axes, other.by_other_axes),
+            by_machine_move: join(self.by_machine_move, other.by_machine_move),
+        };
+        std::mem::replace(self, joined) != joined
+    }
+}
+
+/// What is in force of every group, the feed, and the modal calls that are open.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Modal {
+    settings: [Setting; Group::ALL.len()],
+    /// True where some way here cancelled all zero shifts and selected none since.
+    pub may_be_cancelled: bool,
+    /// What some way here did since the tool length was named that may have cancelled it.
+    pub length_lost: LengthLost,
+    /// True where some way here named a tool length.
+    length_named: bool,
+    feed: Feed,
+    /// What the last tool word is to the tool in the spindle.
+    pub(crate) tool_word: ToolWord,
+    /// The open modal calls, innermost last; absent where paths disagree.
+    pub calls: Option<Vec<Call>>,
+    /// True where nothing in the library leaves another unit than the one that is named.
+    pub one_unit: bool,
+}
+
+impl Modal {
+    /// Nothing known: how a main program starts.
+    pub fn unknown() -> Self {
+        Self {
+            settings: [Setting::Unknown; Group::ALL.len()],
+            may_be_cancelled: false,
+            length_lost: LengthLost::default(),
+            length_named: false,
+            feed: Feed::Unknown,
+            tool_word: ToolWord::Unknown,
+            calls: Some(Vec::new()),
+            one_unit: false,
+        }
+    }
+
+    /// The state in which a program starts that follows others in its file: an end stopped spindle and coolant, or not.
+    pub fn at_head(&self) -> Self {
+        let mut state = self.clone();
+        for group in [Group::Spindle, Group::Coolant] {
+            state.settings[group as usize] = Setting::Unknown;
+        }
+        state
+    }
+
+    /// Nothing known but the modal calls that are open, and the unit where nothing leaves another.
+    pub(crate) fn unknown_under(state: &Self) -> Self {
+        let mut unknown = state.clone();
+        unknown.may_be_cancelled = false;
+        unknown.forget();
+        unknown.tool_word = state.tool_word.after_unknown();
+        unknown
+    }
+
+    /// True if a move may run a modal call.
+    pub fn may_call(&self) -> bool {
+        self.calls.as_ref().is_none_or(|calls| !calls.is_empty())
+    }
+
+    /// Puts an operation in force from the start.
+    pub fn start_in(&mut self, op: Op) {
+        self.settings[op.group() as usize] = Setting::Known(op, None);
+    }
+
+    /// What is in force of a group.
+    pub fn of(&self, group: Group) -> Setting {
+        self.settings[group as usize]
+    }
+
+    /// The operation in force of a group, where it is known.
+    pub fn op(&self, group: Group) -> Option<Op> {
+        match self.of(group) {
+            Setting::Known(op, _) => Some(op),
+            _ => None,
+        }
+    }
+
+    /// The number of the last feed word, where it is known and counts the same as it did there.
+    pub fn feed(&self) -> Option<f64> {
+        match self.feed {
+            Feed::Known(feed) => Some(feed),
+            _ => None,
+        }
+    }
+
+    /// True where some way here named a tool length.
+    pub(crate) fn names_length(&self) -> bool {
+        self.length_named
+    }
+
+    /// True when no path leads here.
+    pub fn is_unreached(&self) -> bool {
+        self.of(Group::Motion) == Setting::Unreached
+    }
+
+    /// Takes a statement's effect.
+    pub fn step(&mut self, stmt: &Stmt) {
+        let before = stmt.site.skip.map(|_| self.clone());
+        match &stmt.kind {
+            StmtKind::Nc(nc) => {
+                self.step_words(nc);
+                if self.may_call() && nc.moves() {
+                    // The modal call runs now, and may leave anything in force.
+                    self.forget();
+                    self.tool_word = self.tool_word.after_unknown();
+                }
+            }
+            StmtKind::ModalCall(call) => self.calls.iter_mut().for_each(|calls| calls.push((**call).clone())),
+            StmtKind::ModalCallOff => self.calls.iter_mut().for_each(|calls| drop(calls.pop())),
+            _ => {}
+        }
+        if let Some(before) = before {
+            self.join(&before);
+        }
+    }
+
+    /// Takes the effect of a block's codes, without that of a modal call that its move makes.
+    pub(crate) fn step_words(&mut self, nc: &Nc) {
+        let mut feed = None;
+        for item in &nc.items {
+            match item {
+                NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
+                // A computed code may be any of its letter.
+                NcItem::Code('G', _) => self.forget(),
+                NcItem::Word(Role::Feed, value) => feed = feed.or(Some(value)),
+                NcItem::Code(..) | NcItem::Word(..) => {}
+            }
+        }
+        self.step_length(nc);
+        self.tool_word = self.tool_word.after(nc);
+        self.step_tap(nc);
+        // Behind the unit and the feed mode, which it counts in, wherever they stand.
+        if let Some(feed) = feed {
+            self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
+        }
+    }
+
+    /// A tap turns the spindle, also one that stands, and may leave it turning.
+    fn step_tap(&mut self, nc: &Nc) {
+        let taps = self.op(Group::Cycle).is_some_and(Op::is_tap) && (nc.moves() || nc.ops().any(Op::is_tap));
+        let turns = |op| matches!(op, Op::SpindleCw | Op::SpindleCcw);
+        if taps && self.op(Group::Spindle).is_some_and(|op| !turns(op)) {
+            self.settings[Group::Spindle as usize] = Setting::Unknown;
+        }
+    }
+
+    /// Which row the tool length is taken from, and what may cancel it.
+    fn step_length(&mut self, nc: &Nc) {
+        let row = nc.word(Role::LengthOffset);
+        let setting = &mut self.settings[Group::LengthComp as usize];
+        if let (Setting::Known(op @ (Op::LengthPlus | Op::LengthMinus), _), Some(row)) = (*setting, row) {
+            *setting = Setting::Known(op, row.constant().filter(|row| *row >= 0.0).map(|row| row as u32));
+        }
+        if row.is_some() || nc.ops().any(|op| op.group() == Group::LengthComp) {
+            self.length_lost = LengthLost::default();
+        }
+        self.length_named |= row.is_some() || nc.has(Op::LengthPlus) || nc.has(Op::LengthMinus);
+        let ways = match self.of(Group::LengthComp) {
+            Setting::Known(Op::LengthPlus | Op::LengthMinus, _) => Ways::Every,
+            Setting::Unknown if self.length_named => Ways::Some,
+            // None is in force that the program knows of.
+            _ => return,
+        };
+        let depth = nc.word(Role::Z);
+        let along = depth.is_some();
+        let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2));
+        let lost = &mut self.length_lost;
+        // A word whose value is vacant is not there.
+        let unsure = depth.is_some_and(|value| match value {
+            Expr::Negate(inner) => inner.may_be_vacant(),
+            value => value.may_be_vacant(),
+        });
+        let ways = if unsure { Ways::Some } else { ways };
+        lost.by_other_axes = if returns && unsure { Ways::Some } else { lost.by_other_axes };
+        match (returns, along || !nc.moves()) {
+            (true, true) => lost.by_reference = ways,
+            (true, false) => lost.by_other_axes = ways,
+            (false, _) if nc.has(Op::MachineOnce) && along => lost.by_machine_move = ways,
+            (false, _) => {}
+        }
+    }
+
+    /// False for a statement that leaves everything as it is.
+    pub(crate) fn may_step(stmt: &Stmt) -> bool {
+        matches!(stmt.kind, StmtKind::Nc(_) | StmtKind::ModalCall(_) | StmtKind::ModalCallOff)
+    }
+
+    fn forget(&mut self) {
+        let unit = self.of(Group::Units);
+        self.settings = [Setting::Unknown; Group::ALL.len()];
+        if self.one_unit {
+            self.settings[Group::Units as usize] = unit;
+        }
+        self.feed = Feed::Unknown;
+    }
+
+    fn set(&mut self, op: Op, number: Option<f64>) {
+        if matches!(op.group(), Group::Units | Group::FeedMode) && self.op(op.group()) != Some(op) {
+            self.feed = Feed::Unknown;
+        }
+        let number = number.filter(|_| op == Op::SelectWork).map(|n| n as u32);
+        if op.group() != Group::OneShot {
+            self.settings[op.group() as usize] = Setting::Known(op, number);
+        }
+        if op.group() == Group::WorkOffset {
+            self.may_be_cancelled = op == Op::ShiftCancel;
+        }
+        if op.group() == Group::Motion {
+            self.settings[Group::Cycle as usize] = Setting::Known(Op::CycleOff, None);
+        }
+    }
+}
+
+impl Lattice for Modal {
+    fn join(&mut self, other: &Self) -> bool {
+        if other.is_unreached() {
+            return false;
+        }
+        if self.is_unreached() {
+            *self = other.clone();
+            return true;
+        }
+        let mut changed = false;
+        self.one_unit |= other.one_unit;
+        for (mine, theirs) in self.settings.iter_mut().zip(&other.settings) {
+            let joined = mine.join(*theirs);
+            changed |= std::mem::replace(mine, joined) != joined;
+        }
+        if self.feed != other.feed && self.feed != Feed::Unknown {
+            self.feed = Feed::Unknown;
+            changed = true;
+        }
+        if other.may_be_cancelled && !self.may_be_cancelled {
+            self.may_be_cancelled = true;
+            changed = true;
+        }
+        let tool_word = self.tool_word.join(other.tool_word);
+        changed |= std::mem::replace(&mut self.tool_word, tool_word) != tool_word;
+        changed |= self.length_lost.join(other.length_lost);
+        changed |= other.length_named && !self.length_named;
+        self.length_named |= other.length_named;
+        if self.calls != other.calls && self.calls.is_some() {
+            self.calls = None;
+            changed = true;
+        }
+        changed
+    }
+}
+
+/// Every call of a block: modal ones and the terminator's.
+pub fn calls_of(block: &Block) -> impl Iterator<Item = &Call> {
+    let modal = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
+        StmtKind::ModalCall(call) => Some(&**call),
+        _ => None,
+    });
+    modal.chain(match &block.term.kind {
+        TermKind::Call { call, .. } => Some(&**call),
+        _ => None,
+    })
+}
+
+/// Where a call of [`calls_of`] stands.
+pub fn span_of(block: &Block, call: &Call) -> Span {
+    let modal = block.stmts.iter().find(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(c) if **c == *call));
+    modal.map_or(block.term.site.span, |stmt| stmt.site.span)
+}
+
+/// The blocks that a routine entered at `entry` can run, calls stepped over.
+pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
+    let seen = reached_among(program.blocks.len(), [entry.index()], |at, go| {
+        let block = program.blocks.get(at).into_iter();
+        block.flat_map(|block| block.term.kind.successors()).for_each(|to| go(to.index()));
+    });
+    program.ids().filter(|id| seen[id.index()]).collect()
+}

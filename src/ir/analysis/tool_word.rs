@@ -1,0 +1,46 @@
+//! What the last tool word is to the tool in the spindle.
+
+use crate::canon::{Op, Role};
+use crate::ir::{Nc, NcItem};
+
+/// What the last tool word is to the tool in the spindle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ToolWord {
+    /// Not known: no tool was named or changed on some way here.
+    #[default]
+    Unknown,
+    /// The tool in the spindle.
+    Changed,
+    /// On some way here it may be one that waits for its change.
+    Waits,
+}
+
+impl ToolWord {
+    /// What it is behind a block.
+    pub fn after(self, nc: &Nc) -> Self {
+        if nc.has(Op::ToolChange) {
+            ToolWord::Changed
+        } else if nc.word(Role::Tool).is_some() {
+            ToolWord::Waits
+        } else if nc.items.iter().any(|item| matches!(item, NcItem::Code('M', _))) {
+            // A computed code may be the tool change.
+            self.after_unknown()
+        } else {
+            self
+        }
+    }
+
+    /// What it is behind a routine of which nothing is known.
+    pub fn after_unknown(self) -> Self {
+        if self == ToolWord::Waits { self } else { ToolWord::Unknown }
+    }
+
+    /// What it is where two ways meet.
+    pub fn join(self, other: Self) -> Self {
+        match (self, other) {
+            (ToolWord::Waits, _) | (_, ToolWord::Waits) => ToolWord::Waits,
+            (ToolWord::Changed, ToolWord::Changed) => ToolWord::Changed,
+            _ => ToolWord::Unknown,
+        }
+    }
+}

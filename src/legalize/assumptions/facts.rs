@@ -1,0 +1,340 @@
+//! What the conversion takes for granted of the controls, where no maker's text says so.
+//!
+//! What concerns the target is looked for last: what stands in a program then is what the target will be told. Each fact is said once a program,
+//! at the first place that rests on it. Facts about vacancy matter only where a variable may be vacant; that is looked
+//! for by data flow.
+
+mod vacant;
+
+use crate::canon::{Func, Op, Role};
+use crate::diag::Diagnostic;
+use crate::dialect::{CodeMeaning, Control, Question, Row, Side};
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::{Summaries, Vacancy};
+use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
+use crate::legalize::Context;
+use crate::legalize::census::Thing;
+use crate::text::Span;
+use foldhash::{HashMap, HashMapExt};
+use smallvec::SmallVec;
+use std::collections::{BTreeMap, BTreeSet};
+use vacant::VACANCY;
+
+/// Reports the unconfirmed facts of the target that programs rest on.
+pub fn of_target(module: &Module, context: &mut Context<'_>) {
+    // All values are constants if nothing of these stood there: what was put in since was put in for one of them.
+    let source = [Thing::Computed, Thing::Variable, Thing::Temp, Thing::Clear, Thing::Call, Thing::LocalCall];
+    let asked = [Thing::Input, Thing::Print, Thing::Message];
+    let computes = source.into_iter().chain(asked).any(|thing| context.census.has(thing));
+    look(module, computes, context, context.target, Side::Target);
+}
+
+/// Reports the unconfirmed facts of the source about vacant variables that programs rest on: these
+/// hang on where a variable may be vacant, which lowering does not know.
+pub fn of_source(module: &Module, context: &mut Context<'_>) {
+    if context.source.is(Question::Vacancy) {
+        look(module, true, context, context.source, Side::Source);
+    }
+}
+
+fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Control, side: Side) {
+    // Where nothing is computed, nothing vacant is.
+    let asked =
+        VACANCY.iter().any(|question| control.behaviour(*question).is_some_and(|row| !row.origin.confirmed));
+    let own = computes && asked && context.source.is(Question::Vacancy);
+    let summaries = if own { Summaries::of(module) } else { Summaries::default() };
+    let given = if own { CalledPrograms::of(module).given(module) } else { BTreeMap::new() };
+    let none = BTreeSet::new();
+    let mut found = Found {
+        control,
+        side,
+        rows: HashMap::new(),
+        program: 0,
+        all: Vec::new(),
+        places: Vec::new(),
+        home: Span::default(),
+        seen: BTreeSet::new(),
+        words: [0; WORDS],
+    };
+    for (index, program) in module.programs.iter().enumerate() {
+        (found.home, found.program) = (program.site.span, found.program + 1);
+        found.places = places(program);
+        found.seen.clear();
+        found.words = [0; WORDS];
+        let given = given.get(&index).unwrap_or(&none);
+        let vacancy = own.then(|| Vacancy::of(program, &summaries, given));
+        for (at, id) in program.ids().enumerate() {
+            let blocks = program.blocks.get(at..).unwrap_or_default();
+            if side == Side::Target {
+                found.block(blocks);
+            }
+            if let Some(vacancy) = &vacancy {
+                found.vacant(id, blocks, vacancy);
+            }
+        }
+        for finding in found.all.drain(..) {
+            let fact = finding.fact().unwrap_or_default();
+            context.add_once(index, &format!("{side} {fact}"), finding);
+        }
+    }
+}
+
+/// The place of the first statement from here on that has one.
+fn first_place(block: &Block, at: usize) -> Option<Span> {
+    let stmts = block.stmts.iter().skip(at).map(|stmt| stmt.site.span);
+    stmts.chain([block.term.site.span]).find(|span| !span.is_empty())
+}
+
+/// The first place in the last blocks of a program, by how many they are.
+fn places(program: &Program) -> Vec<Option<Span>> {
+    let mut places = vec![None];
+    for block in program.blocks.iter().rev() {
+        places.push(first_place(block, 0).or(places.last().copied().flatten()));
+    }
+    places
+}
+
+struct Found<'c> {
+    control: &'c Control,
+    side: Side,
+    /// By the place of a row of the control: what is said of it, and the last program that rests on it.
+    rows: HashMap<usize, (Diagnostic, u32)>,
+    /// Counts the programs.
+    program: u32,
+    /// What is to be said of the present program.
+    all: Vec<Diagnostic>,
+    /// Where a finding goes whose statement has no place of its own: that of the next one, by how many blocks are left.
+    places: Vec<Option<Span>>,
+    /// Where a finding goes if no such statement comes.
+    home: Span,
+    /// Operations and words of blocks that were looked at.
+    seen: BTreeSet<Shape>,
+    /// The words of those of them that have no operation, a bit for each word.
+    words: [u64; WORDS],
+}
+
+/// The operations and words of a block of constants.
+type Shape = SmallVec<[Part; 8]>;
+
+/// An operation, or a word by its role and the sign of its value.
+type Part = (u16, Sign);
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Sign {
+    /// Of an operation.
+    None,
+    Plus,
+    Minus,
+    /// That stands before the constant.
+    Negated,
+}
+
+/// Of 64 bits: four signs of each role.
+const WORDS: usize = Role::ALL.len() * 4 / 64 + 1;
+
+/// What a block rests on hangs on no more than this of each item; none where it may.
+fn part(item: &NcItem) -> Option<Part> {
+    match item {
+        NcItem::Op(op) => Some((*op as u16, Sign::None)),
+        NcItem::Word(Role::WorkOffset | Role::Repeat, _) | NcItem::Code(..) => None,
+        NcItem::Word(role, value) => {
+            let sign = match value {
+                Expr::Number(value) if *value < 0.0 => Sign::Minus,
+                Expr::Number(_) => Sign::Plus,
+                Expr::Negate(inner) if matches!(**inner, Expr::Number(_)) => Sign::Negated,
+                _ => return None,
+            };
+            Some((*role as u16, sign))
+        }
+    }
+}
+
+/// The bit of a word.
+fn bit((role, sign): Part) -> (usize, u64) {
+    let at = usize::from(role) * 4 + sign as usize;
+    (at / 64, 1 << (at % 64))
+}
+
+impl<'c> Found<'c> {
+    /// True where a block of these words rests on nothing that was not looked at; notes that it was.
+    fn is_known(&mut self, nc: &Nc) -> bool {
+        let known = |item: &NcItem| {
+            let word = part(item).filter(|(_, sign)| *sign != Sign::None).map(bit);
+            word.is_some_and(|(at, bit)| self.words[at] & bit != 0)
+        };
+        if nc.items.iter().all(known) {
+            return true;
+        }
+        let Some(shape) = nc.items.iter().map(part).collect::<Option<Shape>>() else { return false };
+        if shape.iter().all(|(_, sign)| *sign != Sign::None) {
+            shape.iter().map(|word| bit(*word)).for_each(|(at, bit)| self.words[at] |= bit);
+        }
+        !self.seen.insert(shape)
+    }
+
+    fn row<T: Row>(&mut self, row: &'c T, span: Span) {
+        if row.origin().confirmed {
+            return;
+        }
+        let place = std::ptr::from_ref(row) as usize;
+        let (control, side) = (self.control, self.side);
+        let told = || control.unconfirmed(side, &row.fact(), row.origin().note.as_deref(), span);
+        let (finding, last) = self.rows.entry(place).or_insert_with(|| (told(), 0));
+        if std::mem::replace(last, self.program) != self.program {
+            self.all.push(Diagnostic { span, ..finding.clone() });
+        }
+    }
+
+    /// The behaviour must be confirmed, whatever its answer.
+    fn behaviour(&mut self, question: Question, span: Span) {
+        if let Some(row) = self.control.behaviour(question) {
+            self.row(row, span);
+        }
+    }
+
+    /// The place of a statement of the first of `blocks`, or of the next one that has any: what an emulation puts
+    /// before a statement has none, and may end a block.
+    fn span(&self, blocks: &[Block], at: usize) -> Span {
+        let here = blocks.first().and_then(|block| first_place(block, at));
+        here.or_else(|| self.places.get(blocks.len().wrapping_sub(1)).copied().flatten()).unwrap_or(self.home)
+    }
+
+    fn block(&mut self, blocks: &[Block]) {
+        let Some(block) = blocks.first() else { return };
+        for (at, stmt) in block.stmts.iter().enumerate() {
+            if let StmtKind::Nc(nc) = &stmt.kind
+                && stmt.site.skip.is_none()
+                && self.is_known(nc)
+            {
+                continue;
+            }
+            let span = self.span(blocks, at);
+            stmt.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
+            if stmt.site.skip.is_some_and(|level| level > 1) {
+                self.behaviour(Question::SkipLevels, span);
+            }
+            match &stmt.kind {
+                StmtKind::Nc(nc) => {
+                    let number = nc.word(Role::WorkOffset).and_then(Expr::constant);
+                    let operands = number.map(|number| (Role::WorkOffset, number)).into_iter().collect();
+                    nc.ops().for_each(|op| self.code(op, &operands, span));
+                    self.words(nc, span);
+                }
+                StmtKind::Output(_) => self.statement("output.formatted", span),
+                StmtKind::OpenPort => self.statement("output.open", span),
+                StmtKind::ClosePort => self.statement("output.close", span),
+                StmtKind::ModalCall(_) => self.statement("call.modal", span),
+                _ => {}
+            }
+        }
+        let span = self.span(blocks, block.stmts.len());
+        block.term.kind.exprs(&mut |e| e.walk(&mut |e| self.value(e, span)));
+        match &block.term.kind {
+            TermKind::Branch { cond: Cond::Switch(2..), .. } => self.behaviour(Question::SkipLevels, span),
+            TermKind::Branch { cond: Cond::And(_) | Cond::Or(_), .. } => {
+                self.behaviour(Question::ConditionAndOr, span);
+            }
+            TermKind::End { rewind } => {
+                let op = if *rewind { Op::EndRewind } else { Op::End };
+                self.code(op, &Default::default(), span);
+            }
+            TermKind::Computed { .. } => self.statement("goto.computed", span),
+            TermKind::Return { to: Some(_) } => self.statement("return.to.sequence", span),
+            TermKind::Call { call, .. } if call.count.is_some() && !call.arguments.is_empty() => {
+                self.behaviour(Question::CallRepeatReloadsArguments, span);
+            }
+            _ => {}
+        }
+    }
+
+    /// The letters of words that no code beside them explains, and what the words rest on.
+    fn words(&mut self, nc: &Nc, span: Span) {
+        let rows: Vec<&CodeMeaning> =
+            nc.ops().filter_map(|op| self.control.code_for(op, &Default::default())).collect();
+        for item in &nc.items {
+            let NcItem::Word(role, value) = item else { continue };
+            if let Some((letter, comma)) = self.control.letter(*role, None)
+                && let Some(row) = self.control.word(letter, comma).filter(|row| row.role == *role)
+                && !rows.iter().any(|code| code.words.values().any(|own| own == role))
+            {
+                self.row(row, span);
+            }
+            if (role.is_length() || role.is_axis()) && value.constant().is_none() {
+                self.behaviour(Question::WordBareExpression, span);
+            }
+            match (role, value.constant()) {
+                (Role::ArcI | Role::ArcJ | Role::ArcK, _) => self.behaviour(Question::ArcCentre, span),
+                (Role::ArcRadius, radius) => {
+                    if radius.is_none_or(|radius| radius >= 0.0) {
+                        self.behaviour(Question::ArcRadiusPositive, span);
+                    }
+                    if radius.is_none_or(|radius| radius < 0.0) {
+                        self.behaviour(Question::ArcRadiusNegative, span);
+                    }
+                }
+                (Role::DwellMs | Role::CycleDwell, Some(_)) => self.behaviour(Question::DwellBare, span),
+                (Role::Repeat, count) if count.is_none_or(|count| count < 1.0) => {
+                    self.behaviour(Question::CycleL0Stores, span);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn statement(&mut self, name: &str, span: Span) {
+        if let Some(row) = self.control.statement(name) {
+            self.row(row, span);
+        }
+    }
+
+    fn code(&mut self, op: Op, operands: &std::collections::BTreeMap<crate::canon::Role, f64>, span: Span) {
+        // Operands pick between spellings of one operation only where it has several.
+        let some = if op == Op::SelectWork { operands.clone() } else { Default::default() };
+        if let Some(row) = self.control.code_for(op, &some) {
+            self.row(row, span);
+        }
+    }
+
+    fn value(&mut self, e: &Expr, span: Span) {
+        match e {
+            Expr::Call(function, arguments) => {
+                if let Some(row) = self.control.function(*function, arguments.len()) {
+                    self.row(row, span);
+                }
+                match function {
+                    Func::Round => self.behaviour(Question::RoundHalfAway, span),
+                    Func::RoundIncrement => self.behaviour(Question::RoundInAddress, span),
+                    Func::Fix => self.behaviour(Question::FixTowardZero, span),
+                    Func::Asin => self.behaviour(Question::AsinRange, span),
+                    Func::Acos => self.behaviour(Question::AcosRange, span),
+                    Func::Atan if arguments.len() == 2 => self.behaviour(Question::Atan2Range, span),
+                    Func::Atan => self.behaviour(Question::AtanRange, span),
+                    _ => {}
+                }
+            }
+            Expr::Binary(BinOp::Mod, ..) => {
+                self.behaviour(Question::ModRoundsOperands, span);
+                self.behaviour(Question::ModSign, span);
+            }
+            Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
+                let [a, b] = &**operands;
+                if !(is_narrow(a) && is_narrow(b) || *op == BinOp::And && (is_narrow(a) || is_narrow(b))) {
+                    self.behaviour(Question::BitsWidth, span);
+                }
+                self.bits(a, b, span);
+            }
+            _ => {}
+        }
+    }
+
+    fn bits(&mut self, a: &Expr, b: &Expr, span: Span) {
+        if !a.is_whole() || !b.is_whole() {
+            self.behaviour(Question::BitsOfFraction, span);
+        }
+    }
+}
+
+/// True for a constant of few bits.
+fn is_narrow(e: &Expr) -> bool {
+    e.constant().is_some_and(|value| (0.0..65_536.0).contains(&value))
+}

@@ -1,0 +1,135 @@
+//! What a program rests on that hangs on values nobody knows before it runs.
+//!
+//! A divisor may be zero, the argument of a root negative, a subscript no whole number, the end of an arc its start; a
+//! cycle's planes may be used in the other mode of coordinates than they were given in. The conversion takes both
+//! controls to do the same then. Where no source says what one of them does, a person has to look.
+
+use crate::canon::{Func, Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Question, Side, matters};
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
+use crate::legalize::census::{Census, Thing};
+use crate::legalize::{Context, Modal, ModalFacts};
+use crate::text::Span;
+
+/// True where something is computed, a cycle stands, or an arc by its radius has an end that counts increments.
+pub fn concerns(census: &Census) -> bool {
+    let computed =
+        [Thing::Computed, Thing::System, Thing::Indirect].into_iter().any(|thing| census.has(thing));
+    computed || census.any_op(Op::is_cycle) || census.role(Role::ArcRadius) && census.has(Thing::Increments)
+}
+
+/// Reports what the programs of a library rest on.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let cycles = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let cycles = cycles
+        .filter_map(|stmt| match &stmt.kind {
+            StmtKind::Nc(nc) => Some(nc),
+            _ => None,
+        })
+        .any(|nc| nc.ops().any(Op::is_cycle));
+    let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            let mut state = modal.as_ref().map(|modal| modal.at(index, id));
+            for stmt in &block.stmts {
+                let span = stmt.site.span;
+                stmt.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
+                if let Some(place) = stmt.kind.target() {
+                    value(&place.read(), index, span, context);
+                }
+                if let StmtKind::Nc(nc) = &stmt.kind {
+                    if let Some(state) = &state
+                        && mixes(nc, state)
+                    {
+                        both(context, index, span, Question::CyclePlanesFrozen);
+                    }
+                    arc(nc, index, span, context);
+                }
+                if let Some(state) = &mut state {
+                    state.step(stmt);
+                }
+            }
+            let span = block.term.site.span;
+            block.term.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
+        }
+    }
+}
+
+fn both(context: &mut Context<'_>, program: usize, span: Span, question: Question) {
+    context.rests_on_source(program, span, question);
+    context.rests_on_target(program, span, question);
+}
+
+fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
+    match e {
+        Expr::Binary(BinOp::Div, operands) if operands[1].constant().is_none() => {
+            both(context, index, span, Question::DivideByZero);
+        }
+        Expr::Call(Func::Sqrt, arguments) if !arguments.iter().all(never_negative) => {
+            both(context, index, span, Question::SqrtOfNegative);
+        }
+        Expr::System(state, subscripts) if subscripts.iter().any(|e| e.constant().is_none()) => {
+            let what = format!(
+                "which '{state}' is meant is known only when the program runs: it must be one that both controls have; what another number names on either is not known"
+            );
+            context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+        }
+        Expr::Indirect(_, number) if makes_fractions(number) => {
+            both(context, index, span, Question::IndexOfFraction)
+        }
+        _ => {}
+    }
+}
+
+/// True where whole numbers may give one that is none. Variables that count are taken to.
+fn makes_fractions(e: &Expr) -> bool {
+    let mut found = false;
+    if !e.is_whole() {
+        e.walk(&mut |e| {
+            found |= matches!(e, Expr::Binary(BinOp::Div, ..))
+                || matches!(e, Expr::Number(value) if value.fract() != 0.0);
+        });
+    }
+    found
+}
+
+/// True for squares, magnitudes, numbers, and their sums, products and quotients.
+fn never_negative(e: &Expr) -> bool {
+    match e {
+        Expr::Number(value) => *value >= 0.0,
+        Expr::Call(Func::Abs | Func::Sqrt, _) => true,
+        Expr::Binary(BinOp::Mul, factors) if factors[0] == factors[1] => true,
+        Expr::Binary(BinOp::Add | BinOp::Mul | BinOp::Div, operands) => operands.iter().all(never_negative),
+        _ => false,
+    }
+}
+
+/// True where a block drills by planes that may have been given in the other mode of coordinates.
+fn mixes(nc: &Nc, state: &Modal) -> bool {
+    let axes = nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_axis()));
+    let goes_on = !nc.ops().any(|op| op.is_cycle() || matches!(op, Op::CycleOff));
+    let incremental = nc.has(Op::Incremental)
+        || (!nc.has(Op::Absolute) && state.op(Group::Distance) == Some(Op::Incremental));
+    axes && goes_on && incremental && state.op(Group::Cycle).is_some_and(Op::is_cycle)
+}
+
+/// An arc by its radius whose end may be its start.
+fn arc(nc: &Nc, index: usize, span: Span, context: &mut Context<'_>) {
+    let computed = |item: &NcItem| match item {
+        NcItem::Word(role, value) => {
+            (role.is_axis() || *role == Role::ArcRadius) && value.constant().is_none()
+        }
+        _ => false,
+    };
+    if nc.word(Role::ArcRadius).is_some() && nc.items.iter().any(computed) {
+        let name = "machine:arc.radius.full.circle";
+        let confirmed =
+            |control: &crate::dialect::Control| control.profile().confirm.iter().any(|fact| fact == name);
+        if !confirmed(context.source) || !confirmed(context.target) {
+            let side = if confirmed(context.target) { Side::Source } else { Side::Target };
+            let what = format!("rests on '{name}': {}", matters::meaning(name).unwrap_or_default());
+            context.unconfirmed(index, side, span, name, what);
+        }
+    }
+}

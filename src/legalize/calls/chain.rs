@@ -1,0 +1,221 @@
+//! Going on in another program for good, and returning to a sequence number of the caller.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::analysis::computed_calls::computed_calls;
+use crate::ir::{
+    BlockId, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind,
+    TermKind, Terminator, Var,
+};
+use crate::legalize::rewrite::{Part, highest_temp, rebuild};
+use crate::legalize::{Context, calls_of, reachable};
+use crate::syntax::{Label, ProgramName};
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Up to so many returns of a callee are told apart by comparisons.
+const FEW: usize = 4;
+
+/// The register that carries a return's sequence number, by its number in [`Class::Register`].
+const RETURN_TO: u32 = 1;
+
+/// Replaces a jump to another program by a stop, a call and the end of the run.
+///
+/// Law: the source stops and waits for the operator's start, runs the other program and never comes
+/// back; a stop, a call and an end do that. Side condition: the call takes a level of nesting.
+pub fn chain(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.statement("start").is_some() {
+        return;
+    }
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        if !program.blocks.iter().any(|b| matches!(b.term.kind, TermKind::Chain(_))) {
+            continue;
+        }
+        rebuild(program, &mut |builder, part| match part {
+            Part::Term(Terminator { kind: TermKind::Chain(name), site }) => {
+                let span = site.span;
+                let why = "the other program is called behind a stop, and the run ends when it returns";
+                context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                builder.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Stop)] }), site);
+                let callee = Callee::Program(name);
+                let call = Call { callee, level: false, arguments: Vec::new(), count: None };
+                builder.end_then(Site::default(), |next| TermKind::Call { call: Box::new(call), next });
+                builder.end(TermKind::End { rewind: true }, Site { span, ..Site::default() });
+            }
+            other => other.keep(builder),
+        });
+    }
+}
+
+/// Returns to a sequence number of the caller by a register that each caller looks at.
+///
+/// Law: the callee leaves the number in a register and returns; behind the call, the caller jumps to
+/// the block of that number, and goes on where it is 0. Side conditions: every caller is in the
+/// library; a call is not repeated, for such a return ends its repeats. A caller that lacks the number
+/// goes on behind the call where the source would alarm. A program that nothing calls is a main program, in which
+/// the return is a jump.
+pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.statement("return.to.sequence").is_some() && !context.target.is(Question::M99PJumpsHere)
+    {
+        return;
+    }
+    let mut numbers: BTreeMap<ProgramName, Vec<u32>> = BTreeMap::new();
+    let register = Var { class: Class::Register, number: RETURN_TO };
+    let called = called(module);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let inside = subroutines_that_return_to(program);
+        let main = inside.is_empty()
+            && called
+                .as_ref()
+                .is_some_and(|all| !program.name.as_ref().is_some_and(|name| all.contains(name)));
+        for span in inside {
+            let why = "a subroutine inside the program returns to a block by its number";
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+        }
+        let own = if main { places(program) } else { BTreeMap::new() };
+        for block in &mut program.blocks {
+            let TermKind::Return { to } = &mut block.term.kind else { continue };
+            let Some(wanted) = to.take() else { continue };
+            let span = block.term.site.span;
+            if let Some(to) = wanted.constant().and_then(|number| own.get(&(number as u32))) {
+                block.term.kind = TermKind::Jump(*to);
+                let why =
+                    "nothing in the library calls the program: as a main program it goes on at that block";
+                context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                continue;
+            }
+            match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {
+                (Some(number), Some(_)) if main => {
+                    let why = format!(
+                        "returns to block N{number} of its caller, and nothing in the library calls it: convert it together with its callers"
+                    );
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+                }
+                (Some(number), Some(name)) => {
+                    numbers.entry(name.clone()).or_default().push(number as u32);
+                    let kind = StmtKind::Assign { target: Place::Var(register), value: wanted };
+                    let site = Site { span, ..Site::default() };
+                    block.stmts.push(crate::ir::Stmt { kind, site });
+                    let why = "returns to a block of the caller by way of a register that callers in the library look at";
+                    context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                }
+                _ => {
+                    let why = "returns to a block of the caller whose number is not a constant";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+                }
+            }
+        }
+    }
+    if numbers.is_empty() {
+        return;
+    }
+    for list in numbers.values_mut() {
+        list.sort_unstable();
+        list.dedup();
+    }
+    let computed = context.target.statement("goto.computed").is_some();
+    let computed_wants = wanted_by(module, &numbers);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let by_computed = computed_wants.get(&index);
+        let wanted = |call: &Call| match &call.callee {
+            Callee::Program(name) => numbers.get(name),
+            Callee::Computed(_) => by_computed,
+            _ => None,
+        };
+        if !program.blocks.iter().flat_map(calls_of).any(|call| wanted(call).is_some()) {
+            continue;
+        }
+        let place = places(program);
+        let temp = Var { class: Class::Temp, number: highest_temp(program) + 1 };
+        rebuild(program, &mut |builder, part| match part {
+            Part::Term(Terminator { kind: TermKind::Call { call, next }, site: whole })
+                if wanted(&call).is_some() =>
+            {
+                let span = whole.span;
+                let site = || Site { span, ..Site::default() };
+                let targets: Vec<(u32, BlockId)> =
+                    wanted(&call).into_iter().flatten().filter_map(|n| Some((*n, *place.get(n)?))).collect();
+                if call.count.as_ref().is_some_and(|count| count.constant() != Some(1.0)) {
+                    let why = "a repeated call of a program that returns to a block of its caller";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
+                }
+                let assign = |var, value| StmtKind::Assign { target: Place::Var(var), value };
+                let clear = || assign(register, Expr::Number(0.0));
+                builder.push(clear(), site());
+                builder.end_then(whole, |next| TermKind::Call { call, next });
+                // Cleared at once, so that a plain return of this program carries no number.
+                builder.push(assign(temp, Expr::Var(register)), site());
+                builder.push(clear(), site());
+                // One jump finds its block by the number, as the return did.
+                if targets.len() > FEW && computed {
+                    let here = Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(0.0));
+                    let jump = builder.fresh();
+                    builder.end(TermKind::Branch { cond: here, yes: next, no: jump }, site());
+                    builder.start(jump);
+                    return builder.end(TermKind::Computed { value: Expr::Var(temp), targets }, site());
+                }
+                for (number, to) in targets {
+                    let cond =
+                        Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(f64::from(number)));
+                    builder.end_then(site(), |no| TermKind::Branch { cond, yes: to, no });
+                }
+                builder.end(TermKind::Jump(next), Site::default());
+            }
+            other => other.keep(builder),
+        });
+    }
+}
+
+/// By program: the blocks that what its computed calls may run returns to.
+fn wanted_by(module: &Module, numbers: &BTreeMap<ProgramName, Vec<u32>>) -> BTreeMap<usize, Vec<u32>> {
+    let mut wanted: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for ((index, _), callees) in computed_calls(module) {
+        let names = callees.programs.iter().filter_map(|at| module.programs[*at].name.as_ref());
+        for list in names.filter_map(|name| numbers.get(name)) {
+            wanted.entry(index).or_default().extend(list);
+        }
+    }
+    for list in wanted.values_mut() {
+        list.sort_unstable();
+        list.dedup();
+    }
+    wanted
+}
+
+/// The programs that the library calls; none where a call is computed.
+fn called(module: &Module) -> Option<BTreeSet<ProgramName>> {
+    let calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
+    let callee = |call: &Call| match &call.callee {
+        Callee::Computed(_) => None,
+        Callee::Program(name) => Some(Some(name.clone())),
+        _ => Some(None),
+    };
+    Some(calls.map(callee).collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+}
+
+/// The first block of each sequence number.
+fn places(program: &Program) -> BTreeMap<u32, BlockId> {
+    let mut places = BTreeMap::new();
+    for (id, block) in program.ids().zip(&program.blocks) {
+        for label in &block.labels {
+            if let Label::Number(number) = label {
+                places.entry(*number).or_insert(id);
+            }
+        }
+    }
+    places
+}
+
+/// The calls inside a program of what may return to a sequence number: nobody looks at the register behind them.
+fn subroutines_that_return_to(program: &Program) -> Vec<Span> {
+    let returns_to = |id: &BlockId| {
+        program.block(*id).is_some_and(|block| matches!(block.term.kind, TermKind::Return { to: Some(_) }))
+    };
+    let returns = |call: &Call| match call.callee {
+        Callee::Block(entry) => reachable(program, entry).iter().any(returns_to),
+        _ => false,
+    };
+    let calls = program.blocks.iter().filter(|block| calls_of(block).any(returns));
+    calls.map(|block| block.term.site.span).collect()
+}

@@ -1,0 +1,76 @@
+//! Calls that leave the library.
+//!
+//! A call of a program that is not in the library stays a call of that number, since the shop may have the program
+//! in the machine; a reviewer must know it, because nothing is known of it. A maker's cycle that is not
+//! in the library has no number on the target and is an error.
+
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Callee, Module, TermKind};
+use crate::legalize::{Context, calls_of, span_of};
+use crate::syntax::ProgramName;
+use crate::text::Span;
+use std::collections::BTreeSet;
+
+/// Reports calls of what is not there.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    report(module, context);
+    let mut changed = false;
+    // What is refused anyway keeps no arguments that no program has.
+    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+        if let TermKind::Call { call, .. } = &mut block.term.kind
+            && matches!(call.callee, Callee::Cycle(_))
+        {
+            changed |= !call.arguments.is_empty();
+            call.arguments.clear();
+        }
+    }
+    changed
+}
+
+fn report(module: &Module, context: &mut Context<'_>) {
+    let known: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            for call in calls_of(block) {
+                check(&call.callee, &known, index, span_of(block, call), context);
+            }
+            if let TermKind::Chain(name) = &block.term.kind {
+                check(&Callee::Program(name.clone()), &known, index, block.term.site.span, context);
+            }
+        }
+    }
+}
+
+fn check(
+    callee: &Callee,
+    known: &BTreeSet<&ProgramName>,
+    index: usize,
+    span: Span,
+    context: &mut Context<'_>,
+) {
+    match callee {
+        Callee::Program(name) if known.contains(name) => {}
+        Callee::Program(ProgramName::Number(n)) => {
+            let what = format!(
+                "O{n} is not in the library: the target needs a program of that number that does the same"
+            );
+            context.add_once(index, &what, Diagnostic::new(Code::OutsideLibrary, span, what.clone()));
+        }
+        Callee::Program(ProgramName::Name(name)) => {
+            let what =
+                format!("'{name}' is not in the library, and the target knows no program of that name");
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+        }
+        Callee::Cycle(n) => {
+            let what = format!(
+                "{n} is a subroutine that the maker of the source's control keeps in it; the target has none"
+            );
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+        }
+        Callee::Computed(_) => {
+            let what = "which program is called is computed; every program that it may be must be on the target under the same number";
+            context.add_once(index, "computed call", Diagnostic::new(Code::OutsideLibrary, span, what));
+        }
+        Callee::Block(_) => {}
+    }
+}

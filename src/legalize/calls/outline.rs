@@ -1,0 +1,182 @@
+//! Subroutines inside a program, where the target wants them: behind the program's end, or, where it
+//! calls programs only, as programs of their own.
+//!
+//! A subroutine at the head of its program, jumped over, is moved behind the end; the order of blocks
+//! means nothing but to the reader.
+//!
+//! Law: what a call of a block runs is what is reachable from it; a program
+//! made of copies of those blocks does the same and returns to the same place.
+//! Side condition: blocks that the main part reaches as well are copied, so an
+//! operator who edits one must edit both; the copies carry the same comments.
+
+use crate::ir::{Block, BlockId, Callee, Module, Program, Remark, Site, StmtKind, TermKind, Terminator};
+use crate::legalize::{Context, calls_of, reachable};
+use crate::syntax::{Label, ProgramName};
+use smallvec::SmallVec;
+use std::collections::{BTreeMap, BTreeSet};
+use thin_vec::ThinVec;
+
+/// Gives each called block a program of its own, or its place behind the program's end.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.statement("call.local").is_some() {
+        module.programs.iter_mut().for_each(move_behind);
+        return;
+    }
+    let mut out = Vec::with_capacity(module.programs.len());
+    let mut origins = Vec::with_capacity(module.programs.len());
+    for (index, program) in std::mem::take(&mut module.programs).into_iter().enumerate() {
+        outline(program, &mut out);
+        origins.resize(out.len(), context.origins[index]);
+    }
+    module.programs = out;
+    context.origins = origins;
+}
+
+/// The blocks that are called.
+fn entries(program: &Program) -> BTreeSet<BlockId> {
+    let calls = program.blocks.iter().flat_map(calls_of);
+    let blocks = calls.filter_map(|call| match call.callee {
+        Callee::Block(entry) => Some(entry),
+        _ => None,
+    });
+    blocks.collect()
+}
+
+/// Moves the subroutines that a program begins with behind its end.
+fn move_behind(program: &mut Program) {
+    let Some(TermKind::Jump(start)) = program.blocks.first().map(|block| &block.term.kind) else { return };
+    let (start, all) = (start.index(), program.blocks.len());
+    let main = reachable(program, BlockId(0));
+    let called: BTreeSet<BlockId> =
+        entries(program).iter().flat_map(|&entry| reachable(program, entry)).collect();
+    let only_called = |at| !main.contains(&BlockId(at)) && called.contains(&BlockId(at));
+    if !(2..all).contains(&start) || !(1..start as u32).all(only_called) {
+        return;
+    }
+    let moved = start - 1;
+    program.blocks[1..].rotate_left(moved);
+    let place = |id: &mut BlockId| match id.index() {
+        0 => {}
+        at if at < start => *id = BlockId((at + all - start) as u32),
+        at => *id = BlockId((at - moved) as u32),
+    };
+    for block in &mut program.blocks {
+        for_each_jump(&mut block.term.kind, &mut |to| place(to));
+        for_each_callee(block, &mut |callee| {
+            if let Callee::Block(entry) = callee {
+                place(entry);
+            }
+        });
+    }
+}
+
+/// Appends the program and, behind it, the programs made of its subroutines.
+fn outline(mut program: Program, out: &mut Vec<Program>) {
+    let entries = entries(&program);
+    if entries.is_empty() {
+        out.push(program);
+        return;
+    }
+    let names: BTreeMap<BlockId, ProgramName> =
+        entries.iter().map(|&entry| (entry, sub_name(&program, entry))).collect();
+    let mut outlined = BTreeSet::new();
+    let mut subs = Vec::new();
+    for (&entry, name) in &names {
+        let body = reachable(&program, entry);
+        outlined.extend(body.iter().copied());
+        let site = Site { remarks: called(&program, entry), ..Site::default() };
+        subs.push(extract(&program, entry, &body, Some(name.clone()), site));
+    }
+    let main = reachable(&program, BlockId(0));
+    // What nothing reaches stays, and with it what that could jump to.
+    let strays = program.ids().filter(|id| !main.contains(id) && !outlined.contains(id));
+    let strays: BTreeSet<BlockId> = strays.flat_map(|id| reachable(&program, id)).collect();
+    let keep = &main | &strays;
+    let (name, site) = (program.name.take(), std::mem::take(&mut program.site));
+    let mut all = vec![extract(&program, BlockId(0), &keep, name, site)];
+    all.extend(subs);
+    for program in &mut all {
+        program.blocks.iter_mut().for_each(|block| rename_calls(block, &names));
+    }
+    out.extend(all);
+}
+
+/// What people call a subroutine, where that is a name and no number: it stands beside the program's number.
+fn called(program: &Program, entry: BlockId) -> ThinVec<Remark> {
+    let labels = program.block(entry).into_iter().flat_map(|block| &block.labels);
+    let names = labels.filter_map(|label| match label {
+        Label::Name(name) => Some(Remark { text: name.clone(), leading: false }),
+        Label::Number(_) => None,
+    });
+    names.take(1).collect()
+}
+
+/// A name that no program in any source has: the parent's and the label.
+fn sub_name(program: &Program, entry: BlockId) -> ProgramName {
+    let parent = match &program.name {
+        Some(ProgramName::Number(n)) => format!("O{n}"),
+        Some(ProgramName::Name(name)) => name.clone(),
+        None => format!("FILE{}", program.file),
+    };
+    let label = match program.block(entry).and_then(|block| block.labels.first()) {
+        Some(Label::Number(n)) => n.to_string(),
+        Some(Label::Name(name)) => name.clone(),
+        None => format!("BLOCK{}", entry.0),
+    };
+    ProgramName::Name(format!("{parent}/{label}"))
+}
+
+/// A program of some of the blocks, entered at `entry`.
+fn extract(
+    program: &Program,
+    entry: BlockId,
+    body: &BTreeSet<BlockId>,
+    name: Option<ProgramName>,
+    site: Site,
+) -> Program {
+    let leads = body.first() == Some(&entry);
+    let shift = u32::from(!leads);
+    let place: BTreeMap<BlockId, BlockId> =
+        body.iter().zip(shift..).map(|(&old, new)| (old, BlockId(new))).collect();
+    let mut blocks = Vec::with_capacity(body.len() + 1);
+    if !leads {
+        let jump = TermKind::Jump(place.get(&entry).copied().unwrap_or(BlockId(0)));
+        let term = Terminator { kind: jump, site: Site::default() };
+        blocks.push(Block { labels: SmallVec::new(), stmts: Vec::new(), term });
+    }
+    for block in body.iter().filter_map(|&id| program.block(id)) {
+        let mut block = block.clone();
+        for_each_jump(&mut block.term.kind, &mut |to| *to = place.get(to).copied().unwrap_or(*to));
+        blocks.push(block);
+    }
+    Program { name, file: program.file, site, blocks }
+}
+
+/// Every successor; callees keep their ids until they are renamed.
+fn for_each_jump(kind: &mut TermKind, f: &mut dyn FnMut(&mut BlockId)) {
+    match kind {
+        TermKind::Call { next, .. } => f(next),
+        other => other.for_each_target(f),
+    }
+}
+
+fn for_each_callee(block: &mut Block, f: &mut dyn FnMut(&mut Callee)) {
+    for stmt in &mut block.stmts {
+        if let StmtKind::ModalCall(call) = &mut stmt.kind {
+            f(&mut call.callee);
+        }
+    }
+    if let TermKind::Call { call, .. } = &mut block.term.kind {
+        f(&mut call.callee);
+    }
+}
+
+fn rename_calls(block: &mut Block, names: &BTreeMap<BlockId, ProgramName>) {
+    for_each_callee(block, &mut |callee| {
+        if let Callee::Block(entry) = callee
+            && let Some(name) = names.get(entry)
+        {
+            *callee = Callee::Program(name.clone());
+        }
+    });
+}

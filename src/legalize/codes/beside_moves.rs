@@ -1,0 +1,234 @@
+//! Spindle, coolant and tool change beside a move, which controls do with its start or when it is done.
+//!
+//! Law: what stands in a block of its own acts when that block comes, on every control. So a code goes before or behind
+//! the move, as the source does it, wherever no source says that the target does the same in one block. Beside a rapid
+//! move or a wait nobody could tell in the work when spindle or coolant act: where the source does not say, they stay.
+//! Where it matters and no source says it, the code goes where the trade has it, and the fact is named.
+//! Counter-example: `G1 X5. M3 S1000`, which cuts with the spindle turning on one control, and then starts it on another.
+
+use crate::canon::{Auxiliary, Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::analysis::modal_facts::ModalFacts;
+use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::legalize::census::Census;
+use crate::legalize::codes::pauses::pause_of;
+use crate::legalize::{Context, Modal, replace_statements};
+
+/// Why what acts after a move cannot have a block of its own where that move runs a modal call.
+pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force: what this block does when its move is done would come after the call, in a block of its own. Put it into a block before the move, or after the end of the modal call";
+
+/// True where anything stands that may stand beside a move.
+pub fn concerns(census: &Census) -> bool {
+    census.any_op(|op| op.auxiliary().is_some()) || census.role(Role::Speed)
+}
+
+/// Puts what acts before or behind the move of its block into blocks of its own.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let facts = ModalFacts::of(module, &context.entry);
+    let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    let pauses = stmts.any(|stmt| pause_of(&stmt.kind).is_some());
+    replace_statements(module, &facts, |index, state, mut stmt, out| {
+        let before = match &stmt.kind {
+            StmtKind::Nc(nc) if kinds(nc).next().is_some() => Some(state.clone()),
+            _ => None,
+        };
+        state.step(&stmt);
+        let (Some(before), StmtKind::Nc(nc)) = (before, &mut stmt.kind) else { return out.push(stmt) };
+        let moves = move_of(nc, &before);
+        if moves == Move::None {
+            return out.push(stmt);
+        }
+        let mut block = Block { nc, before: &before, pauses, moves, early: Vec::new(), late: Vec::new() };
+        for fact in block.split(context) {
+            context.rests_on_source(index, stmt.site.span, fact);
+        }
+        let Block { early, late, .. } = block;
+        if !late.is_empty() && before.may_call() {
+            context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
+        }
+        let site = |first: bool, stmt: &mut Stmt| Site {
+            span: stmt.site.span,
+            sequence: if first { stmt.site.sequence.take() } else { None },
+            skip: stmt.site.skip,
+            ..Site::default()
+        };
+        for (at, items) in early.into_iter().enumerate() {
+            let site = site(at == 0, &mut stmt);
+            out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
+        }
+        let behind = late.into_iter().map(|items| (items, site(false, &mut stmt))).collect::<Vec<_>>();
+        out.push(stmt);
+        out.extend(behind.into_iter().map(|(items, site)| Stmt { kind: StmtKind::Nc(Nc { items }), site }));
+    });
+}
+
+/// What a block moves.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Move {
+    /// Nothing.
+    None,
+    /// At rapid, or it waits.
+    Idle,
+    /// The tool may cut.
+    Cut,
+}
+
+fn move_of(nc: &Nc, before: &Modal) -> Move {
+    use Op::*;
+    if nc.ops().any(|op| op.is_cycle() || matches!(op, CycleHere | Probe | ProbeOther)) {
+        return Move::Cut;
+    }
+    if nc.ops().any(|op| matches!(op, Dwell | ReferenceReturn | ReferenceFrom | Reference2 | Home)) {
+        return Move::Idle;
+    }
+    let words = |role: Role| {
+        matches!(role, Role::PolarAngle | Role::PolarDistance | Role::ArcI | Role::ArcJ | Role::ArcK)
+    };
+    let moves =
+        nc.moves() || nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if words(*role)));
+    if !moves {
+        return Move::None;
+    }
+    let mut state = before.clone();
+    state.step_words(nc);
+    let drills = state.op(Group::Cycle) != Some(CycleOff);
+    let rapid = nc.ops().any(|op| op == RapidOnce) || state.op(Group::Motion) == Some(Rapid);
+    if rapid && !drills && !before.may_call() { Move::Idle } else { Move::Cut }
+}
+
+/// What kind an item is of; a speed beside a code that starts the spindle goes with that.
+fn kind(item: &NcItem, starts: bool) -> Option<Auxiliary> {
+    match item {
+        NcItem::Op(op) => op.auxiliary(),
+        NcItem::Code('M', _) => Some(Auxiliary::Other),
+        NcItem::Word(Role::Speed, _) if !starts => Some(Auxiliary::Speed),
+        NcItem::Code(..) | NcItem::Word(..) => None,
+    }
+}
+
+fn starts(nc: &Nc) -> bool {
+    nc.has(Op::SpindleCw) || nc.has(Op::SpindleCcw)
+}
+
+fn kinds(nc: &Nc) -> impl Iterator<Item = Auxiliary> + '_ {
+    let starts = starts(nc);
+    nc.items.iter().filter_map(move |item| kind(item, starts))
+}
+
+/// True for a word that goes where a code goes: the speed of a spindle that starts, the tool of a change.
+fn belongs(item: &NcItem, code: &NcItem) -> bool {
+    match item {
+        NcItem::Word(Role::Speed, _) => matches!(code, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)),
+        NcItem::Word(Role::Tool, _) => *code == NcItem::Op(Op::ToolChange),
+        _ => false,
+    }
+}
+
+/// A block that moves, and what goes before it and behind it, a block each.
+struct Block<'b> {
+    nc: &'b mut Nc,
+    before: &'b Modal,
+    /// True where the library has stops: the target may end at one what the source lets run.
+    pauses: bool,
+    moves: Move,
+    early: Vec<Vec<NcItem>>,
+    late: Vec<Vec<NcItem>>,
+}
+
+impl Block<'_> {
+    /// Takes out what does not stay; the unconfirmed facts about the source that this rests on.
+    fn split(&mut self, context: &Context<'_>) -> Vec<Question> {
+        let (mut facts, starts) = (Vec::new(), starts(self.nc));
+        let mut wanted: Vec<Auxiliary> = kinds(self.nc).collect();
+        wanted.sort();
+        wanted.dedup();
+        let changes = wanted.contains(&Auxiliary::Change);
+        for kind in wanted {
+            let (here, there) = (context.source.acts(kind), context.target.acts(kind));
+            let tells = self.tells(kind);
+            if !here.known && tells {
+                facts.push(here.question);
+            }
+            // A tool in the changer does not turn: what starts waits for the change.
+            let waits = changes && !kind.waits() && context.source.acts(Auxiliary::Change).late;
+            let late = here.late || waits;
+            let same = there.known && there.late == late;
+            // Of a builder's code nothing says which block it may stand in.
+            if same || (!waits && !here.known && (!tells || kind == Auxiliary::Other)) {
+                continue;
+            }
+            self.take(kind, starts, late);
+        }
+        self.spread(context);
+        self.stop_last();
+        facts
+    }
+
+    /// A program stop waits for what goes behind the move.
+    fn stop_last(&mut self) {
+        let stops = |item: &NcItem| matches!(item, NcItem::Op(Op::Stop | Op::OptionalStop));
+        if self.late.is_empty() || !self.nc.items.iter().any(stops) {
+            return;
+        }
+        let (stop, kept) = std::mem::take(&mut self.nc.items).into_iter().partition(stops);
+        self.nc.items = kept;
+        self.late.push(stop);
+    }
+
+    /// True where anybody could tell when a kind acts.
+    fn tells(&self, wanted: Auxiliary) -> bool {
+        match wanted {
+            Auxiliary::Change | Auxiliary::Other => true,
+            _ => self.moves == Move::Cut && self.nc.ops().any(|op| self.switches(op, wanted)),
+        }
+    }
+
+    /// True for an operation of a kind that may change what is in force.
+    fn switches(&self, op: Op, wanted: Auxiliary) -> bool {
+        let other = self.pauses || self.before.op(op.group()) != Some(op);
+        op.auxiliary() == Some(wanted) && (other || self.nc.word(Role::Speed).is_some())
+    }
+
+    /// Moves a kind out of the block: a code each, in their order.
+    fn take(&mut self, wanted: Auxiliary, starts: bool, late: bool) {
+        let items = std::mem::take(&mut self.nc.items);
+        let codes: Vec<NcItem> =
+            items.iter().filter(|item| kind(item, starts) == Some(wanted)).cloned().collect();
+        let mut rest = items;
+        for code in codes {
+            let goes = |item: &NcItem| *item == code || belongs(item, &code);
+            let (block, kept): (Vec<_>, Vec<_>) = rest.into_iter().partition(goes);
+            rest = kept;
+            if late { self.late.push(block) } else { self.early.push(block) }
+        }
+        self.nc.items = rest;
+    }
+
+    /// Leaves no more M codes beside the move than the target takes: the last that starts something, or the first that
+    /// stops something.
+    fn spread(&mut self, context: &Context<'_>) {
+        let most = context.target.behaviour(Question::MCodesPerBlock).filter(|row| row.origin.confirmed);
+        let most = most
+            .map_or(1, |row| if row.value == "any" { usize::MAX } else { row.value.parse().unwrap_or(1) });
+        loop {
+            let codes: Vec<(Auxiliary, NcItem)> =
+                (self.nc.items.iter()).filter_map(|item| Some((kind(item, true)?, item.clone()))).collect();
+            if codes.len() <= most {
+                return;
+            }
+            // What starts waits for a change beside it.
+            let changes = codes.iter().any(|(kind, _)| *kind == Auxiliary::Change);
+            let goes = |kind: Auxiliary| !changes && !kind.waits() && kind != Auxiliary::Speed;
+            let first = codes.iter().find(|(kind, _)| goes(*kind));
+            let late = first.is_none();
+            // Of those that wait the one that acts last goes first: a stop comes behind a change.
+            let last = || codes.iter().max_by_key(|(kind, _)| *kind);
+            let Some((_, code)) = first.or_else(last) else { return };
+            let goes = |item: &NcItem| item == code || belongs(item, code);
+            let (block, kept) = std::mem::take(&mut self.nc.items).into_iter().partition(goes);
+            self.nc.items = kept;
+            if late { self.late.insert(0, block) } else { self.early.push(block) }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Codes known by their number only: computed ones, and those of a machine's builder.
+//!
+//! Law: a number means the same on both controls where both tables give it the same operation with the same fixed
+//! operands. Every number that the value may be is looked up; where that set is not known, the code is a
+//! condition that a reviewer must accept within a family of controls, and an error across families. So is a code that
+//! the program may have found in force, which only one that runs before it can have put there. A computed code
+//! is a whole number: where both controls round it, what they round it to is looked up.
+//! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
+
+use crate::assume::Predicate;
+use crate::canon::{Group, Op, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question};
+use crate::ir::analysis::{Constant, Summaries, values_at};
+use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
+use crate::legalize::Context;
+use crate::text::Span;
+use std::cell::LazyCell;
+
+/// Checks every code that is known by its number.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let summaries = LazyCell::new(|| Summaries::of(module));
+    let rounds =
+        [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
+    let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                for item in &nc.items {
+                    if let NcItem::Code(letter, value) = item {
+                        let mut numbers = numbers(value, program, &summaries, id, at, context.source);
+                        if rounds && value.constant().is_none() {
+                            numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
+                        }
+                        let finding = check(*letter, numbers, context.source, context.target);
+                        found.extend(finding.map(|finding| (index, stmt.site.span, (*letter, finding))));
+                    }
+                }
+            }
+        }
+    }
+    for (index, span, (letter, finding)) in &found {
+        let (code, what) = match finding {
+            Finding::Other(code) => {
+                (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
+            }
+            Finding::Read(code) => {
+                let same = context.same_family();
+                let what = format!(
+                    "puts in force again what was read: {code} is not known to mean the same on the target, and must not be in force where it is read"
+                );
+                (if same { Code::Conditional } else { Code::NoEquivalent }, what)
+            }
+            Finding::Any(letter) => {
+                let same = context.same_family();
+                let what = format!(
+                    "which {letter} code is computed here is not known: each that it may be must mean the same on the target"
+                );
+                (if same { Code::Conditional } else { Code::NoEquivalent }, what)
+            }
+        };
+        let here = found.iter().filter(|(other, _, (l, _))| other == index && l == letter);
+        let places = here.map(|(_, span, _)| *span).collect();
+        let same = alike(*letter, context.source, context.target);
+        let predicate = Predicate::Codes { letter: *letter, places, same };
+        context.add_once(*index, &what, Diagnostic::new(code, *span, what.clone()).assuming(predicate));
+    }
+}
+
+enum Finding {
+    /// This code has another meaning, or none.
+    Other(String),
+    /// So has this one, which stands for what was in force where the program read it.
+    Read(String),
+    /// Any code of the letter.
+    Any(char),
+}
+
+/// A number that a code may be.
+pub(in crate::legalize) struct Number {
+    /// The number.
+    pub number: f64,
+    /// True where it stands for what was in force where the program read it.
+    read: bool,
+}
+
+/// The numbers that a code may be; none where that is not known.
+pub(in crate::legalize) fn numbers(
+    value: &Expr,
+    program: &Program,
+    summaries: &LazyCell<Summaries, impl FnOnce() -> Summaries>,
+    id: BlockId,
+    at: usize,
+    source: &Control,
+) -> Option<Vec<Number>> {
+    if let Some(number) = value.constant() {
+        return Some(vec![Number { number, read: false }]);
+    }
+    let Expr::Var(var) = value else { return None };
+    let mut numbers = Vec::new();
+    for constant in values_at(program, summaries, *var, id, at)? {
+        match constant {
+            Constant::Number(number) => numbers.push(Number { number, read: false }),
+            Constant::Vacant => {}
+            Constant::State(Sys::Modal, subscripts) => {
+                let codes = codes_of_group(*subscripts.first()?, source)?.into_iter();
+                numbers.extend(codes.map(|number| Number { number, read: true }));
+            }
+            Constant::State(..) => return None,
+        }
+    }
+    Some(numbers)
+}
+
+/// The codes that a modal variable may hold: those of the group that its number stands for.
+fn codes_of_group(number: f64, source: &Control) -> Option<Vec<f64>> {
+    let group = Group::ALL.iter().find(|group| group.number().is_some_and(|n| f64::from(n) == number))?;
+    let codes = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
+    Some(codes.filter_map(|row| row.code.strip_prefix('G')?.parse().ok()).collect())
+}
+
+/// A code of a modal group of which the target has the operation, and under another number: what the group's
+/// variable holds then is not the same on both.
+pub(in crate::legalize) fn renumbered(group: f64, source: &Control, target: &Control) -> Option<String> {
+    let group = Group::ALL.iter().find(|g| g.number().is_some_and(|n| f64::from(n) == group))?;
+    let mut rows = source.dialect().codes.iter().filter(|row| row.op.group() == *group);
+    let row = rows.find(|row| {
+        let there = target.code_for(row.op, &Default::default()).is_some() || row.op == Op::SelectWork;
+        let same = row.head().and_then(|head| target.code(head.letter, head.number(), &[]));
+        there && same.is_none_or(|same| same.op != row.op)
+    })?;
+    Some(row.code.split(' ').next()?.to_owned())
+}
+
+/// True for a code that means the same on both controls.
+fn is_same(letter: char, number: f64, source: &Control, target: &Control) -> bool {
+    let (here, there) = (source.code(letter, number, &[]), target.code(letter, number, &[]));
+    let unnamed = |op: Op| {
+        matches!(op, Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther)
+    };
+    here.zip(there)
+        .is_some_and(|(here, there)| here.op == there.op && here.fixed == there.fixed && !unnamed(here.op))
+}
+
+/// The codes of a letter that mean the same on both controls.
+fn alike(letter: char, source: &Control, target: &Control) -> Vec<f64> {
+    let heads = source.dialect().codes.iter().filter_map(|row| row.head());
+    let mut all: Vec<f64> = heads.filter(|head| head.letter == letter).map(|head| head.number()).collect();
+    all.retain(|number| is_same(letter, *number, source, target));
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+fn check(letter: char, numbers: Option<Vec<Number>>, source: &Control, target: &Control) -> Option<Finding> {
+    let Some(numbers) = numbers else { return Some(Finding::Any(letter)) };
+    // What a program names itself weighs more than what it may find in force.
+    let other =
+        numbers.into_iter().filter(|n| !is_same(letter, n.number, source, target)).min_by_key(|n| n.read)?;
+    let code = format!("{letter}{}", other.number);
+    Some(if other.read { Finding::Read(code) } else { Finding::Other(code) })
+}

@@ -1,0 +1,45 @@
+//! Operations that the target has no code for, and that nothing stood in for.
+//!
+//! Runs last of the passes that rewrite: what is left without a row in the target's table is refused here,
+//! in the words of the machine and not of a table.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{Program, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::census::Census;
+use std::collections::BTreeSet;
+
+/// The operations that a control has.
+fn had<'c>(context: &'c Context<'_>) -> &'c BTreeSet<Op> {
+    context.had.get_or_init(|| has(context.target))
+}
+
+fn has(control: &Control) -> BTreeSet<Op> {
+    let dialect = control.dialect();
+    let codes = dialect.codes.iter().filter(|row| row.preferred).map(|row| row.op);
+    codes.chain(dialect.words.iter().filter_map(|row| row.op)).collect()
+}
+
+/// True where an operation stands that the target has not.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    let had = had(context);
+    census.any_op(|op| !had.contains(&op))
+}
+
+/// Refuses what the target cannot do.
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
+    let (target, had) = (context.target.dialect(), had(context));
+    let mut found = Vec::new();
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        let StmtKind::Nc(nc) = &stmt.kind else { continue };
+        found.extend(nc.ops().filter(|op| !had.contains(op)).map(|op| (stmt.site.span, op)));
+    }
+    for (span, op) in found {
+        let meaning = op.meaning().trim().trim_end_matches('.');
+        let what = format!("{} has no code for this ({op}): {meaning}", target.title);
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+    }
+    false
+}

@@ -1,0 +1,9 @@
+//! Codes of a block: when they act, how many it takes, and which the target lacks.
+
+pub(in crate::legalize) mod beside_moves;
+pub(in crate::legalize) mod by_number;
+pub(in crate::legalize) mod lookahead;
+pub(in crate::legalize) mod machine_codes;
+pub(in crate::legalize) mod missing;
+pub(in crate::legalize) mod pauses;
+pub(in crate::legalize) mod substitutes;

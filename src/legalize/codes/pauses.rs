@@ -1,0 +1,258 @@
+//! Spindle and coolant at stops, tool changes and ends, which controls end or let run.
+//!
+//! Law: what the source ends at a stop is ended by codes before it, wherever no source says that the target's stop does so:
+//! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
+//! change is left to the machine. What a stop ends matters behind it where the program cuts before it says itself what
+//! runs: then the facts that no source confirms are named.
+//! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
+
+mod after;
+
+use crate::canon::{Group, Op, Pause, Running};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::CallGraph;
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::modal_facts::ModalFacts;
+use crate::ir::{BlockId, Module, Nc, NcItem, Site, Stmt, StmtKind, TermKind};
+use crate::legalize::census::Census;
+use crate::legalize::codes::beside_moves::AFTER_CALL;
+use crate::legalize::{Context, Modal};
+use crate::text::Span;
+use after::After;
+use std::collections::BTreeSet;
+
+/// True where something that may be running is started, or runs from the start: in a piece of a program.
+pub fn concerns(census: &Census, entry: &Modal) -> bool {
+    let runs = |running: Running| entry.op(ends(running).0);
+    let may = |running: Running| {
+        starts_in(census, running) || starts(running).iter().any(|op| runs(running) == Some(*op))
+    };
+    Running::ALL.into_iter().any(may)
+}
+
+/// True where something starts it: its codes, or a tap the spindle.
+fn starts_in(census: &Census, running: Running) -> bool {
+    let taps = running == Running::Spindle && census.any_op(Op::is_tap);
+    taps || starts(running).iter().any(|op| census.op(*op))
+}
+
+/// What starts it.
+fn starts(running: Running) -> &'static [Op] {
+    match running {
+        Running::Spindle => &[Op::SpindleCw, Op::SpindleCcw],
+        Running::Coolant => &[Op::Mist, Op::Flood],
+    }
+}
+
+/// Its group, and what ends it.
+fn ends(running: Running) -> (Group, Op) {
+    match running {
+        Running::Spindle => (Group::Spindle, Op::SpindleStop),
+        Running::Coolant => (Group::Coolant, Op::CoolantOff),
+    }
+}
+
+/// One way has the spindle turning, and another one holds it.
+const LETS_GO: &str = "the M5 before this stop lets go of a spindle that an M19 holds: say M3 or M19 again where the program goes on";
+
+/// Ends before stops what the source ends at them.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let facts = ModalFacts::of(module, &context.entry);
+    let (after, started) = (After::of(module, &facts), started(module));
+    let holds = Census::of(&module.programs).op(Op::SpindleOrient);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let id = BlockId(at as u32);
+            let mut place = Place {
+                index,
+                id,
+                state: facts.at(index, id),
+                restarted: [false; 2],
+                skipped: false,
+                started: started[index],
+                holds,
+                after: &after,
+            };
+            let mut out = Vec::with_capacity(block.stmts.len());
+            for (number, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
+                let pause = pause_of(&stmt.kind);
+                place.state.step(&stmt);
+                place.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
+                place.skipped = stmt.site.skip.is_some();
+                if let Some((pause, optional)) = pause {
+                    let before = place.stop(pause, optional, number + 1, stmt.site.span, context);
+                    let moves = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
+                    if moves && !before.is_empty() && place.state.may_call() {
+                        let refused = Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL);
+                        context.add(index, refused);
+                    }
+                    ended(before, stmt, &mut out);
+                } else {
+                    out.push(stmt);
+                }
+            }
+            if let TermKind::End { .. } = block.term.kind {
+                (place.restarted, place.skipped) = ([false; 2], false);
+                let span = block.term.site.span;
+                for op in place.stop(Pause::End, false, usize::MAX, span, context) {
+                    let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
+                    out.push(Stmt { kind, site: Site { span, ..Site::default() } });
+                }
+            }
+            block.stmts = out;
+        }
+    }
+}
+
+/// For each program, what it, those that it calls, or those that call it start.
+fn started(module: &Module) -> Vec<[bool; 2]> {
+    let mut found: Vec<[bool; 2]> = (module.programs.iter())
+        .map(|program| {
+            let census = Census::of(std::slice::from_ref(program));
+            Running::ALL.map(|running| starts_in(&census, running))
+        })
+        .collect();
+    let mut callees = vec![BTreeSet::new(); found.len()];
+    for (caller, callee) in CalledPrograms::of(module).pairs(module) {
+        callees[caller].insert((callee, false));
+    }
+    let graph = CallGraph::new(callees);
+    let either = |mine: &mut [bool; 2], theirs: &[bool; 2], _| {
+        mine.iter_mut().zip(theirs).fold(false, |changed, (mine, theirs)| mine.join(theirs) || changed)
+    };
+    // First what a program or those that it calls start, then what was started by those that call it.
+    graph.bottom_up(&mut found, either);
+    graph.top_down(&mut found, either);
+    found
+}
+
+/// Lays down a stop, and before it what ends what is running; the words beside the stop come first.
+fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
+    let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+    let nc = |items: Vec<NcItem>| StmtKind::Nc(Nc { items });
+    if let (StmtKind::Nc(block), false) = (&mut stmt.kind, before.is_empty()) {
+        let (stop, words) = std::mem::take(&mut block.items)
+            .into_iter()
+            .partition(|item| matches!(item, NcItem::Op(Op::Stop | Op::OptionalStop)));
+        block.items = stop;
+        if !words.is_empty() {
+            out.push(Stmt {
+                kind: nc(words),
+                site: Site { sequence: stmt.site.sequence.take(), ..site.clone() },
+            });
+        }
+    }
+    for op in before {
+        let sequence = stmt.site.sequence.take();
+        out.push(Stmt { kind: nc(vec![NcItem::Op(op)]), site: Site { sequence, ..site.clone() } });
+    }
+    out.push(stmt);
+}
+
+/// The kind of stop that a statement is, and whether it may be switched off. A question stops like a message.
+pub(in crate::legalize) fn pause_of(kind: &StmtKind) -> Option<(Pause, bool)> {
+    match kind {
+        StmtKind::StopMessage { .. } | StmtKind::Input { .. } => Some((Pause::Message, false)),
+        StmtKind::Nc(nc) if nc.has(Op::Stop) => Some((Pause::Stop, false)),
+        StmtKind::Nc(nc) if nc.has(Op::OptionalStop) => Some((Pause::Stop, true)),
+        StmtKind::Nc(nc) if nc.has(Op::ToolChange) => Some((Pause::Change, false)),
+        _ => None,
+    }
+}
+
+/// True for a block that changes the tool and then starts it.
+fn restarts(kind: &StmtKind, running: Running) -> bool {
+    matches!(kind, StmtKind::Nc(nc) if nc.has(Op::ToolChange) && starts(running).iter().any(|op| nc.has(*op)))
+}
+
+/// A place in a program.
+struct Place<'p> {
+    index: usize,
+    id: BlockId,
+    state: Modal,
+    /// What the block of a tool change starts behind it.
+    restarted: [bool; 2],
+    /// True where a block skip may leave it out.
+    skipped: bool,
+    /// Whether the program, or one that calls it or that it calls, starts it.
+    started: [bool; 2],
+    /// True if some program of the library holds the spindle at an angle.
+    holds: bool,
+    after: &'p After,
+}
+
+impl Place<'_> {
+    /// True where it may be running here.
+    fn may_run(&self, running: Running) -> bool {
+        let (group, _) = ends(running);
+        match self.state.op(group) {
+            Some(op) => starts(running).contains(&op),
+            None => self.started[running as usize],
+        }
+    }
+
+    /// What has to be ended before a stop; `number` is that of the statement behind it.
+    fn stop(
+        &mut self,
+        pause: Pause,
+        optional: bool,
+        number: usize,
+        span: Span,
+        context: &mut Context<'_>,
+    ) -> Vec<Op> {
+        let mut before = Vec::new();
+        for running in Running::ALL {
+            if !self.may_run(running) || self.restarted[running as usize] {
+                continue;
+            }
+            let (here, there) = (context.source.ends(pause, running), context.target.ends(pause, running));
+            let matters = self.after.matters(self.index, self.id, number, running);
+            if matters && !here.known {
+                context.rests_on_source(self.index, span, here.question);
+            }
+            let (_, op) = ends(running);
+            if here.answer == Some(true) && !(there.known && there.answer == Some(true)) {
+                let left = optional || pause == Pause::Change;
+                if !left {
+                    if running == Running::Spindle
+                        && self.holds
+                        && pause != Pause::End
+                        && self.state.op(Group::Spindle).is_none()
+                    {
+                        context.add_once(
+                            self.index,
+                            LETS_GO,
+                            Diagnostic::new(Code::Conditional, span, LETS_GO),
+                        );
+                    }
+                    before.push(op);
+                } else if matters || (optional && running == Running::Spindle) {
+                    self.tell(pause, there, span, context);
+                }
+            }
+            if here.answer == Some(false) && there.answer != Some(false) && matters {
+                self.tell(pause, there, span, context);
+            }
+            // A stop that is passed over ends nothing.
+            if here.answer == Some(true) && !optional && !self.skipped {
+                self.state.start_in(op);
+            }
+        }
+        before
+    }
+
+    /// Says that the target may do otherwise, or does.
+    fn tell(&self, pause: Pause, there: crate::dialect::Ends, span: Span, context: &mut Context<'_>) {
+        if !there.known {
+            return context.rests_on_target(self.index, span, there.question);
+        }
+        let what = match pause {
+            Pause::Change => {
+                "the target's tool change does not end what the source's does, or ends what that lets run"
+            }
+            _ => "the target's stop does not end what the source's does, or ends what that lets run",
+        };
+        context.add_once(self.index, what, Diagnostic::new(Code::Conditional, span, what));
+    }
+}

@@ -1,0 +1,58 @@
+//! Operations whose nearest relative on the target changes nothing that is measured on the part.
+//!
+//! Each row is a condition that a reviewer must accept: another coolant, corners that are rounded or stopped at
+//! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{NcItem, Program, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::census::{Census, Thing};
+use crate::legalize::layout::emptied::drop_emptied;
+use std::collections::BTreeMap;
+
+/// An operation, what stands for it (nothing: it is left out), and what a reviewer must accept.
+const ROWS: &[(Op, Option<Op>, &str)] = &[
+    (Op::Mist, Some(Op::Flood), "the target has no mist coolant: flood is switched on in its place"),
+    (Op::Flood, Some(Op::Mist), "the target has no flood coolant: mist is switched on in its place"),
+    (
+        Op::RampsOff,
+        None,
+        "acceleration ramps off: the target has no such code, and rounds or stops at corners as it is set",
+    ),
+    (
+        Op::RampsOn,
+        None,
+        "acceleration ramps on: the target has no such code, and rounds or stops at corners as it is set",
+    ),
+];
+
+/// True where an operation with a row stands, or a block that it may have left empty.
+pub fn concerns(census: &Census) -> bool {
+    census.has(Thing::Emptied) || ROWS.iter().any(|(op, ..)| census.op(*op))
+}
+
+/// Puts substitutes in the place of operations that the target lacks.
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
+    let has = |op: Op| context.target.code_for(op, &BTreeMap::new()).is_some();
+    let rows: Vec<_> = ROWS.iter().filter(|(op, other, _)| !has(*op) && other.is_none_or(has)).collect();
+    let mut changed = false;
+    for block in &mut program.blocks {
+        for stmt in &mut block.stmts {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            for (op, other, what) in &rows {
+                let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
+                    continue;
+                };
+                changed = true;
+                match other {
+                    Some(other) => nc.items[at] = NcItem::Op(*other),
+                    None => drop(nc.items.remove(at)),
+                }
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, *what));
+            }
+        }
+        changed |= drop_emptied(block);
+    }
+    changed
+}

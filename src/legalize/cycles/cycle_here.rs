@@ -1,0 +1,133 @@
+//! Running the active drilling cycle at the present place.
+//!
+//! Law: on the target a cycle runs in each block that has a position; giving it the place where the tool
+//! stands (`X#5001 Y#5002` in absolute coordinates, `X0 Y0` in incremental ones) runs it there. The end of the block
+//! before is what is given, where the target has that: the present position may be read ahead of the moves. In the
+//! block that defines the cycle nothing need be added where that block runs the cycle anyway. A block that defines a
+//! cycle without a position runs it where the tool stands or only stores it: the target is told by a place, or by a
+//! repeat of none, where the two controls do not agree.
+//! Under a rotation the present place would be turned once more; there the block gets the words that
+//! last named the place, where they still have their values.
+//! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
+
+use crate::canon::{Group, Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::analysis::Summaries;
+use crate::ir::analysis::programmed::Programmed;
+use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
+use crate::legalize::{Context, ModalFacts};
+use std::collections::BTreeMap;
+
+/// Replaces the code that runs a cycle where the tool stands.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    if context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some() {
+        return;
+    }
+    let facts = ModalFacts::of(module, &context.entry);
+    // What a bare definition does differs only where the two controls do not agree on it.
+    let runs = |control: &crate::dialect::Control| {
+        control.behaviour(Question::CycleRunsWithoutAxes).map(|b| b.value.clone())
+    };
+    let agree = runs(context.target) == runs(context.source);
+    let drills = runs(context.source).as_deref() == Some("true");
+    let has_end = context.target.system_runs(Sys::EndPosition).next().is_some();
+    let stands = if has_end { Sys::EndPosition } else { Sys::WorkPosition };
+    let summaries = Summaries::of(module);
+    let other_planes = module
+        .programs
+        .iter()
+        .flat_map(|p| &p.blocks)
+        .flat_map(|b| &b.stmts)
+        .any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::PlaneZx) || nc.has(Op::PlaneYz)));
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let named = Programmed::of(program, &summaries, &|id| facts.at(index, id));
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let mut named = named.at(BlockId(at as u32)).cloned();
+            for stmt in &mut block.stmts {
+                state.step(stmt);
+                named.iter_mut().for_each(|named| named.step(stmt, &state, &summaries));
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere));
+                nc.items.retain(|item| *item != NcItem::Op(Op::CycleHere));
+                let across = across(state.op(Group::Plane));
+                let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
+                let span = stmt.site.span;
+                let bare = defines && !here && !placed && nc.word(Role::Repeat).is_none();
+                let asked = here || bare && !agree;
+                if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
+                    let what =
+                        "along which axis a cycle drills is not known here: write G17, G18 or G19 before it";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                    continue;
+                }
+                if bare && !context.source.is_same_machine(context.target) {
+                    context.rests_on_source(index, span, Question::CycleRunsWithoutAxes);
+                    if agree {
+                        context.rests_on_target(index, span, Question::CycleRunsWithoutAxes);
+                    }
+                }
+                let here = here || bare && drills && !agree;
+                let what = if bare && !drills && !agree {
+                    nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
+                    Some(
+                        "a cycle that is defined without a position is taken to be stored only; a repeat of none does that on the target, where it is so taken",
+                    )
+                } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
+                    match named.as_ref().and_then(Programmed::words).filter(|_| across[0].0 == Role::X) {
+                        Some([x, y]) => {
+                            nc.items.extend([NcItem::Word(Role::X, x), NcItem::Word(Role::Y, y)]);
+                            Some("the cycle is run at the turned place by naming that place again")
+                        }
+                        None => {
+                            let what = "a cycle is run where the tool stands under a rotation, which would turn that place once more: write the cycle's position there";
+                            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                            None
+                        }
+                    }
+                } else if here && !placed {
+                    place(nc, across, state.op(Group::Distance), stands)
+                        .err()
+                        .or((!defines)
+                            .then_some("the cycle is run where the tool stands by giving that place"))
+                } else {
+                    None
+                };
+                if let Some(what) = what {
+                    let unknown = here && state.op(Group::Distance).is_none();
+                    let code = if unknown { Code::NoEquivalent } else { Code::Conditional };
+                    context.add_once(index, what, Diagnostic::new(code, span, what));
+                }
+            }
+        }
+    }
+}
+
+/// The axes of a plane and their numbers: a cycle's position is in them, its depth along the third one.
+fn across(plane: Option<Op>) -> [(Role, f64); 2] {
+    match plane {
+        Some(Op::PlaneZx) => [(Role::Z, 3.0), (Role::X, 1.0)],
+        Some(Op::PlaneYz) => [(Role::Y, 2.0), (Role::Z, 3.0)],
+        _ => [(Role::X, 1.0), (Role::Y, 2.0)],
+    }
+}
+
+/// Adds the present place to a block.
+fn place(
+    nc: &mut Nc,
+    across: [(Role, f64); 2],
+    distance: Option<Op>,
+    stands: Sys,
+) -> Result<(), &'static str> {
+    let words = match distance {
+        Some(Op::Absolute) => {
+            across.map(|(role, axis)| NcItem::Word(role, Expr::System(stands, [Expr::Number(axis)].into())))
+        }
+        Some(Op::Incremental) => across.map(|(role, _)| NcItem::Word(role, Expr::Number(0.0))),
+        _ => return Err("a cycle is run where the tool stands, and absolute or incremental is not known"),
+    };
+    let at = nc.items.iter().position(|item| matches!(item, NcItem::Word(..))).unwrap_or(nc.items.len());
+    nc.items.splice(at..at, words);
+    Ok(())
+}

@@ -1,0 +1,230 @@
+//! The words of drilling cycles that one control's code takes and the other's does not.
+//!
+//! Law: what a cycle is told lasts for the cycles behind it, until cycles are cancelled, and a cycle does nothing with
+//! a word that its code does not take. So where only the target's code takes a dwell, it is told one of 0, and the
+//! dwell of before is told again where the next code that takes one has none of its own. A word that only the
+//! source's code takes is refused, and so is a dwell of before that only the source's code takes; a dwell of 0 is left
+//! out. Side condition: which cycle is in force is known, and which dwell lasts into it on every way. Counter-example:
+//! `G82 P500 .. G83`, where the source's G83 takes no P and the target's waits half a second.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
+use crate::legalize::{Context, ModalFacts};
+use std::collections::BTreeMap;
+
+/// The words of a cycle but for its planes, which every cycle has.
+pub const ROLES: [Role; 8] = [
+    Role::CycleDwell,
+    Role::CycleQ,
+    Role::CycleI,
+    Role::CycleJ,
+    Role::PeckFirst,
+    Role::PeckLess,
+    Role::PeckLeast,
+    Role::PeckClear,
+];
+
+/// Fits the words of cycles to what the target's codes take.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let facts = ModalFacts::of(module, &context.entry);
+    let parts = parts(module, context);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let rules = Rules { index, facts: &facts, parts, context };
+        let starts = solve(&rules, program, &Cfg::of(program));
+        for (id, block) in program.ids().zip(&mut program.blocks) {
+            let mut state = facts.at(index, id);
+            let mut lasting = starts.at(id).cloned().unwrap_or_default();
+            for stmt in &mut block.stmts {
+                let before = state.op(Group::Cycle);
+                state.step(stmt);
+                let here = lasting.clone();
+                lasting.step(stmt, before, state.op(Group::Cycle), context);
+                let span = stmt.site.span;
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                let Some(op) = state.op(Group::Cycle).filter(|op| op.is_cycle()) else { continue };
+                let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
+                let begins = begins(nc);
+                for role in untaken(nc, op, context.target) {
+                    let what = format!("the target's code for this cycle ({op}) takes no such word ({role})");
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                }
+                if !begins {
+                    continue;
+                }
+                let [own, others] = sides(op, context);
+                let dwell = match (own, others, here.dwell) {
+                    (true, false, Dwell::Is(Some(dwell))) if dwell.constant() != Some(0.0) => {
+                        let what = format!(
+                            "the dwell of the cycle before lasts into this one ({op}), and the target's code takes none"
+                        );
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                        continue;
+                    }
+                    (true, false, Dwell::Many) => {
+                        let what = format!(
+                            "the dwell of a cycle before may last into this one ({op}), and the target's code takes none: it must be 0"
+                        );
+                        context.add(index, Diagnostic::new(Code::Conditional, span, what));
+                        continue;
+                    }
+                    (false, true, _) if before != Some(Op::CycleOff) => Expr::Number(0.0),
+                    (true, true, Dwell::Is(Some(dwell))) if here.away => dwell,
+                    (true, true, Dwell::Many) if here.away => {
+                        let what = "which dwell of the cycles before lasts into this one is known only when the program runs";
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                        continue;
+                    }
+                    _ => continue,
+                };
+                if own && dwell.constant().is_none() {
+                    let what = "the dwell of the cycle before it: what it is computed from may have changed";
+                    context.add(index, Diagnostic::new(Code::Conditional, span, what));
+                }
+                nc.items.push(NcItem::Word(Role::CycleDwell, dwell));
+            }
+        }
+    }
+}
+
+/// The dwell that cycles were told before.
+#[derive(Clone, Debug, PartialEq)]
+enum Dwell {
+    /// This one, or none.
+    Is(Option<Expr>),
+    /// Not the same on all ways here.
+    Many,
+}
+
+/// What lasts from cycle to cycle.
+#[derive(Clone, Debug, PartialEq)]
+struct Lasting {
+    dwell: Dwell,
+    /// True where the target may have been told another one.
+    away: bool,
+}
+
+impl Default for Lasting {
+    fn default() -> Self {
+        Self { dwell: Dwell::Is(None), away: false }
+    }
+}
+
+impl Lasting {
+    /// Takes a statement's effect; the cycles in force before and behind it are known or not.
+    fn step(&mut self, stmt: &Stmt, before: Option<Op>, behind: Option<Op>, context: &Context<'_>) {
+        let StmtKind::Nc(nc) = &stmt.kind else { return };
+        let old = stmt.site.skip.map(|_| self.clone());
+        match behind {
+            Some(op) if op.is_cycle() => {
+                if before == Some(Op::CycleOff) {
+                    *self = Self::default();
+                }
+                let [own, others] = sides(op, context);
+                if let Some(dwell) = nc.word(Role::CycleDwell) {
+                    // What the target's code does not take, it does not keep.
+                    *self = Self { dwell: Dwell::Is(Some(dwell.clone())), away: !others };
+                } else if begins(nc) && others && (own || before != Some(Op::CycleOff)) {
+                    self.away = !own;
+                }
+            }
+            Some(_) => *self = Self::default(),
+            None => {}
+        }
+        if let Some(old) = old {
+            self.join(&old);
+        }
+    }
+}
+
+impl Lattice for Lasting {
+    fn join(&mut self, other: &Self) -> bool {
+        let old = self.clone();
+        if self.dwell != other.dwell {
+            self.dwell = Dwell::Many;
+        }
+        self.away |= other.away;
+        *self != old
+    }
+}
+
+/// What blocks of a program do to what lasts.
+struct Rules<'r> {
+    index: usize,
+    facts: &'r ModalFacts,
+    /// True where any block of the library tells the target another dwell than the source.
+    parts: bool,
+    context: &'r Context<'r>,
+}
+
+impl Rules<'_> {
+    fn unknown(&self) -> Lasting {
+        Lasting { dwell: Dwell::Many, away: self.parts }
+    }
+}
+
+impl Analysis for Rules<'_> {
+    type State = Lasting;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Lasting)> {
+        let cycle = |id: BlockId| self.facts.at(self.index, id).op(Group::Cycle);
+        // Who calls it under a cycle has told that something.
+        let under = |root: BlockId| root != BlockId(0) || cycle(root).is_some_and(Op::is_cycle);
+        let roots = cfg.roots().iter().copied();
+        roots.map(|root| (root, if under(root) { self.unknown() } else { Lasting::default() })).collect()
+    }
+
+    fn block(&self, id: BlockId, block: &Block, lasting: &mut Lasting) {
+        let mut state = self.facts.at(self.index, id);
+        for stmt in &block.stmts {
+            let before = state.op(Group::Cycle);
+            state.step(stmt);
+            lasting.step(stmt, before, state.op(Group::Cycle), self.context);
+        }
+        if matches!(block.term.kind, TermKind::Call { .. }) {
+            *lasting = self.unknown();
+        }
+    }
+}
+
+/// True where any block of a library tells the target another dwell than the source.
+fn parts(module: &Module, context: &Context<'_>) -> bool {
+    let stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
+    stmts.into_iter().any(|stmt| {
+        let StmtKind::Nc(nc) = &stmt.kind else { return false };
+        if !nc.ops().any(Op::is_cycle) {
+            return nc.word(Role::CycleDwell).is_some();
+        }
+        nc.ops().filter(|op| op.is_cycle()).any(|op| match sides(op, context) {
+            [own, others] if begins(nc) => !own && others,
+            [_, others] => !others,
+        })
+    })
+}
+
+/// True for a block that begins a cycle and tells it no dwell.
+fn begins(nc: &Nc) -> bool {
+    nc.ops().any(Op::is_cycle) && nc.word(Role::CycleDwell).is_none()
+}
+
+/// Whether the source's code for a cycle takes a dwell, and the target's.
+fn sides(op: Op, context: &Context<'_>) -> [bool; 2] {
+    [context.source, context.target].map(|control| takes(control, op, Role::CycleDwell))
+}
+
+/// True where the code that the control has for a cycle takes a word.
+fn takes(control: &Control, op: Op, role: Role) -> bool {
+    control.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(role))
+}
+
+/// The words of a block that the target's code does not take. A dwell of 0 is left out.
+fn untaken(nc: &mut Nc, op: Op, target: &Control) -> Vec<Role> {
+    let Some(row) = target.code_for(op, &BTreeMap::new()) else { return Vec::new() };
+    let none = |item: &NcItem| matches!(item, NcItem::Word(Role::CycleDwell, value) if value.constant() == Some(0.0));
+    nc.items.retain(|item| row.takes(Role::CycleDwell) || !none(item));
+    ROLES.into_iter().filter(|role| nc.word(*role).is_some() && !row.takes(*role)).collect()
+}

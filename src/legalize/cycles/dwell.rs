@@ -1,0 +1,79 @@
+//! The time of a dwell in the unit that the target takes.
+//!
+//! Law: a second is a thousand milliseconds. A constant is converted here; a computed value goes
+//! to the seconds word where the target has one, since its milliseconds word takes whole
+//! numbers only.
+
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Question, Side};
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
+use crate::legalize::Context;
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// Converts the times of dwells.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let target = context.target;
+    let code = target.code_for(Op::Dwell, &BTreeMap::new());
+    let (ms, s) = (target.letter(Role::DwellMs, code).is_some(), target.letter(Role::DwellS, code).is_some());
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut computed: Vec<(bool, Span)> = Vec::new();
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant());
+            let dropped = nc.has(Op::Dwell) && nc.items.iter().any(vacant);
+            let in_cycle = nc.word(Role::CycleDwell).is_some_and(|value| value.constant().is_none());
+            if in_cycle || nc.has(Op::Dwell) && convert(nc, ms, s) {
+                computed.push((in_cycle, stmt.site.span));
+            }
+            if dropped && !nc.items.iter().any(vacant) {
+                let what =
+                    "a dwell whose time is vacant has no time on the source, and a time of 0 on the target";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+            }
+        }
+        let row = target.behaviour(Question::DwellExpression);
+        let known = row.is_some_and(|row| row.value != "unknown" && row.origin.confirmed);
+        // In seconds a computed value counts as written; a cycle has no such word.
+        let asked = computed.iter().find(|(in_cycle, _)| *in_cycle || !s);
+        if let (Some((_, span)), false) = (asked, known) {
+            let what =
+                "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
+            context.unconfirmed(index, Side::Target, *span, Question::DwellExpression.fact(), what);
+        }
+    }
+}
+
+/// Converts one dwell; true where its value is computed.
+fn convert(nc: &mut Nc, ms: bool, s: bool) -> bool {
+    let mut computed = false;
+    for item in &mut nc.items {
+        let NcItem::Word(role @ (Role::DwellMs | Role::DwellS), value) = item else { continue };
+        let old = std::mem::replace(value, Expr::Vacant);
+        let (to, new) = match (old.constant(), *role) {
+            // 0.07 * 1000 is no whole number in binary, and 70 / 1000 is 0.07.
+            (Some(t), Role::DwellS) if ms && (t * 1000.0).round() / 1000.0 == t => {
+                (Role::DwellMs, Expr::Number((t * 1000.0).round()))
+            }
+            (Some(t), Role::DwellMs) if s && (!ms || t.fract() != 0.0) => {
+                (Role::DwellS, Expr::Number(t / 1000.0))
+            }
+            (None, Role::DwellMs) if s => (Role::DwellS, scaled(BinOp::Div, old)),
+            (None, Role::DwellS) if !s => {
+                computed = true;
+                (Role::DwellMs, scaled(BinOp::Mul, old))
+            }
+            (constant, same) => {
+                computed |= constant.is_none();
+                (same, old)
+            }
+        };
+        (*role, *value) = (to, new);
+    }
+    computed
+}
+
+fn scaled(op: BinOp, value: Expr) -> Expr {
+    Expr::binary(op, value, Expr::Number(1000.0))
+}

@@ -1,0 +1,8 @@
+//! Expressions and conditions that the target can read.
+
+pub(in crate::legalize) mod conditions;
+pub(in crate::legalize) mod constants;
+pub(in crate::legalize) mod functions;
+pub(in crate::legalize) mod measure;
+pub(in crate::legalize) mod oversize;
+pub(in crate::legalize) mod truth;

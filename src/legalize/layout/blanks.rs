@@ -1,0 +1,15 @@
+//! Empty blocks of another family of controls.
+//!
+//! Law: an empty block does nothing. Within a family it may hold back a control that reads ahead, and stays; what an
+//! empty block or a statement without effect of another control leaves behind is left out.
+
+use crate::ir::{Module, StmtKind};
+use crate::legalize::Context;
+
+/// Leaves empty blocks out.
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
+    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+        let says = |site: &crate::ir::Site| site.sequence.is_some() || !site.remarks.is_empty();
+        block.stmts.retain(|stmt| stmt.kind != StmtKind::Remark || says(&stmt.site));
+    }
+}

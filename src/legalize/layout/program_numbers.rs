@@ -1,0 +1,159 @@
+//! Numbers of programs on the target.
+//!
+//! Law: a program keeps its own number if the target has it; else it gets the one that the lock gives it, or the next free
+//! one. Side condition: no computed call finds a program that has its number by this conversion; if it may, that is
+//! an assumption. Counter-example: `M98 P#1` and a macro that became O8000.
+
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::{Numbers, Ranges, Summaries};
+use crate::ir::{Block, Call, Callee, Module, StmtKind, TermKind};
+use crate::legalize::{Context, calls_of};
+use crate::syntax::ProgramName;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// First number for main programs that have none on the source, and for subroutines made programs.
+const FIRST_MAIN: u32 = 1000;
+const FIRST_SUB: u32 = 8000;
+
+/// The numbers, and what the lock is to remember of them.
+#[derive(Clone, Debug, Default)]
+pub struct ProgramNumbers {
+    /// The number of each program that has a name.
+    pub of: Vec<(ProgramName, u32)>,
+    /// What was chosen, by what names the program on the source.
+    pub chosen: BTreeMap<String, u32>,
+}
+
+/// Gives every program that has a name a number.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let looked_for = computed_calls(module);
+    let numbers = choose(module, &looked_for, context);
+    report_looked_for(module, &looked_for, &numbers.of, context);
+    context.numbers = numbers;
+}
+
+fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> ProgramNumbers {
+    let earlier = context.locked.programs;
+    let mut chosen: BTreeMap<String, u32> = BTreeMap::new();
+    let mut taken: BTreeSet<u32> = earlier.values().copied().collect();
+    let names: BTreeSet<&ProgramName> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    for name in &names {
+        if let ProgramName::Number(n) = name {
+            taken.insert(*n);
+        }
+    }
+    // Calls that leave the library keep their numbers free, too.
+    for call in module.programs.iter().flat_map(|p| &p.blocks).flat_map(calls_of) {
+        if let Callee::Program(ProgramName::Number(n)) = &call.callee {
+            taken.insert(*n);
+        }
+    }
+    // A computed call must not find a program that has its number by this conversion.
+    let max = context.target.text().program_max;
+    let bounded = looked_for.last().is_none_or(|last| last < max);
+    // Numbers are only ever taken: each search goes on where the last one ended.
+    let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| (first..=max).chain(1..first));
+    let mut out = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        let Some(name) = &program.name else { continue };
+        let key = name.to_string();
+        let number = match (chosen.get(&key).or_else(|| earlier.get(&key)), name) {
+            (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
+            (Some(n), _) => Some(*n),
+            _ => {
+                let sub = program.returns() && !program.ends();
+                free[usize::from(sub)].find(|n| !(taken.contains(n) || bounded && looked_for.contains(*n)))
+            }
+        };
+        match number {
+            Some(number) => {
+                if *name != ProgramName::Number(number) {
+                    if let ProgramName::Number(_) = name {
+                        let what = format!(
+                            "{name} becomes {}: the target's numbers end at {max}",
+                            ProgramName::Number(number)
+                        );
+                        let help =
+                            "call and select it by its new number; the lock beside the conversion keeps it";
+                        context.add(
+                            index,
+                            Diagnostic::new(Code::Renumbered, program.site.span, what).with_help(help),
+                        );
+                    }
+                    taken.insert(number);
+                    chosen.insert(key, number);
+                }
+                out.push((name.clone(), number));
+            }
+            None => {
+                let what = format!("no program number up to {max} is free for '{key}'");
+                context.add(index, Diagnostic::new(Code::OutOfNumbers, program.site.span, what));
+            }
+        }
+    }
+    ProgramNumbers { of: out, chosen }
+}
+
+fn computed(call: &Call) -> bool {
+    matches!(call.callee, Callee::Computed(_))
+}
+
+/// The numbers of programs that computed calls look for.
+fn computed_calls(module: &Module) -> Numbers {
+    let callee = |block: &Block| match &block.term.kind {
+        TermKind::Call { call, .. } => match &call.callee {
+            Callee::Computed(number) => Some(number.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    let mut all = Numbers::default();
+    if !module.programs.iter().flat_map(|program| &program.blocks).any(|block| calls_of(block).any(computed))
+    {
+        return all;
+    }
+    let summaries = Summaries::of(module);
+    for program in &module.programs {
+        let ranges = Ranges::of_any_inputs(program, &summaries);
+        for (id, block) in program.ids().zip(&program.blocks) {
+            // A modal one is called from wherever an axis moves.
+            if block
+                .stmts
+                .iter()
+                .any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if computed(call)))
+            {
+                return Numbers::of([(0, u32::MAX)]);
+            }
+            if let Some(number) = callee(block) {
+                all.join(&ranges.at(id, block.stmts.len(), &number).numbers());
+            }
+        }
+    }
+    all
+}
+
+/// Says where a computed call may look for a number that the conversion gave to a program.
+fn report_looked_for(
+    module: &Module,
+    looked_for: &Numbers,
+    given: &[(ProgramName, u32)],
+    context: &mut Context<'_>,
+) {
+    let made = given.iter().filter(|(name, n)| *name != ProgramName::Number(*n) && looked_for.contains(*n));
+    let made: BTreeSet<String> = made.map(|(_, number)| ProgramName::Number(*number).to_string()).collect();
+    if made.is_empty() {
+        return;
+    }
+    let what = format!(
+        "which program is called is computed: it must be none of {}, which this conversion numbered",
+        made.into_iter().collect::<Vec<_>>().join(", ")
+    );
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            if calls_of(block).any(computed) {
+                let told = Diagnostic::new(Code::Conditional, block.term.site.span, what.clone());
+                context.add_once(index, &what, told);
+            }
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Moves under an arc mode that name neither centre nor radius, or both.
+//!
+//! Law: such a block is what the control makes of it: a straight move, an alarm, the last radius. Where the tables of
+//! both controls give the same answer it stays as it is, for review where no maker confirms it; where they do not,
+//! no other control can be told; lowering spells the move out where its table says what it is.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::{BlockId, Module, Nc, StmtKind};
+use crate::legalize::{Context, ModalFacts};
+
+/// Refuses arcs that say nothing about their curve, and reports those that say it twice.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let answer = |control: &crate::dialect::Control| {
+        control
+            .behaviour(Question::ArcWithoutCentre)
+            .map(|row| row.value.clone())
+            .filter(|value| value != "unknown")
+    };
+    let (here, there) = (answer(context.source), answer(context.target));
+    let spelled_out = here.as_deref() == Some("straight");
+    let facts = ModalFacts::of(module, &context.entry);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (at, block) in program.blocks.iter().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in &block.stmts {
+                state.step(stmt);
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                if !state.op(Group::Motion).is_some_and(is_arc) {
+                    continue;
+                }
+                let span = stmt.site.span;
+                if is_double(nc) {
+                    let what = "an arc with a centre and a radius: which of them counts is not stated";
+                    context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+                }
+                if !is_bare(nc) || spelled_out || context.is_faulty(index, span) {
+                    continue;
+                }
+                if here.is_some() && here == there {
+                    context.rests_on_source(index, span, Question::ArcWithoutCentre);
+                    context.rests_on_target(index, span, Question::ArcWithoutCentre);
+                } else {
+                    let what = "no source says what a move under an arc code does without centre and radius";
+                    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                }
+            }
+        }
+    }
+}
+
+fn is_arc(op: Op) -> bool {
+    matches!(op, Op::ArcCw | Op::ArcCcw)
+}
+
+const CENTRE: [Role; 3] = [Role::ArcI, Role::ArcJ, Role::ArcK];
+
+fn has_centre(nc: &Nc) -> bool {
+    CENTRE.iter().any(|role| nc.word(*role).is_some())
+}
+
+fn is_double(nc: &Nc) -> bool {
+    has_centre(nc) && nc.word(Role::ArcRadius).is_some()
+}
+
+fn is_bare(nc: &Nc) -> bool {
+    let elsewhere = [Op::ReferenceReturn, Op::MachineOnce];
+    nc.moves()
+        && !has_centre(nc)
+        && nc.word(Role::ArcRadius).is_none()
+        && !nc.ops().any(|op| elsewhere.contains(&op))
+}

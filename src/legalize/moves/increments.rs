@@ -1,0 +1,258 @@
+//! Numbers without a decimal point, where the target does not count them as the source does.
+//!
+//! Law: n increments are `n * increment` of the unit in force, for an angle of a degree. Side condition: the unit is known, from the
+//! text or from a machine profile (a program that is called from both units has none); else the number keeps its form only where both controls count alike.
+//! A program that names one unit is taken to be in it after what it calls, where nothing of that can leave another.
+//! Counter-example: `G#1`, which puts back the unit of the caller.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{BareLength, Control, Units};
+use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
+use crate::legalize::moves::units::left::Left;
+use crate::legalize::{Context, Modal, ModalFacts, Setting};
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// Converts counts of increments that the target reads otherwise.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let (source, target) = (context.source, context.target);
+    let keeps = |local: u32| kept_by(local, source, target);
+    each(module, context, counts, &mut |kind, units| match kind {
+        Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
+            NcItem::Word(role, value) => word(value, *role, units, source, target),
+            _ => true,
+        }),
+        Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, keeps),
+        Counted::Call(call) => arguments(call, units, source, keeps),
+        Counted::Stmt(_) => true,
+    })
+}
+
+/// Converts those of the arguments of modal calls: they count in the unit where the call is opened, and
+/// the moves behind which the macro runs may be in the other one.
+pub(in crate::legalize) fn of_modal_calls(module: &mut Module, context: &mut Context<'_>) {
+    let source = context.source;
+    let modal = |block: &Block| block.stmts.iter().any(|s| matches!(s.kind, StmtKind::ModalCall(_)));
+    each(module, context, modal, &mut |kind, units| match kind {
+        Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, |_| false),
+        _ => true,
+    });
+}
+
+/// What may have counts of increments in it.
+enum Counted<'m> {
+    Stmt(&'m mut StmtKind),
+    Call(&'m mut Call),
+}
+
+impl Counted<'_> {
+    fn again(&mut self) -> Counted<'_> {
+        match self {
+            Self::Stmt(kind) => Counted::Stmt(kind),
+            Self::Call(call) => Counted::Call(call),
+        }
+    }
+}
+
+/// Takes what stands in the chosen blocks through `convert`, with the unit that is known there; what it cannot
+/// convert is reported once a program. True where there are such blocks.
+fn each(
+    module: &mut Module,
+    context: &mut Context<'_>,
+    chosen: impl Fn(&Block) -> bool,
+    convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
+) -> bool {
+    if !module.programs.iter().flat_map(|program| &program.blocks).any(&chosen) {
+        return false;
+    }
+    let left = Left::of(module, context.source);
+    let all = left.iter().copied().fold(Left::default(), Left::join);
+    let facts = facts(module, context, all);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let units = UnitsIn::of(program, index, &facts, &chosen);
+        let guesses = if units.is_known() { None } else { Some(guesses(program, left[index], &chosen)) };
+        // What is in force where no program names a unit, or where all name the machine's.
+        let machine = context.source.units().filter(|units| all.keeps(*units));
+        let (mut unknown, mut guessed) = (None, None);
+        let mut take = |mut counted: Counted<'_>, place: (BlockId, usize), span: Span| {
+            if convert(counted.again(), units.at(place)) {
+                return;
+            }
+            let guess = guesses.as_ref().and_then(|guesses| guesses.at(place)).or(machine);
+            if guess.is_some() && convert(counted, guess) {
+                guessed.get_or_insert(span);
+            } else {
+                unknown.get_or_insert(span);
+            }
+        };
+        for (id, block) in program.ids().zip(&mut program.blocks).filter(|(_, block)| chosen(block)) {
+            for (at, stmt) in block.stmts.iter_mut().enumerate() {
+                take(Counted::Stmt(&mut stmt.kind), (id, at), stmt.site.span);
+            }
+            if let TermKind::Call { call, .. } = &mut block.term.kind {
+                take(Counted::Call(call), (id, block.stmts.len()), block.term.site.span);
+            }
+        }
+        report(index, unknown, guessed.filter(|_| left[index].outside), context);
+    }
+    true
+}
+
+/// Reports the first number whose unit is not known, and the first whose unit rests on what the library has not.
+fn report(index: usize, unknown: Option<Span>, guessed: Option<Span>, context: &mut Context<'_>) {
+    if let Some(span) = unknown {
+        let what = "a number without a decimal point counts increments whose size depends on the unit in force, which is not known here";
+        let help = "name the unit in the program (G20, G21) or in the machine profile of the source";
+        let finding = Diagnostic::new(Code::NoEquivalent, span, what).with_help(help);
+        context.add_once(index, "increments", finding);
+    }
+    if let Some(span) = guessed {
+        let what = "a number without a decimal point is taken in the unit that is named: what is called outside the library must leave that in force";
+        context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+    }
+}
+
+/// What is in force in the library, as far as that is known for sure.
+fn facts(module: &Module, context: &Context<'_>, all: Left) -> ModalFacts {
+    let mut entry = context.entry.clone();
+    if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), context.source.units()) {
+        entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
+    }
+    entry.one_unit = all.is_one();
+    // Where no program names a unit, it is the machine's all through.
+    let known = context.entry.op(Group::Units).is_some() || all != Left::default();
+    if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() }
+}
+
+/// What a program that names one unit has in force where every way to a place names it, and nothing in the library that
+/// it runs names another.
+fn guesses(program: &Program, left: Left, chosen: &dyn Fn(&Block) -> bool) -> UnitsIn {
+    if left.named().is_none_or(|units| !left.keeps(units)) {
+        return UnitsIn::default();
+    }
+    let mut entry = Modal::unknown();
+    entry.one_unit = true;
+    let alone = Module { programs: vec![program.clone()], ..Module::default() };
+    UnitsIn::of(program, 0, &ModalFacts::of(&alone, &entry), chosen)
+}
+
+/// The unit that counts in each statement of some blocks of a program, and at their ends.
+#[derive(Default)]
+struct UnitsIn(BTreeMap<BlockId, Vec<Option<Units>>>);
+
+impl UnitsIn {
+    fn of(program: &Program, index: usize, facts: &ModalFacts, chosen: &dyn Fn(&Block) -> bool) -> Self {
+        let blocks = program.ids().zip(&program.blocks).filter(|(_, block)| chosen(block));
+        Self(blocks.map(|(id, block)| (id, Self::in_block(block, facts.at(index, id)))).collect())
+    }
+
+    fn in_block(block: &Block, mut state: Modal) -> Vec<Option<Units>> {
+        let mut found = Vec::with_capacity(block.stmts.len() + 1);
+        for stmt in &block.stmts {
+            // A modal call that the block sets off comes after its words.
+            let mut words = state.clone();
+            if let StmtKind::Nc(nc) = &stmt.kind {
+                words.step_words(nc);
+            }
+            found.push(unit(&words.of(Group::Units)));
+            state.step(stmt);
+        }
+        found.push(unit(&state.of(Group::Units)));
+        found
+    }
+
+    fn is_known(&self) -> bool {
+        self.0.values().flatten().all(Option::is_some)
+    }
+
+    fn at(&self, (block, at): (BlockId, usize)) -> Option<Units> {
+        *self.0.get(&block)?.get(at)?
+    }
+}
+
+/// True where a block has a count of increments.
+fn counts(block: &Block) -> bool {
+    let mut any = false;
+    let mut look = |e: &Expr| {
+        any |= match e {
+            Expr::Negate(inner) => matches!(**inner, Expr::Increments(_)),
+            e => matches!(e, Expr::Increments(_)),
+        }
+    };
+    block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut look));
+    block.term.kind.exprs(&mut look);
+    any
+}
+
+fn unit(setting: &Setting) -> Option<Units> {
+    match setting {
+        Setting::Known(Op::Inch, _) => Some(Units::Inch),
+        Setting::Known(Op::Metric, _) => Some(Units::Metric),
+        _ => None,
+    }
+}
+
+pub(in crate::legalize) fn units_named(program: &Program) -> impl Iterator<Item = Units> + '_ {
+    let ncs = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| match &stmt.kind {
+        StmtKind::Nc(nc) => Some(nc),
+        _ => None,
+    });
+    ncs.flat_map(|nc| nc.ops()).filter_map(|op| match op {
+        Op::Inch => Some(Units::Inch),
+        Op::Metric => Some(Units::Metric),
+        _ => None,
+    })
+}
+
+/// Converts a word where it must be; false where it must be and cannot.
+fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, target: &Control) -> bool {
+    let bare = if role == Role::Feed { target.bare_feed() } else { target.bare_length() };
+    if bare == BareLength::Increments && same_increments(source, target) && role != Role::Feed {
+        return true;
+    }
+    convert(value, role.is_angle(), units, source)
+}
+
+/// True where a number without a point counts the same behind this argument's letter on both controls.
+fn kept_by(local: u32, source: &Control, target: &Control) -> bool {
+    let letter = target.argument_letter(local);
+    let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));
+    bare == BareLength::Increments && same_increments(source, target)
+}
+
+/// Converts the arguments of a call, but those whose local says that they are kept; false where one cannot be.
+fn arguments(call: &mut Call, units: Option<Units>, source: &Control, kept: impl Fn(u32) -> bool) -> bool {
+    let mut good = true;
+    for argument in call.arguments.iter_mut().filter(|argument| !kept(argument.local)) {
+        let word = source.argument_letter(argument.local).and_then(|letter| source.word(letter, false));
+        let angle = word.is_some_and(|row| row.role.is_angle());
+        good &= convert(&mut argument.value, angle, units, source);
+    }
+    good
+}
+
+fn same_increments(source: &Control, target: &Control) -> bool {
+    let (a, b) = (source.numbers(), target.numbers());
+    (a.increment_mm, a.increment_inch, a.increment_degrees)
+        == (b.increment_mm, b.increment_inch, b.increment_degrees)
+}
+
+fn convert(value: &mut Expr, angle: bool, units: Option<Units>, source: &Control) -> bool {
+    let inner = match value {
+        Expr::Negate(inner) => inner.as_mut(),
+        other => other,
+    };
+    let Expr::Increments(count) = inner else { return true };
+    // Zero is zero in every unit.
+    let per_unit = match units {
+        _ if *count == 0.0 => 1.0,
+        _ if angle => 1.0 / source.numbers().increment_degrees,
+        Some(Units::Metric) => 1.0 / source.numbers().increment_mm,
+        Some(Units::Inch) => 1.0 / source.numbers().increment_inch,
+        None => return false,
+    };
+    // Dividing by a whole number gives the decimal that a person would write.
+    *inner = Expr::Number(*count / per_unit.round());
+    true
+}

@@ -1,0 +1,11 @@
+//! Moves, coordinates and units.
+
+pub(in crate::legalize) mod bare_arcs;
+pub(in crate::legalize) mod increments;
+pub(in crate::legalize) mod lathe;
+pub(in crate::legalize) mod polar;
+pub(in crate::legalize) mod rapid_once;
+pub(in crate::legalize) mod reference;
+pub(in crate::legalize) mod shaped;
+pub(in crate::legalize) mod shift;
+pub(in crate::legalize) mod units;

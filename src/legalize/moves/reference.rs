@@ -1,0 +1,106 @@
+//! The return to the reference position without axes, where the target needs them named.
+//!
+//! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
+//! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
+//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::{Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::legalize::{Context, ModalFacts, replace_statements};
+
+/// Names the axes of returns that name none.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let ncs = || {
+        module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts).filter_map(|stmt| {
+            match &stmt.kind {
+                StmtKind::Nc(nc) => Some(nc),
+                _ => None,
+            }
+        })
+    };
+    let (here, there) =
+        (context.source.is(Question::ReferenceAllAxes), context.target.is(Question::ReferenceAllAxes));
+    if here && there
+        || context.source.name() == context.target.name()
+        || !ncs().any(|nc| bare(nc) || empty(nc))
+    {
+        return;
+    }
+    if !here {
+        return doubt(module, there, context);
+    }
+    let rotary = [Role::A, Role::B, Role::C];
+    let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
+    let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
+    let facts = ModalFacts::of(module, &context.entry);
+    replace_statements(module, &facts, |index, state, mut stmt, out| {
+        state.step(&stmt);
+        let span = stmt.site.span;
+        let mut restore = None;
+        if let StmtKind::Nc(nc) = &mut stmt.kind
+            && bare(nc)
+        {
+            context.rests_on_source(index, span, Question::ReferenceAllAxes);
+            let (code, what) = match state.op(Group::Distance) {
+                Some(distance) => {
+                    restore = (distance == Op::Absolute).then_some(distance);
+                    name(nc, &axes);
+                    (
+                        Code::Conditional,
+                        "all axes return at once from where they stand; in which order the source moves them is not stated",
+                    )
+                }
+                None => (
+                    Code::NoEquivalent,
+                    "a return to the reference position without axes, where absolute or incremental is not known",
+                ),
+            };
+            context.add(index, Diagnostic::new(code, span, what));
+        }
+        out.push(stmt);
+        if let Some(distance) = restore {
+            let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(distance)] });
+            out.push(Stmt { kind, site: Site { span, ..Site::default() } });
+        }
+    });
+}
+
+/// What a return without axes does on the source is not known; on the target it may move all of them.
+fn doubt(module: &Module, all: bool, context: &mut Context<'_>) {
+    for (index, program) in module.programs.iter().enumerate() {
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            let StmtKind::Nc(nc) = &stmt.kind else { continue };
+            if bare(nc) {
+                let what =
+                    "no source says what the source does at a return to the reference position without axes";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+            } else if all && empty(nc) {
+                let what = "all axis words of this return may be vacant; the target moves all axes then";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+            }
+        }
+    }
+}
+
+/// True where all axes may be dropped from a return, because their values may be vacant.
+fn empty(nc: &Nc) -> bool {
+    let axes = |item: &NcItem| match item {
+        NcItem::Word(role, value) if role.is_axis() => Some(value.may_be_vacant()),
+        _ => None,
+    };
+    nc.has(Op::ReferenceReturn) && nc.moves() && nc.items.iter().filter_map(axes).all(|vacant| vacant)
+}
+
+fn bare(nc: &Nc) -> bool {
+    nc.has(Op::ReferenceReturn) && !nc.moves()
+}
+
+fn name(nc: &mut Nc, axes: &[Role]) {
+    nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
+    let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
+    nc.items.insert(at, NcItem::Op(Op::Incremental));
+    let words = axes.iter().map(|axis| NcItem::Word(*axis, Expr::Number(0.0)));
+    nc.items.splice(at + 2..at + 2, words);
+}

@@ -1,0 +1,111 @@
+//! Coordinates that are mirrored, turned or scaled.
+//!
+//! Laws: an axis that is mirrored about the work zero is mirrored about 0 on a control that mirrors about the coordinate
+//! in its word; about 0 both do the same. Side conditions: codes that choose or leave the frame of coordinates may stand
+//! under a rotation, and scaling may stand with a drilling cycle, only where that is known of both controls; where it is
+//! not, the place is for review. Where it ends: a mirror about another coordinate than the work zero is refused where
+//! the target mirrors about the zero.
+
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question, Row};
+use crate::ir::analysis::behind::behind;
+use crate::ir::{Expr, Module, Nc, NcItem, StmtKind};
+use crate::legalize::Context;
+use crate::text::Span;
+
+const ABOUT: Question = Question::MirrorAbout;
+const FRAME: Question = Question::ShapeFrameCodes;
+const SCALE: Question = Question::ScaleReachesCycle;
+
+/// Mirrors about the zero what the source mirrors so, and tells what no source says of shaped coordinates.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            let span = stmt.site.span;
+            if let StmtKind::Nc(nc) = &mut stmt.kind
+                && nc.has(Op::MirrorOn)
+                && !about_zero(nc)
+            {
+                mirror(nc, index, span, context);
+            }
+        }
+    }
+    let shapes = [(Op::RotateOn, Op::RotateOff), (Op::ScaleOn, Op::ScaleOff), (Op::MirrorOn, Op::MirrorOff)];
+    let mut found: Vec<(usize, Span, Question)> = Vec::new();
+    for (on, off) in shapes {
+        behind(
+            module,
+            |stmt| stmt.kind.has_op(on),
+            |stmt| stmt.kind.has_op(off),
+            |index, stmt| {
+                let Some(nc) = stmt.kind.nc() else { return };
+                if nc.ops().any(is_of_frame) {
+                    found.push((index, stmt.site.span, FRAME));
+                }
+                if on == Op::ScaleOn && nc.ops().any(Op::is_cycle) {
+                    found.push((index, stmt.site.span, SCALE));
+                }
+            },
+        );
+    }
+    for (index, span, question) in found {
+        if !agree(question, context) {
+            context.rests_on_source(index, span, question);
+            context.rests_on_target(index, span, question);
+        }
+    }
+}
+
+/// True where both controls are one, or are known to do the same.
+fn agree(question: Question, context: &Context<'_>) -> bool {
+    let (source, target) = (answer(context.source, question), answer(context.target, question));
+    context.source.name() == context.target.name()
+        && context.source.behaviour(question) == context.target.behaviour(question)
+        || source.is_some() && source == target
+}
+
+/// A control's answer, where a source confirms it.
+fn answer(control: &Control, question: Question) -> Option<&str> {
+    let row = control.behaviour(question)?;
+    (row.origin().confirmed && row.value != "unknown").then_some(row.value.as_str())
+}
+
+fn about_zero(nc: &Nc) -> bool {
+    nc.items.iter().all(|item| match item {
+        NcItem::Word(role, value) => !role.is_axis() || value.constant() == Some(0.0),
+        _ => true,
+    })
+}
+
+/// A mirror that names another coordinate than 0.
+fn mirror(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) {
+    if agree(ABOUT, context) {
+        return;
+    }
+    let is_zero = |control: &Control| control.behaviour(ABOUT).is_some_and(|row| row.value == "zero");
+    context.rests_on_source(index, span, ABOUT);
+    if is_zero(context.source) {
+        for item in &mut nc.items {
+            if let NcItem::Word(role, value) = item
+                && role.is_axis()
+            {
+                *value = Expr::Number(0.0);
+            }
+        }
+    } else if is_zero(context.target) {
+        let title = &context.target.dialect().title;
+        let what = format!("{title} mirrors about the work zero, the program about another coordinate");
+        let help = "shift the work offset so that its zero lies there, and mirror about 0";
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+    } else {
+        context.rests_on_target(index, span, ABOUT);
+    }
+}
+
+/// True for a code that chooses or leaves the frame of coordinates.
+fn is_of_frame(op: Op) -> bool {
+    matches!(op.group(), Group::Plane | Group::WorkOffset)
+        || matches!(op, Op::LocalShift | Op::SetPosition | Op::MachineOnce | Op::ReferenceFrom)
+        || matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::Home)
+}

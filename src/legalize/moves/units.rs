@@ -1,0 +1,277 @@
+//! The unit of lengths, where it comes from the control and not from the program.
+//!
+//! Law: a program that names no unit runs in the one its control is set to. Where the source's is known (the shop's
+//! profile or a check of the unit says it), the target is told at the head of each main program that comes to a length
+//! before it names a unit, itself or in what it calls. Side conditions: where it is not known, the target must be set
+//! as the source was; where the target is set to the other unit, its tables must be kept for this one. Both are a
+//! review diagnostic. Two controls of one family that are set alike need nothing.
+
+pub(in crate::legalize) mod left;
+
+use crate::assume::Predicate;
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Units;
+use crate::ir::analysis::CallGraph;
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::dataflow::{Lattice, reached};
+use crate::ir::analysis::exposed::roots;
+use crate::ir::{
+    BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
+};
+use crate::legalize::census::{Census, Thing};
+use crate::legalize::layout::emptied::drop_emptied;
+use crate::legalize::moves::increments::units_named;
+use crate::legalize::{Context, ModalFacts, calls_of, reachable};
+use crate::text::Span;
+use left::Left;
+use std::collections::BTreeSet;
+
+/// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    let check = |op| matches!(op, Op::CheckInch | Op::CheckMetric);
+    let others = [Thing::Emptied, Thing::Code, Thing::Modal, Thing::Call, Thing::LocalCall];
+    let entry = &context.entry;
+    entry.op(Group::Units).is_none()
+        || entry.may_call()
+        || census.any_op(|op| op.group() == Group::Units || check(op))
+        || others.into_iter().any(|thing| census.has(thing))
+}
+
+/// Tells the target the unit of each main program.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let mut changed = false;
+    let checked: Vec<Option<Units>> =
+        module.programs.iter_mut().map(|program| take_checks(program, &mut changed)).collect();
+    let (ours, theirs) = (context.source.units(), context.target.units());
+    let same_family = context.same_family();
+    if same_family && ours.is_some() && ours == theirs {
+        return changed;
+    }
+    let mut entry = context.entry.clone();
+    entry.one_unit = Left::of_library(module, context.source).is_one();
+    let known =
+        entry.op(Group::Units).is_some() || module.programs.iter().flat_map(units_named).next().is_some();
+    let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
+    let open = open(module, &facts);
+    let mut heads = mains(module);
+    if let Some(units) = ours.filter(|units| theirs.is_some_and(|theirs| theirs != *units)) {
+        heads.extend(lone(module, units));
+    }
+    let called = CalledPrograms::of(module);
+    for root in heads.into_iter().filter(|&root| open[root]) {
+        // One that may also be called has the unit of its caller then.
+        let alone = !(called.is_guessed(root) && returns(&module.programs[root]));
+        let Some(units) = ours.or(checked[root]).filter(|_| alone) else {
+            let lost = lost(module, &facts, root);
+            let (span, why) =
+                lost.unwrap_or((module.programs[root].site.span, "the program does not name its unit"));
+            let what = format!(
+                "{why}: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)"
+            );
+            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
+            context.add_once(root, "units", finding);
+            continue;
+        };
+        let op = if units == Units::Inch { Op::Inch } else { Op::Metric };
+        if theirs == Some(units) && context.target.code_for(op, &Default::default()).is_none() {
+            continue;
+        }
+        if theirs.is_some_and(|theirs| theirs != units) {
+            let what = "the program selects the unit of the source, and the target is set to the other one: its offsets must be kept for this program's unit";
+            let span = module.programs[root].site.span;
+            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
+            context.add_once(root, "units", finding);
+        }
+        head(&mut module.programs[root], op);
+        changed = true;
+    }
+    changed
+}
+
+/// Takes the checks of the unit out of a program; the unit that all of them check.
+fn take_checks(program: &mut Program, changed: &mut bool) -> Option<Units> {
+    let (mut inch, mut metric) = (false, false);
+    for block in &mut program.blocks {
+        let mut any = false;
+        for stmt in &mut block.stmts {
+            let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            nc.items.retain(|item| {
+                inch |= *item == NcItem::Op(Op::CheckInch);
+                metric |= *item == NcItem::Op(Op::CheckMetric);
+                !matches!(item, NcItem::Op(Op::CheckInch | Op::CheckMetric))
+            });
+            any |= nc.items.is_empty();
+        }
+        if any {
+            *changed |= drop_emptied(block);
+        }
+    }
+    *changed |= inch || metric;
+    match (inch, metric) {
+        (true, false) => Some(Units::Inch),
+        (false, true) => Some(Units::Metric),
+        _ => None,
+    }
+}
+
+/// Where a program that named its unit no longer knows it, and why.
+fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'static str)> {
+    let program = &module.programs[root];
+    for id in with_subroutines(program) {
+        let Some(block) = program.block(id) else { continue };
+        let mut state = facts.at(root, id);
+        for stmt in &block.stmts {
+            let before = state.op(Group::Units);
+            state.step(stmt);
+            if before.is_some() && state.op(Group::Units).is_none() {
+                let computed = match &stmt.kind {
+                    StmtKind::Nc(nc) => nc.items.iter().any(|item| matches!(item, NcItem::Code('G', _))),
+                    _ => false,
+                };
+                let why = if computed {
+                    "the code that is computed here may select another unit"
+                } else {
+                    "the modal call that runs here may leave another unit"
+                };
+                return Some((stmt.site.span, why));
+            }
+        }
+        if let TermKind::Call { next, .. } = &block.term.kind
+            && state.op(Group::Units).is_some()
+            && facts.at(root, *next).op(Group::Units).is_none()
+        {
+            return Some((block.term.site.span, "what is called here may leave another unit"));
+        }
+    }
+    None
+}
+
+/// Which programs come to a length while no unit is named, themselves or in what they call then.
+fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
+    let called = CalledPrograms::of(module);
+    let mut open = vec![false; module.programs.len()];
+    let mut calls: Vec<BTreeSet<(usize, bool)>> = vec![BTreeSet::new(); open.len()];
+    for (index, program) in module.programs.iter().enumerate() {
+        let own = &mut calls[index];
+        let mut enter = |callees: &[usize]| own.extend(callees.iter().map(|callee| (*callee, false)));
+        for id in with_subroutines(program) {
+            // What it calls says no more of one that is open itself.
+            let Some(block) = program.block(id).filter(|_| !open[index]) else { break };
+            let mut state = facts.at(index, id);
+            for stmt in &block.stmts {
+                // A modal call that the block sets off comes behind it.
+                let before = state.op(Group::Units);
+                state.step(stmt);
+                if before.or(state.op(Group::Units)).is_none() {
+                    open[index] |= has_length(&stmt.kind);
+                    if let StmtKind::ModalCall(call) = &stmt.kind {
+                        enter(called.by((index, id), call));
+                    }
+                }
+            }
+            if state.op(Group::Units).is_none() {
+                open[index] |= reads_length(|f| block.term.kind.exprs(f));
+                if let TermKind::Call { call, .. } = &block.term.kind {
+                    enter(called.by((index, id), call));
+                }
+            }
+        }
+    }
+    CallGraph::new(calls).bottom_up(&mut open, |mine, callee, _| mine.join(callee));
+    open
+}
+
+/// The blocks that a program can run, those of its subroutines too.
+fn with_subroutines(program: &Program) -> BTreeSet<BlockId> {
+    let mut all = reached([BlockId(0)], |id, go| {
+        let Some(block) = program.block(id) else { return };
+        block.term.kind.successors().into_iter().for_each(&mut *go);
+        calls_of(block).for_each(|call| {
+            if let Callee::Block(entry) = call.callee {
+                go(entry);
+            }
+        });
+    });
+    all.retain(|id| program.block(*id).is_some());
+    all
+}
+
+/// True for a statement in which the unit counts.
+fn has_length(kind: &StmtKind) -> bool {
+    match kind {
+        StmtKind::Nc(nc)
+            if nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if in_unit(*role))) =>
+        {
+            true
+        }
+        StmtKind::Assign { target: Place::System(state, _), .. } if state.is_length() => true,
+        kind => reads_length(|f| kind.exprs(f)),
+    }
+}
+
+fn in_unit(role: Role) -> bool {
+    role.is_length() || matches!(role, Role::Feed | Role::Lead)
+}
+
+fn reads_length(each: impl FnOnce(&mut dyn FnMut(&Expr))) -> bool {
+    let mut any = false;
+    each(&mut |e| {
+        e.walk(&mut |e| {
+            any |= matches!(e, Expr::Increments(n) if *n != 0.0)
+                || matches!(e, Expr::System(state, _) if state.is_length())
+        })
+    });
+    any
+}
+
+/// The programs that end the run, but for those that others call and that may return to them. What only their
+/// subroutines do, or what nothing reaches, says nothing of them.
+fn mains(module: &Module) -> Vec<usize> {
+    let roots: BTreeSet<usize> = uncalled(module).into_iter().collect();
+    let is_main = |index: &usize| {
+        let program = &module.programs[*index];
+        let ends = |kind: &TermKind| matches!(kind, TermKind::End { .. } | TermKind::Stray);
+        leaves_by(program, ends) && (roots.contains(index) || !returns(program))
+    };
+    (0..module.programs.len()).filter(is_main).collect()
+}
+
+fn returns(program: &Program) -> bool {
+    leaves_by(program, |kind| matches!(kind, TermKind::Return { .. }))
+}
+
+/// True where a program may end so, outside its subroutines.
+fn leaves_by(program: &Program, ends: impl Fn(&TermKind) -> bool) -> bool {
+    let own = reachable(program, BlockId(0));
+    own.into_iter().filter_map(|id| program.block(id)).any(|block| ends(&block.term.kind))
+}
+
+/// The programs that others call whom the library has not, where nothing in it names another unit than this one: what
+/// calls them on the target may be in the unit that the target is set to.
+fn lone(module: &Module, units: Units) -> Vec<usize> {
+    if module.programs.iter().flat_map(units_named).any(|named| named != units) {
+        return Vec::new();
+    }
+    let mains: BTreeSet<usize> = mains(module).into_iter().collect();
+    let is_named = |root: &usize| module.programs[*root].name.is_some();
+    uncalled(module).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
+}
+
+/// The programs that no call runs, by name or surely by a computed number.
+fn uncalled(module: &Module) -> Vec<usize> {
+    let called = CalledPrograms::of(module);
+    roots(module).into_iter().filter(|root| !called.is_known(*root)).collect()
+}
+
+fn head(program: &mut Program, op: Op) {
+    if let Some(block) = program.blocks.first_mut() {
+        let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
+        let at = block
+            .stmts
+            .iter()
+            .take_while(|stmt| matches!(stmt.kind, StmtKind::Remark | StmtKind::ClearAll(Class::Global)))
+            .count();
+        block.stmts.insert(at, Stmt { kind, site: Site::default() });
+    }
+}

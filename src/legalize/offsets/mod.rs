@@ -1,0 +1,10 @@
+//! Work offsets, tool lengths and positions.
+
+pub(in crate::legalize) mod active_offsets;
+pub(in crate::legalize) mod external;
+pub(in crate::legalize) mod kept_length;
+pub(in crate::legalize) mod length_radius;
+pub(in crate::legalize) mod offset_rows;
+pub(in crate::legalize) mod position_length;
+pub(in crate::legalize) mod set_position;
+pub(in crate::legalize) mod tool_word;

@@ -1,0 +1,123 @@
+//! Positions that hold the tool length on one control, and not on the other.
+//!
+//! Law: the place of the spindle is that of the tip and the length in force, which controls keep in a variable of its
+//! own; so one is the other with that variable added or taken away. Where no length can be in force nothing is asked.
+//! Where it ends: a position of an axis that is computed.
+
+use crate::canon::{Group, Op, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question};
+use crate::ir::eval::whole;
+use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Program, TermKind};
+use crate::legalize::variables::computed_numbers::constant_part;
+use crate::legalize::{Context, ModalFacts, Setting, rewrite_program};
+use crate::text::Span;
+
+/// Whether positions hold the tool length.
+pub(in crate::legalize) const FACT: Question = Question::PositionLength;
+/// The axis of the length.
+pub(in crate::legalize) const DEPTH: u32 = 3;
+const Z: f64 = DEPTH as f64;
+
+/// Adds the length to positions, or takes it away.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let row =
+        |control: &Control| control.behaviour(FACT).map(|row| (row.value == "added", row.origin.confirmed));
+    let (ours, theirs) = (row(context.source), row(context.target));
+    if ours == theirs && (context.source.name() == context.target.name() || ours == Some((true, true))) {
+        return;
+    }
+    let added = |row: Option<(bool, bool)>| row.is_some_and(|(added, _)| added);
+    let facts = ModalFacts::of(module, &context.entry);
+    for index in 0..module.programs.len() {
+        let Some((span, computed)) = reads(&module.programs[index], index, &facts, context.source) else {
+            continue;
+        };
+        context.rests_on_source(index, span, FACT);
+        context.rests_on_target(index, span, FACT);
+        let op = match (added(ours), added(theirs)) {
+            (true, false) => BinOp::Add,
+            (false, true) => BinOp::Sub,
+            _ => continue,
+        };
+        if let Some(span) = computed {
+            let what =
+                "a position of a computed axis may hold the tool length on one control and not on the other";
+            context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+        }
+        rewrite_program(&mut module.programs[index], is_depth, &mut |e, _, _| match e {
+            e if is_depth(&e) => {
+                let length = Expr::System(Sys::ActiveOffset, [Expr::Number(Z)].into());
+                Expr::binary(op, e, length)
+            }
+            e => e,
+        });
+    }
+}
+
+/// Where a program first reads a position along the axis of the length while one may be in force, and where it reads one
+/// of a computed axis.
+fn reads(
+    program: &Program,
+    index: usize,
+    facts: &ModalFacts,
+    source: &Control,
+) -> Option<(Span, Option<Span>)> {
+    let ends = program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::End { .. }));
+    let (mut depth, mut computed) = (None, None);
+    for (at, block) in program.blocks.iter().enumerate() {
+        let mut state = facts.at(index, BlockId(at as u32));
+        let mut look = |e: &Expr, span: Span, off: bool| {
+            e.walk(&mut |e| {
+                if off {
+                } else if is_depth(e) {
+                    depth.get_or_insert(span);
+                } else if is_computed(e, source) {
+                    computed.get_or_insert(span);
+                }
+            });
+        };
+        for stmt in &block.stmts {
+            let off = is_off(state.of(Group::LengthComp), ends && !state.names_length());
+            stmt.kind.exprs(&mut |e| look(e, stmt.site.span, off));
+            state.step(stmt);
+        }
+        let off = is_off(state.of(Group::LengthComp), ends && !state.names_length());
+        block.term.kind.exprs(&mut |e| look(e, block.term.site.span, off));
+    }
+    depth.or(computed).map(|span| (span, computed))
+}
+
+/// True where no length is in force; a main program starts without one.
+fn is_off(length: Setting, main: bool) -> bool {
+    match length {
+        Setting::Known(op, _) => op == Op::LengthOff,
+        _ => main,
+    }
+}
+
+/// The states that tell where an axis is.
+pub(in crate::legalize) const fn is_position(state: Sys) -> bool {
+    matches!(state, Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition)
+}
+
+fn position(e: &Expr) -> Option<&Expr> {
+    match e {
+        Expr::System(state, axis) if is_position(*state) => axis.first(),
+        _ => None,
+    }
+}
+
+fn is_depth(e: &Expr) -> bool {
+    position(e).and_then(Expr::constant) == Some(Z)
+}
+
+/// True for a position of a computed axis; people count axes from 1, so `#[5040+#1]` is one.
+fn is_computed(e: &Expr, source: &Control) -> bool {
+    let Expr::Indirect(Bank::Numbered, number) = e else {
+        return position(e).is_some_and(|axis| axis.constant().is_none());
+    };
+    let start = constant_part(number).and_then(whole);
+    let first = start.and_then(|start| source.read_system("#", Some(start.saturating_add(1))));
+    first.is_some_and(|(state, ..)| is_position(state))
+}

@@ -1,0 +1,26 @@
+//! Work offsets that are selected behind a position that the program set.
+//!
+//! Law: the code that says where the tool stands shifts all work offsets on some controls until it is taken back, and on
+//! others lasts until an offset is selected. Of controls of two families it is not known that they do the same, so a
+//! selection that may come behind such a code is told. Side condition: an offset that is selected before is meant alike.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::Module;
+use crate::ir::analysis::behind::behind;
+use crate::legalize::Context;
+
+/// Reports selections behind a set position.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    behind(
+        module,
+        |stmt| stmt.kind.has_op(Op::SetPosition),
+        |_| false,
+        |index, stmt| {
+            if stmt.kind.has_op(Op::SelectWork) {
+                let what = "a work offset is selected where a position that was set may be in force: whether that ends it is not known of both controls";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
+            }
+        },
+    );
+}

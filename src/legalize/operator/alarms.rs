@@ -1,0 +1,54 @@
+//! Numbers of alarms outside of what a control takes.
+//!
+//! Law: an alarm of a number that both controls take is an alarm of that number on both. What a control does with
+//! another number is in no source; such an alarm stays, for review.
+
+use crate::assume::Predicate;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question};
+use crate::ir::{Expr, Module, StmtKind};
+use crate::legalize::Context;
+use crate::text::Span;
+
+/// Reports alarm numbers that are too large, no whole number above 0, or not known.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let most = |control: &Control| {
+        control.behaviour(Question::AlarmMax).and_then(|row| row.value.parse().ok()).unwrap_or(f64::INFINITY)
+    };
+    let (here, there) = (most(context.source), most(context.target));
+    for (index, program) in module.programs.iter().enumerate() {
+        for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+            if let StmtKind::Alarm { number, .. } = &stmt.kind {
+                check(number, (here, there), index, stmt.site.span, context);
+            }
+        }
+    }
+}
+
+fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, context: &mut Context<'_>) {
+    match number.constant() {
+        Some(n) if n < 1.0 || n.fract() != 0.0 => {
+            let what = format!("no source says what {n} as the number of an alarm does");
+            context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+        }
+        Some(n) => {
+            if n > here {
+                context.rests_on_source(index, span, Question::AlarmMax);
+            }
+            if n > there {
+                let title = &context.target.dialect().title;
+                let what = format!(
+                    "{title} is said to take alarm numbers up to {there}; {n} may show as another alarm"
+                );
+                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+            }
+        }
+        None if there < here => {
+            let what =
+                format!("the number of the alarm is computed: the target is said to take 1 to {there}");
+            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Alarms(there));
+            context.add_once(index, "computed alarm", finding);
+        }
+        None => {}
+    }
+}

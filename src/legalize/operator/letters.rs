@@ -1,0 +1,184 @@
+//! Letters of messages, outputs and comments that the target is not known to show.
+//!
+//! Law: a letter outside ASCII becomes what looks like it, small letters become capitals where the target may lack them,
+//! and brackets inside a message become square ones: the operator reads the same. Side condition: something looks like
+//! it; else `?` stands in its place, which in a message is for review.
+//! Counter-example: `#3006=1 (TÜR AUF)`, of which a control may show `T R AUF`, or nothing.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
+use crate::ir::{Module, OutputPart, PrintPart, Remark, StmtKind};
+use crate::legalize::Context;
+use crate::text::{Span, likeness};
+
+/// Replaces letters in everything that a person reads.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let letters = context.target.behaviour(Question::TextLetters).map_or("unknown", |row| row.value.as_str());
+    let (remark, shown) =
+        (Place::Remark { small: letters != "upper" }, Place::Shown { small: letters == "ascii" });
+    let output = Place::Output { small: letters != "upper" };
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut writer = Writer { context, index, span: program.site.span };
+        writer.remarks(&mut program.site.remarks, remark);
+        for block in &mut program.blocks {
+            for stmt in &mut block.stmts {
+                writer.span = stmt.site.span;
+                let stops =
+                    matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Stop) || nc.has(Op::OptionalStop));
+                let here = if stops { Place::Beside } else { remark };
+                writer.remarks(&mut stmt.site.remarks, here);
+                match &mut stmt.kind {
+                    StmtKind::Alarm { text, .. } | StmtKind::StopMessage { text, .. } => {
+                        writer.take(text, shown)
+                    }
+                    StmtKind::Output(parts) => parts.iter_mut().for_each(|part| {
+                        if let OutputPart::Text(text) = part {
+                            writer.take(text, output);
+                        }
+                    }),
+                    StmtKind::Print { parts, .. } => parts.iter_mut().for_each(|part| {
+                        if let PrintPart::Text(text) = part {
+                            writer.take(text, Place::Printed);
+                        }
+                    }),
+                    _ => {}
+                }
+            }
+            writer.span = block.term.site.span;
+            writer.remarks(&mut block.term.site.remarks, remark);
+        }
+    }
+}
+
+/// Where a text stands; `small` where it may have small letters.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    /// A comment.
+    Remark { small: bool },
+    /// A message of its own statement, between brackets.
+    Shown { small: bool },
+    /// The comment beside a stop, which the operator reads.
+    Beside,
+    /// A line of formatted output. What nothing looks like is left to the emitter, which refuses it.
+    Output { small: bool },
+    /// A print, of which a question or a line of output is made.
+    Printed,
+}
+
+struct Writer<'w, 'c> {
+    context: &'w mut Context<'c>,
+    index: usize,
+    span: Span,
+}
+
+impl Writer<'_, '_> {
+    fn remarks(&mut self, remarks: &mut [Remark], place: Place) {
+        remarks.iter_mut().for_each(|remark| self.take(&mut remark.text, place));
+    }
+
+    /// Writes a text as the target can show it, and says so where letters were replaced.
+    fn take(&mut self, text: &mut String, place: Place) {
+        let written = Written::of(text, place);
+        if written.text == *text {
+            return;
+        }
+        let (before, after) = (text.trim(), written.text.trim());
+        if written.lost && !matches!(place, Place::Remark { .. }) {
+            let what = format!(
+                "the message '{before}' is written '{after}': nothing stands for some of its letters"
+            );
+            self.context.add(self.index, Diagnostic::new(Code::MessageAltered, self.span, what));
+        } else if written.replaced {
+            let what =
+                format!("'{before}' is written '{after}': the target is not known to show all its letters");
+            let finding = Diagnostic::new(Code::LettersReplaced, self.span, what);
+            self.context.add_once(self.index, "letters", finding);
+        }
+        *text = written.text;
+    }
+}
+
+/// A text in letters that the target shows.
+struct Written {
+    text: String,
+    /// True where a letter or sign became another one, small letters of what a person reads aside.
+    replaced: bool,
+    /// True where nothing stands for one.
+    lost: bool,
+}
+
+impl Written {
+    fn of(source: &str, place: Place) -> Self {
+        let mut out = Written { text: String::with_capacity(source.len()), replaced: false, lost: false };
+        let shown = matches!(place, Place::Shown { .. });
+        let mut all = source.chars().peekable();
+        while let Some(c) = all.next() {
+            let sign = match c {
+                '(' if shown => "[",
+                ')' if shown => "]",
+                '%' if shown => "PCT",
+                ';' if shown => ",",
+                // The sign of a diameter, which drawings have for the letter.
+                'Ø' | 'ø' if all.peek() == Some(&' ') => "DIA",
+                'Ø' | 'ø' if all.peek().is_some_and(|c| c.is_ascii_digit() || matches!(c, '.' | '#')) => {
+                    "DIA "
+                }
+                c if c.is_ascii() || c.is_control() => {
+                    out.text.push(if c.is_control() { ' ' } else { c });
+                    continue;
+                }
+                c => match likeness(c) {
+                    Some(sign) => sign,
+                    None if matches!(place, Place::Output { .. }) => {
+                        out.text.push(c);
+                        continue;
+                    }
+                    None => {
+                        out.lost = true;
+                        "?"
+                    }
+                },
+            };
+            out.replaced = true;
+            out.text.push_str(sign);
+        }
+        let small = match place {
+            Place::Remark { small } | Place::Shown { small } | Place::Output { small } => small,
+            Place::Beside | Place::Printed => false,
+        };
+        if !small {
+            // Who receives a line of output may tell the cases apart.
+            out.replaced |=
+                matches!(place, Place::Output { .. }) && out.text.bytes().any(|b| b.is_ascii_lowercase());
+            out.text.make_ascii_uppercase();
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_place_has_its_letters() {
+        let of = |text, place| {
+            let Written { text, replaced, lost } = Written::of(text, place);
+            (text, replaced, lost)
+        };
+        let shown = Place::Shown { small: false };
+        assert_eq!(of("Tür (auf) 50%", shown), ("TUER [AUF] 50PCT".into(), true, false));
+        assert_eq!(of("open", shown), ("OPEN".into(), false, false));
+        assert_eq!(of("open", Place::Shown { small: true }), ("open".into(), false, false));
+        assert_eq!(of("日", shown), ("?".into(), true, true));
+        assert_eq!(of("Ø10 BØR", shown), ("DIA 10 BOR".into(), true, false));
+        let remark = Place::Remark { small: true };
+        assert_eq!(of("façade (A) %", remark), ("facade (A) %".into(), true, false));
+        let output = Place::Output { small: false };
+        assert_eq!(of("Ü日a", output), ("UE日A".into(), true, false));
+        assert_eq!(of("a", output), ("A".into(), true, false));
+        // U with a dots' sign of its own behind it.
+        assert_eq!(of("TU\u{308}R", shown), ("TUR".into(), true, false));
+    }
+}

@@ -1,0 +1,242 @@
+//! Variables whose number is computed, where numbers mean other things on the target.
+//!
+//! Law: such a variable stays as it is where both controls mean the same by every number that it may have; in a
+//! run of system variables that the target keeps elsewhere in the same order, the distance is added; in a run of
+//! one state that it keeps otherwise, the variable becomes that state, counted as its numbers are. What the number may
+//! be is followed from where it is assigned. Side condition, for a reviewer, where that leaves it open: the number stays
+//! in the run in which its constant part lies, and is none of the registers that the conversion took for itself.
+//! Counter-example: `#[2000+#1]` with `#1` = 3 is a length offset on one control and a wear on another.
+
+mod found;
+mod meaning;
+mod numbers;
+mod shift;
+
+use crate::canon::Sys;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Side};
+use crate::ir::analysis::{self, Ranges, Summaries, Values, values_at};
+use crate::ir::{Bank, Expr, Module};
+use crate::legalize::Context;
+use crate::legalize::variables::banks::{all_numbers, each_index};
+use crate::text::Span;
+use found::Found;
+use numbers::{Numbers, Table};
+pub(in crate::legalize) use shift::constant_part;
+use shift::shift;
+use std::cell::LazyCell;
+
+/// Computed numbers are followed for so many of a program; others are not known.
+const MOST_LOOKED_UP: usize = 500;
+
+/// What computed numbers of a library reach.
+#[derive(Debug, Default)]
+pub struct Reached {
+    /// Numbers that some are known to be: no register is taken there.
+    pub sure: analysis::Numbers,
+    /// What is supposed of the others, by program.
+    open: Vec<(usize, Found)>,
+    /// What both controls mean by each number, once it is known.
+    table: Table,
+}
+
+impl Reached {
+    /// Numbers that any of the others are supposed to be.
+    pub(in crate::legalize) fn everything(&self, source: &Control, target: &Control) -> analysis::Numbers {
+        let mut all = analysis::Numbers::default();
+        if !self.open.is_empty() {
+            let numbers = Numbers::new(source, target, self.table.clone());
+            self.open.iter().for_each(|(_, found)| all.join(&found.finding.supposed(&numbers)));
+        }
+        all
+    }
+
+    /// Numbers that some are supposed to be: registers are taken elsewhere, where there are any.
+    pub fn supposed(&self) -> analysis::Numbers {
+        analysis::Numbers::of(self.open.iter().filter_map(|(_, found)| found.finding.run()))
+    }
+}
+
+/// Shifts computed numbers, and notes what they may be.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let table = Table::default();
+    let mut numbers = Numbers::new(context.source, context.target, table.clone());
+    context.reached = Reached { table, ..look(module, &mut numbers, context) };
+    let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
+    let shifts = numbers.known.values().any(moves);
+    if shifts {
+        module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
+    }
+    shifts
+}
+
+fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -> Reached {
+    let summaries = LazyCell::new(|| Summaries::of(module));
+    let mut reached = Reached::default();
+    for (index, program) in module.programs.iter().enumerate() {
+        let ranges = LazyCell::new(|| Ranges::of(program, &summaries));
+        let mut found: Vec<Found> = Vec::new();
+        // Numbers that others in the same block are known to be: they are no strays.
+        let mut known: Vec<(Span, analysis::Numbers)> = Vec::new();
+        let mut looked_up = 0;
+        each_index(program, &mut |bank, number, span, id, at| {
+            if bank != Bank::Numbered {
+                return;
+            }
+            looked_up += 1;
+            // A plain variable is looked up with the literals that stand at the head.
+            let constants = match number {
+                Expr::Var(var) if looked_up <= MOST_LOOKED_UP / 10 => {
+                    values_at(program, &summaries, *var, id, at).and_then(all_numbers)
+                }
+                _ => None,
+            };
+            let (may_be, exact) = match constants {
+                Some(constants) => (constants, true),
+                None if looked_up > MOST_LOOKED_UP => (Values::ANY.numbers(), false),
+                None => {
+                    let values = ranges.at(id, at, number);
+                    (values.numbers(), matches!(values, Values::Few(_)))
+                }
+            };
+            let (finding, sure) = numbers.judge(number, &may_be, exact);
+            if sure {
+                reached.sure.join(&may_be);
+                known.push((span, may_be));
+            }
+            let Some(finding) = finding else { return };
+            finding.rest_on_rows(index, span, context);
+            if let Finding::Other(_) = finding {
+                let (code, what) = finding.told(context, &analysis::Numbers::default(), false);
+                context.add_once(index, &what, Diagnostic::new(code, span, what.clone()));
+            } else if !sure {
+                Found::note(&mut found, finding, span, constant_part(number).unwrap_or_default());
+            }
+        });
+        for found in &mut found {
+            let here = known.iter().filter(|(span, _)| found.places.contains(span));
+            here.for_each(|(_, numbers)| found.sure.join(numbers));
+        }
+        reached.open.extend(found.into_iter().map(|found| (index, found)));
+    }
+    reached
+}
+
+/// Says what is supposed of computed numbers, now that registers are taken.
+pub fn report(_: &Module, context: &mut Context<'_>) {
+    let reached = std::mem::take(&mut context.reached);
+    if reached.open.is_empty() {
+        return;
+    }
+    let numbers = Numbers::new(context.source, context.target, reached.table);
+    let alike = numbers.all_alike();
+    let taken: Vec<u32> = context.registers.taken().collect();
+    for (index, found) in reached.open {
+        let supposed = found.finding.supposed(&numbers);
+        let safe = supposed.without(taken.iter().copied());
+        let hit = safe != supposed;
+        if alike && !hit {
+            continue;
+        }
+        let (code, what) = found.finding.clone().told(context, &safe, hit);
+        let span = found.places.first().copied().unwrap_or_default();
+        let told = Diagnostic::new(code, span, what.clone()).assuming(found.predicate(&safe));
+        context.add_once(index, &what, told);
+    }
+}
+
+/// What is known of a computed number.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::legalize) enum Finding {
+    /// It starts in these numbers, by each of which both controls mean the same.
+    Alike(u32, u32),
+    /// It starts in this run of a state, to whose numbers this is added.
+    Shifted(Sys, u32, u32, i64),
+    /// It starts in this run of a state, whose first number has this count.
+    Counted(Sys, u32, u32, u32),
+    /// It may be this number, which the target uses for something else, or not at all.
+    Other(u32),
+    /// Nothing.
+    Any,
+}
+
+impl Finding {
+    /// Says which of the rows that hold these numbers nobody confirmed.
+    fn rest_on_rows(&self, index: usize, span: Span, context: &mut Context<'_>) {
+        let (here, there) = match *self {
+            Finding::Alike(first, _) => (first, Some(first)),
+            Finding::Shifted(_, first, _, by) => (first, u32::try_from(i64::from(first) + by).ok()),
+            Finding::Counted(_, first, ..) => (first, None),
+            _ => return,
+        };
+        context.rests_on_number(Side::Source, index, span, here);
+        there.into_iter().for_each(|number| context.rests_on_number(Side::Target, index, span, number));
+    }
+
+    /// The run that it must stay in.
+    fn run(&self) -> Option<(u32, u32)> {
+        match *self {
+            Finding::Alike(first, last)
+            | Finding::Shifted(_, first, last, _)
+            | Finding::Counted(_, first, last, _) => Some((first, last)),
+            Finding::Any | Finding::Other(_) => None,
+        }
+    }
+
+    /// The numbers that it must be one of, were there no registers among them.
+    fn supposed(&self, numbers: &Numbers<'_>) -> analysis::Numbers {
+        match self {
+            Finding::Any => numbers.list(),
+            other => analysis::Numbers::of(other.run()),
+        }
+    }
+
+    /// What is told of it, where the numbers in `safe` mean the same; `hit` where registers were taken among them.
+    fn told(self, context: &Context<'_>, safe: &analysis::Numbers, hit: bool) -> (Code, String) {
+        let title = &context.target.dialect().title;
+        match self {
+            Finding::Alike(..) if hit => (
+                Code::Conditional,
+                format!(
+                    "the number of a variable is computed: it must be one of {safe}; the conversion uses others for values of its own"
+                ),
+            ),
+            Finding::Alike(first, last) => (
+                Code::Conditional,
+                must_stay(first, last)
+                    + &format!(", outside of which numbers mean other variables on {title}"),
+            ),
+            Finding::Shifted(state, first, last, by) => {
+                let there = |n: u32| i64::from(n) + by;
+                (
+                    Code::Conditional,
+                    format!(
+                        "{} ('{state}'), which are #{} to #{} on {title}",
+                        must_stay(first, last),
+                        there(first),
+                        there(last)
+                    ),
+                )
+            }
+            Finding::Counted(state, first, last, _) => {
+                (Code::Conditional, format!("{} ('{state}')", must_stay(first, last)))
+            }
+            Finding::Other(number) => (
+                Code::NoEquivalent,
+                format!(
+                    "the number of a variable is computed, and #{number}, which it starts from or may be, is not the same variable on {title}"
+                ),
+            ),
+            Finding::Any => (
+                Code::Conditional,
+                format!(
+                    "which variable is meant is known only when the program runs: it must be one of {safe}, which mean the same on {title}"
+                ),
+            ),
+        }
+    }
+}
+
+fn must_stay(first: u32, last: u32) -> String {
+    format!("the number of a variable is computed: it must stay in #{first} to #{last}")
+}

@@ -1,0 +1,200 @@
+//! What both controls mean by the numbers of variables.
+
+use super::Finding;
+use super::meaning::{Meaning, last_number, meaning};
+use super::shift::constant_part;
+use crate::canon::{Pause, Running, Sys};
+use crate::dialect::Control;
+use crate::ir::Expr;
+use crate::ir::analysis;
+use crate::ir::eval::whole;
+use crate::legalize::offsets::position_length;
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+/// Numbers of axes repeat at this distance.
+const GAP: u32 = 20;
+
+/// What both controls mean by the numbers of variables.
+pub(super) struct Numbers<'c> {
+    source: &'c Control,
+    target: &'c Control,
+    /// Made when it is first asked for: most programs compute no number.
+    table: Table,
+    /// By the constant part of a number.
+    pub(super) known: BTreeMap<u32, Finding>,
+}
+
+/// By number: true where both controls mean the same, none where neither means anything.
+pub(super) type Table = Arc<OnceLock<Vec<Option<bool>>>>;
+
+impl<'c> Numbers<'c> {
+    /// `table` is of the same two controls.
+    pub(super) fn new(source: &'c Control, target: &'c Control, table: Table) -> Self {
+        Self { source, target, table, known: BTreeMap::new() }
+    }
+
+    fn table(&self) -> &[Option<bool>] {
+        self.table.get_or_init(|| self.compared())
+    }
+
+    fn compared(&self) -> Vec<Option<bool>> {
+        let (source, target) = (self.source, self.target);
+        let same = |number: u32| {
+            let (here, there) = (meaning(source, number), meaning(target, number));
+            let access = |control: &'c Control| {
+                control.read_system("#", Some(number)).map_or("", |(.., row)| row.access.as_str())
+            };
+            match &here {
+                None if there.is_none() => None,
+                Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
+                Some(Meaning::State(Sys::StopMessage, _)) if !stops_alike(source, target) => Some(false),
+                Some(Meaning::State(..)) => {
+                    Some(here == there && access(source).chars().all(|c| access(target).contains(c)))
+                }
+                _ => Some(here == there && !target.is_reserved("#", number)),
+            }
+        };
+        (0..=last_number(source)).map(same).collect()
+    }
+
+    /// What is known of a computed number that may be one of some, `exact` where it is each of them; true where they all
+    /// lie in what is known, so that nothing is supposed.
+    pub(super) fn judge(
+        &mut self,
+        number: &Expr,
+        may_be: &analysis::Numbers,
+        exact: bool,
+    ) -> (Option<Finding>, bool) {
+        let known = may_be.last().is_none_or(|last| (last as usize) < self.table().len());
+        let each = || may_be.runs().iter().flat_map(|(first, last)| *first..=*last);
+        let finding = self.of(number).clone();
+        let moves = matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
+        // What neither control has stops both.
+        let differs = |number: u32| self.table().get(number as usize).copied().flatten() == Some(false);
+        let other = known.then(|| each().find(|number| differs(*number))).flatten();
+        if known && other.is_none() && !moves {
+            return (None, true);
+        }
+        let inside = finding.run().is_some_and(|run| analysis::Numbers::of([run]).holds(may_be));
+        match may_be.runs().first() {
+            _ if known && inside => (Some(finding), true),
+            // It would be moved, and is none of those that are.
+            Some((first, _)) if known && exact && moves => (Some(Finding::Other(*first)), false),
+            _ if known && exact => (other.map(Finding::Other), false),
+            _ => (Some(finding), false),
+        }
+    }
+
+    fn alike(&self, number: u32) -> bool {
+        self.table().get(number as usize).copied().flatten().unwrap_or(false)
+    }
+
+    /// True where no number of the source means another thing on the target.
+    pub(super) fn all_alike(&self) -> bool {
+        let has = |number: usize| meaning(self.source, number as u32).is_some();
+        self.table().iter().enumerate().all(|(number, alike)| *alike != Some(false) || !has(number))
+    }
+
+    /// What is known of a computed number by its constant part: the run that it lies in, or that begins behind it.
+    pub(super) fn of(&mut self, number: &Expr) -> &Finding {
+        let start = constant_part(number).filter(|start| *start >= 100.0);
+        let start = start.and_then(whole);
+        let key = start.unwrap_or(0);
+        if !self.known.contains_key(&key) {
+            let finding = start.map_or(Finding::Any, |start| self.look_up(start));
+            self.known.insert(key, finding);
+        }
+        self.known.get(&key).unwrap_or(&Finding::Any)
+    }
+
+    fn look_up(&self, start: u32) -> Finding {
+        // People count from 1: `#[2400+#1]` means the run from #2401, though #2400 ends another.
+        let behind = start.saturating_add(1);
+        let first = match (self.begins(start), self.begins(behind)) {
+            (None, None) => return Finding::Other(start),
+            (None, _) | (Some(false), Some(true)) => behind,
+            _ => start,
+        };
+        if self.alike(first) {
+            let around = self.runs().into_iter().find(|(from, to)| (*from..=*to).contains(&first));
+            return around.map_or(Finding::Any, |(from, to)| Finding::Alike(from, to));
+        }
+        self.distance(first).or_else(|| self.counted(first)).unwrap_or(Finding::Other(first))
+    }
+
+    /// The run of a state that is counted by one number.
+    fn counted(&self, number: u32) -> Option<Finding> {
+        let (state, _, row) =
+            self.source.read_system("#", Some(number)).filter(|(state, ..)| *state != Sys::Other)?;
+        let (first, last) = (row.first?, row.last()?);
+        match row.subscripts.as_slice() {
+            [one] if one.step == 1 && !one.axis => Some(Finding::Counted(state, first, last, one.from)),
+            _ => None,
+        }
+    }
+
+    /// True for the first number of a run, false for another one in it; none outside of all.
+    fn begins(&self, number: u32) -> Option<bool> {
+        if let Some(row) = self.source.variable_class("#", number) {
+            return Some(row.first == number);
+        }
+        self.source.read_system("#", Some(number)).map(|(.., row)| row.first == Some(number))
+    }
+
+    /// The run of a state as far as the target has it at one distance.
+    fn distance(&self, number: u32) -> Option<Finding> {
+        let (state, _, row) = self.source.read_system("#", Some(number))?;
+        let (first, last) = (row.first?, row.last()?);
+        let distance = |number: u32| {
+            let (name, there, found) = self.target.system_address(state, &row.subscripts_of(number)?)?;
+            let fits = name == "#" && row.access.chars().all(|c| found.access.contains(c));
+            Some(i64::from(there.filter(|_| fits)?) - i64::from(number))
+        };
+        let by = distance(first)?;
+        let inside = |number: &u32| row.subscripts_of(*number).is_some();
+        let reached =
+            (first..=last).filter(inside).take_while(|number| distance(*number) == Some(by)).last()?;
+        (number <= reached).then_some(Finding::Shifted(state, first, reached, by))
+    }
+
+    /// Runs of numbers that mean the same, over gaps that stand for axes that are not there.
+    fn runs(&self) -> Vec<(u32, u32)> {
+        let mut runs: Vec<(u32, u32)> = Vec::new();
+        let mut broken = true;
+        for (number, alike) in (0..).zip(self.table()).skip(1) {
+            match (alike, runs.last_mut()) {
+                (Some(true), Some((_, last))) if !broken && number - *last < GAP => *last = number,
+                (Some(true), _) => runs.push((number, number)),
+                _ => {}
+            }
+            broken = *alike == Some(false) || broken && *alike != Some(true);
+        }
+        runs
+    }
+
+    /// The numbers that mean the same, whatever is in force.
+    pub(super) fn list(&self) -> analysis::Numbers {
+        let runs = analysis::Numbers::of(self.runs());
+        let [here, there] =
+            [self.source, self.target].map(|control| control.behaviour(position_length::FACT));
+        if here.map(|row| &row.value) == there.map(|row| &row.value) {
+            return runs;
+        }
+        let is_depth = |number: &u32| {
+            matches!(meaning(self.source, *number), Some(Meaning::State(state, axis))
+                if position_length::is_position(state) && axis == [position_length::DEPTH])
+        };
+        let depths: Vec<u32> = (0..self.table().len() as u32).filter(is_depth).collect();
+        runs.without(depths)
+    }
+}
+
+/// True if a message of the target ends whatever one of the source is known to end. Where the number is computed, nothing
+/// can be written before it.
+fn stops_alike(source: &Control, target: &Control) -> bool {
+    Running::ALL.into_iter().all(|running| {
+        let [here, there] = [source, target].map(|control| control.ends(Pause::Message, running).answer);
+        here.is_none() || here == there
+    })
+}

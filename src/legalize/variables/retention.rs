@@ -1,0 +1,88 @@
+//! Variables that one control keeps over power-off and the other clears.
+//!
+//! Law: a variable that every run writes before it reads it does not show what it held at power-on. For the others the
+//! difference can be seen, and is a review diagnostic: a counter kept in `#100` starts anew on a control that clears it,
+//! and a test for vacancy after power-on never comes true on one that keeps it.
+
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::Universe;
+use crate::ir::analysis::exposed::{Exposed, roots};
+use crate::ir::{Class, Module, Var};
+use crate::legalize::Context;
+use crate::legalize::variables::registers::{Register, Registers};
+use foldhash::{HashMap, HashMapExt};
+use std::sync::Arc;
+
+/// Reports variables whose life differs.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let registers = std::mem::take(&mut context.registers);
+    check(module, &registers, context);
+    context.registers = registers;
+}
+
+fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
+    let differing = |var: &Var, register: &Register| {
+        let there =
+            context.target.variable_class(&register.name, register.number).and_then(|row| row.retained);
+        let here = match var.class {
+            Class::Common => Some(false),
+            Class::Retained => Some(true),
+            _ => None,
+        };
+        (here.is_some() && here != there).then_some(here == Some(true))
+    };
+    let of = |(var, register): (&Var, &Register)| {
+        differing(var, register).map(|kept| (*var, kept, (register.name.clone(), register.number)))
+    };
+    let mut lives: Vec<_> = registers.of.iter().filter_map(of).collect();
+    if lives.is_empty() {
+        return;
+    }
+    lives.sort_by(|(.., a), (.., b)| a.cmp(b));
+    let exposed = Exposed::among(module, Universe::new(lives.iter().map(|(var, ..)| *var).collect()));
+    let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
+    for index in roots(module) {
+        let span = module.programs[index].site.span;
+        for kept in [true, false] {
+            let shown = lives.iter().enumerate();
+            let shown = shown.filter(|(_, (var, k, _))| *k == kept && exposed.is_at_entry(index, *var));
+            let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
+            if shown.is_empty() {
+                continue;
+            }
+            // Programs of a library that share their variables share the sentence.
+            let what = said.entry(shown).or_insert_with_key(|shown| {
+                told(&shown.iter().map(|at| &lives[*at].2).collect::<Vec<_>>(), kept).into()
+            });
+            context.add(index, Diagnostic::new(Code::OtherRetention, span, what.clone()));
+        }
+    }
+}
+
+/// The sentence about registers, in order of their numbers; true for those that the source keeps.
+fn told(registers: &[&(String, u32)], kept: bool) -> String {
+    let one = registers.len() == 1;
+    let names = list(registers);
+    let (keeps, is, them) =
+        if one { ("keeps its value", "is", "it") } else { ("keep their values", "are", "them") };
+    match kept {
+        true => format!(
+            "{names} {keeps} over power-off on the source, not on the target, and the program reads what an earlier run left in {them}"
+        ),
+        false => format!(
+            "{names} {is} vacant after power-on on the source and {keeps} on the target, and the program reads what an earlier run left in {them}"
+        ),
+    }
+}
+
+/// Registers as people write them: `#100, #103 to #105`.
+fn list(registers: &[&(String, u32)]) -> String {
+    let runs = registers.chunk_by(|a, b| a.0 == b.0 && a.1 + 1 == b.1);
+    let written = |run: &[&(String, u32)]| match run {
+        [(name, number)] => format!("{name}{number}"),
+        [(name, first), (_, second)] => format!("{name}{first}, {name}{second}"),
+        [(name, first), .., (_, last)] => format!("{name}{first} to {name}{last}"),
+        [] => String::new(),
+    };
+    runs.map(written).collect::<Vec<_>>().join(", ")
+}

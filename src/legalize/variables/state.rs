@@ -1,0 +1,348 @@
+//! Machine state that the target keeps in another form, or not at all.
+//!
+//! Laws: a diameter is twice a radius; a modal code plus one is the code and one; the seconds since
+//! cycle start are a millisecond timer, set to 0 where the main program starts, over a thousand. A position whose
+//! frame no source settles is taken as the work position, with a review diagnostic from lowering.
+
+use crate::canon::{Op, Role, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question, Row, Side};
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::dataflow::reached;
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
+use crate::legalize::offsets::tool_word;
+use crate::legalize::{Context, Position, Rewriter, rewrite_program};
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
+use thin_vec::ThinVec;
+
+/// States that the target may hold in each other's stead, and by what the first is multiplied to give the second.
+const SCALED: &[(Sys, Sys, f64)] = &[
+    (Sys::RadiusGeometry, Sys::DiameterGeometry, 2.0),
+    (Sys::RadiusWear, Sys::DiameterWear, 2.0),
+    (Sys::DiameterGeometry, Sys::RadiusGeometry, 0.5),
+    (Sys::DiameterWear, Sys::RadiusWear, 0.5),
+    (Sys::CycleSeconds, Sys::TimerMs, 1000.0),
+    (Sys::AxisPosition, Sys::WorkPosition, 1.0),
+    (Sys::DiameterOrRadius, Sys::DiameterGeometry, 1.0),
+    (Sys::DiameterOrRadius, Sys::RadiusGeometry, 0.5),
+    (Sys::RadiusGeometry, Sys::DiameterOrRadius, 2.0),
+    (Sys::DiameterGeometry, Sys::DiameterOrRadius, 1.0),
+    (Sys::DiameterOrRadiusWear, Sys::DiameterWear, 1.0),
+    (Sys::DiameterOrRadiusWear, Sys::RadiusWear, 0.5),
+    (Sys::RadiusWear, Sys::DiameterOrRadiusWear, 2.0),
+    (Sys::DiameterWear, Sys::DiameterOrRadiusWear, 1.0),
+];
+
+/// Rewrites machine state to what the target has.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let (source, target) = (context.source, context.target);
+    let mut timed = BTreeSet::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut found: Vec<(Span, Finding)> = Vec::new();
+        rewrite_program(
+            program,
+            |e| matches!(e, Expr::System(..)),
+            &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
+                Expr::System(state, subscripts) => {
+                    if state == Sys::CycleSeconds {
+                        timed.insert(index);
+                    }
+                    read(state, subscripts, (source, target), rewriter.span, &mut found)
+                }
+                other => other,
+            },
+        );
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            write(stmt, (source, target), &mut found);
+        }
+        for (span, finding) in found {
+            finding.report(index, span, context);
+        }
+    }
+    if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
+        start_timer(module, &callers_of(module, timed), context);
+    }
+}
+
+enum Finding {
+    Missing(Sys),
+    /// A variable of the target, by the name of its fact.
+    Unconfirmed(Sys, String, String),
+    Renumbered(String),
+    Wiring,
+    ReadOnly(Sys),
+    Table(Sys),
+    TargetTable,
+    /// What the tables hold as far as it is stated, which a block that writes them rests on.
+    TablesHold,
+}
+
+impl Finding {
+    fn report(self, index: usize, span: Span, context: &mut Context<'_>) {
+        let title = context.target.dialect().title.clone();
+        match self {
+            Finding::Missing(state) => {
+                let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+            }
+            Finding::ReadOnly(state) => {
+                let what = format!("{title} cannot write '{state}'");
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+            }
+            Finding::Unconfirmed(state, fact, note) => {
+                let note = format!("'{state}' is taken to be kept there{note}");
+                let finding = context.target.unconfirmed(Side::Target, &fact, Some(&note), span);
+                context.add_once(index, &fact, finding);
+            }
+            Finding::Table(state) => {
+                let what = match state {
+                    Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
+                    state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
+                };
+                context.unconfirmed(index, Side::Source, span, Question::RadiusOffsetTable.fact(), what);
+            }
+            Finding::Renumbered(code) => {
+                let what = format!(
+                    "a modal code is read, and {code} of its group has another number on {title}: it must not be in force here, nor be compared with"
+                );
+                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+            }
+            Finding::TargetTable => {
+                let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
+                context.unconfirmed(index, Side::Target, span, Question::RadiusOffsetTable.fact(), what);
+            }
+            Finding::TablesHold => {
+                let name = Question::RadiusOffsetTable;
+                if holds_radii(context.source).is_some() {
+                    context.rests_on_source(index, span, name);
+                }
+                if holds_radii(context.target).is_some() {
+                    context.rests_on_target(index, span, name);
+                }
+            }
+            Finding::Wiring => {
+                let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
+                context.add_once(index, "wiring", Diagnostic::new(Code::Conditional, span, what));
+            }
+        }
+    }
+}
+
+fn wired(state: Sys) -> bool {
+    use Sys::*;
+    matches!(state, Input | InputWord | Output | OutputWord | Analog | InputInverted | OutputInverted)
+}
+
+/// The target's run of variables for a state with these subscripts.
+fn held<'c>(
+    state: Sys,
+    subscripts: &[Expr],
+    target: &'c Control,
+) -> Option<&'c crate::dialect::SystemVariable> {
+    let constants: Option<Vec<u32>> =
+        subscripts.iter().map(|s| s.constant().filter(|n| *n >= 0.0).map(|n| n as u32)).collect();
+    match constants {
+        Some(constants) => target.system_address(state, &constants).map(|(_, _, row)| row),
+        None => target.system_run(state),
+    }
+}
+
+/// False for what only one control has, whose numbers mean nothing on another.
+fn shared(state: Sys, source: &Control, target: &Control) -> bool {
+    state != Sys::Other || source.name() == target.name()
+}
+
+fn note(state: Sys, row: &crate::dialect::SystemVariable, span: Span, found: &mut Vec<(Span, Finding)>) {
+    if !row.origin.confirmed {
+        let note = row.origin.note.as_deref().map(|note| format!(": {note}")).unwrap_or_default();
+        found.push((span, Finding::Unconfirmed(state, row.fact(), note)));
+    }
+    if wired(state) {
+        found.push((span, Finding::Wiring));
+    }
+}
+
+fn read(
+    state: Sys,
+    subscripts: ThinVec<Expr>,
+    (source, target): (&Control, &Control),
+    span: Span,
+    found: &mut Vec<(Span, Finding)>,
+) -> Expr {
+    if let Some(row) = held(state, &subscripts, target).filter(|_| shared(state, source, target)) {
+        note(state, row, span, found);
+        let factor = settled((state, state), 1.0, (source, target), span, found);
+        if let (Sys::Modal, Some(group)) = (state, subscripts.first().and_then(Expr::constant)) {
+            let code = crate::legalize::codes::by_number::renumbered(group, source, target);
+            found.extend(code.map(|code| (span, Finding::Renumbered(code))));
+        }
+        return scaled(Expr::System(state, subscripts), 1.0 / factor);
+    }
+    for (_, other, factor) in SCALED.iter().filter(|(from, ..)| *from == state) {
+        if let Some(row) = held(*other, &subscripts, target) {
+            note(*other, row, span, found);
+            let value = Expr::System(*other, subscripts);
+            return scaled(value, 1.0 / settled((state, *other), *factor, (source, target), span, found));
+        }
+    }
+    match state {
+        Sys::ModalMotionPlus1 if held(Sys::Modal, &[Expr::Number(1.0)], target).is_some() => {
+            binary(BinOp::Add, Expr::System(Sys::Modal, [Expr::Number(1.0)].into()), 1.0)
+        }
+        Sys::ActiveTool if tool_word::stands_in(target) => {
+            Expr::System(Sys::Address, [Expr::Number(f64::from(tool_word::ADDRESS_T))].into())
+        }
+        Sys::Pi => Expr::Number(std::f64::consts::PI),
+        Sys::Euler => Expr::Number(std::f64::consts::E),
+        Sys::Empty => Expr::Vacant,
+        _ => {
+            found.push((span, Finding::Missing(state)));
+            Expr::Number(0.0)
+        }
+    }
+}
+
+/// True where a control's cutter table holds radii; none where that is a setting which nobody stated.
+fn holds_radii(control: &Control) -> Option<bool> {
+    match control.behaviour(Question::RadiusOffsetTable)?.value.as_str() {
+        "radius" => Some(true),
+        "diameter" => Some(false),
+        _ => None,
+    }
+}
+
+/// By what a state is multiplied to give the other, where that hangs on what the cutter table of either
+/// control holds. Factors are those of a table of diameters.
+fn settled(
+    (state, other): (Sys, Sys),
+    factor: f64,
+    (source, target): (&Control, &Control),
+    span: Span,
+    found: &mut Vec<(Span, Finding)>,
+) -> f64 {
+    let either = |state| matches!(state, Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear);
+    let ours = if either(state) { holds_radii(source) } else { Some(false) };
+    let theirs = if either(other) { holds_radii(target) } else { Some(false) };
+    match (ours, theirs) {
+        (Some(true), Some(false)) => 2.0 * factor,
+        (Some(false), Some(true)) => 0.5 * factor,
+        (Some(_), Some(_)) => factor,
+        _ => {
+            found.push((span, if either(state) { Finding::Table(other) } else { Finding::TargetTable }));
+            factor
+        }
+    }
+}
+
+/// A value times a factor; a division where the factor is a fraction whose inverse is exact.
+fn scaled(value: Expr, factor: f64) -> Expr {
+    if let Some(number) = value.constant() {
+        return Expr::Number(number * factor);
+    }
+    match factor {
+        1.0 => value,
+        f if f < 1.0 && (1.0 / f).fract() == 0.0 => binary(BinOp::Div, value, 1.0 / f),
+        f => binary(BinOp::Mul, value, f),
+    }
+}
+
+fn binary(op: BinOp, a: Expr, b: f64) -> Expr {
+    Expr::binary(op, a, Expr::Number(b))
+}
+
+fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Vec<(Span, Finding)>) {
+    let span = stmt.site.span;
+    if let StmtKind::Nc(nc) = &mut stmt.kind
+        && writes_radius(nc)
+    {
+        return write_radius(nc, (source, target), span, found);
+    }
+    let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else { return };
+    if let Some(row) = held(*state, subscripts, target).filter(|_| shared(*state, source, target)) {
+        note(*state, row, span, found);
+        let factor = settled((*state, *state), 1.0, (source, target), span, found);
+        *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
+        if !row.access.contains('w') {
+            found.push((span, Finding::ReadOnly(*state)));
+        }
+        return;
+    }
+    for (_, other, factor) in SCALED.iter().filter(|(from, ..)| from == state) {
+        if let Some(row) = held(*other, subscripts, target).filter(|row| row.access.contains('w')) {
+            note(*other, row, span, found);
+            let factor = settled((*state, *other), *factor, (source, target), span, found);
+            *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
+            *state = *other;
+            return;
+        }
+    }
+    found.push((span, Finding::Missing(*state)));
+}
+
+/// By what a number of the source's cutter table is multiplied to be one of the target's; none where nobody stated
+/// what either holds. Where one of them is stated, the other is taken to hold diameters.
+pub(in crate::legalize) fn table_factor(source: &Control, target: &Control) -> Option<f64> {
+    let (ours, theirs) = (holds_radii(source), holds_radii(target));
+    ours.or(theirs)?;
+    Some(match (ours.unwrap_or(false), theirs.unwrap_or(false)) {
+        (true, false) => 2.0,
+        (false, true) => 0.5,
+        _ => 1.0,
+    })
+}
+
+/// True for a block that writes into the cutter table: the size or its wear, both as the table has them.
+pub(in crate::legalize) fn writes_radius(nc: &Nc) -> bool {
+    nc.has(Op::WriteRadius) || nc.has(Op::WriteRadiusWear)
+}
+
+/// What a block writes into the cutter table, as the target's table holds it.
+fn write_radius(
+    nc: &mut Nc,
+    (source, target): (&Control, &Control),
+    span: Span,
+    found: &mut Vec<(Span, Finding)>,
+) {
+    match (holds_radii(source), holds_radii(target)) {
+        (None, None) => return found.push((span, Finding::Table(Sys::DiameterOrRadius))),
+        (None, Some(_)) => found.push((span, Finding::Table(Sys::RadiusGeometry))),
+        (Some(_), None) => found.push((span, Finding::TargetTable)),
+        (Some(_), Some(_)) => {}
+    }
+    found.push((span, Finding::TablesHold));
+    let factor = table_factor(source, target).unwrap_or(1.0);
+    for item in &mut nc.items {
+        if let NcItem::Word(Role::OffsetValue, value) = item {
+            *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
+        }
+    }
+}
+
+/// The programs, and all that call them, directly or not.
+fn callers_of(module: &Module, programs: BTreeSet<usize>) -> BTreeSet<usize> {
+    let mut callers: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (caller, callee) in CalledPrograms::of(module).pairs(module) {
+        callers.entry(callee).or_default().push(caller);
+    }
+    reached(programs, |index, go| callers.get(&index).into_iter().flatten().for_each(|caller| go(*caller)))
+}
+
+/// Sets the timer to 0 where each main program that reads it starts.
+fn start_timer(module: &mut Module, timed: &BTreeSet<usize>, context: &mut Context<'_>) {
+    for &index in timed {
+        let program = &mut module.programs[index];
+        if program.ends()
+            && let Some(block) = program.blocks.first_mut()
+        {
+            let kind = StmtKind::Assign {
+                target: Place::System(Sys::TimerMs, ThinVec::new()),
+                value: Expr::Number(0.0),
+            };
+            block.stmts.insert(0, Stmt { kind, site: Site::default() });
+            let what = "the seconds since cycle start are counted by the millisecond timer, which the program sets to 0";
+            let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
+            context.add_once(index, "cycle seconds", finding);
+        }
+    }
+}

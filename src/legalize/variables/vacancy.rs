@@ -1,0 +1,70 @@
+//! Variables that are never vacant on the source, in registers that may be on the target.
+//!
+//! Law: a register that is set to 0 where it is vacant, before anything reads it, is never seen vacant;
+//! what it held otherwise it keeps. On the source such a variable holds what an earlier program
+//! left, or 0 when cleared, so the guard changes nothing that the source defines.
+//! Counter-example without it: `X+R9` with R9 never set moves to 0 on the source; `X#509` with #509 vacant
+//! is no X word at all on the target.
+
+use crate::dialect::Question;
+use crate::ir::analysis::exposed::{Exposed, roots};
+use crate::ir::{
+    Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, Site, Stmt, StmtKind, TermKind,
+    Terminator, Var,
+};
+use crate::legalize::Context;
+use crate::legalize::census::{Census, Thing};
+use smallvec::SmallVec;
+
+/// True where there are variables, and only the target's may be vacant.
+pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+    census.has(Thing::Variable)
+        && !context.source.is(Question::Vacancy)
+        && context.target.is(Question::Vacancy)
+}
+
+/// Puts guards at the head of every program where a run may begin.
+pub fn run(module: &mut Module, _: &mut Context<'_>) {
+    let exposed = Exposed::of(module);
+    for index in roots(module) {
+        let vars: Vec<Var> = exposed
+            .at_entry(index)
+            .iter()
+            .copied()
+            .filter(|v| !v.class.nullable() && v.class != Class::Temp)
+            .collect();
+        guard(&mut module.programs[index], &vars);
+    }
+}
+
+fn guard(program: &mut Program, vars: &[Var]) {
+    let shift = 2 * vars.len() as u32;
+    if shift == 0 {
+        return;
+    }
+    // Nothing jumps to the entry by its id 0 any more: all ids move behind the guards.
+    for block in &mut program.blocks {
+        block.term.kind.for_each_target(&mut |to| to.0 += shift);
+        for stmt in &mut block.stmts {
+            if let StmtKind::ModalCall(call) = &mut stmt.kind
+                && let crate::ir::Callee::Block(entry) = &mut call.callee
+            {
+                entry.0 += shift;
+            }
+        }
+    }
+    let mut blocks = Vec::with_capacity(shift as usize + program.blocks.len());
+    for (at, var) in (0..).zip(vars) {
+        let (set, next) = (BlockId(2 * at + 1), BlockId(2 * at + 2));
+        let cond = Cond::Compare(Relation::Equal, Expr::Var(*var), Expr::Vacant);
+        let zero = StmtKind::Assign { target: Place::Var(*var), value: Expr::Number(0.0) };
+        blocks.push(block(Vec::new(), TermKind::Branch { cond, yes: set, no: next }));
+        blocks.push(block(vec![Stmt { kind: zero, site: Site::default() }], TermKind::Jump(next)));
+    }
+    blocks.append(&mut program.blocks);
+    program.blocks = blocks;
+}
+
+fn block(stmts: Vec<Stmt>, kind: TermKind) -> Block {
+    Block { labels: SmallVec::new(), stmts, term: Terminator { kind, site: Site::default() } }
+}
