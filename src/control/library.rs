@@ -1,9 +1,13 @@
 //! The programs of several files, as calls find them.
 
+use super::kept::{EditedShelf, Shelf};
+use super::machine::Rules;
 use super::trace::{Event, Program};
+use crate::dialect::Control;
 use crate::syntax::{Block, ItemKind, ParsedFile, ProgramName};
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
 
 /// A file that was read.
@@ -21,9 +25,28 @@ pub struct Library<'f> {
     /// The files.
     pub files: &'f [LoadedFile<'f>],
     /// Their programs.
-    pub sections: Sections,
+    pub sections: Arc<Sections>,
     /// Who is told of a run's events while it goes on; else its [`super::Run`] has them all.
     pub listener: Option<&'f SyncSender<Heard>>,
+    bound: Option<Arc<Bound<'f>>>,
+    edited: Option<Edited<'f>>,
+}
+
+/// A program whose text was edited: its place, its blocks, and the bytes that these are read from.
+#[derive(Clone, Debug)]
+struct Edited<'f> {
+    place: usize,
+    blocks: &'f [Block],
+    source: &'f [u8],
+    shelf: EditedShelf,
+}
+
+/// The control that runs the programs, and what is kept for it from run to run.
+#[derive(Debug)]
+struct Bound<'f> {
+    control: &'f Control,
+    rules: Arc<Rules>,
+    shelf: Shelf,
 }
 
 /// Events of a run that goes on, in their order; the run keeps them no longer.
@@ -38,7 +61,70 @@ pub struct Heard {
 impl<'f> Library<'f> {
     /// Finds the programs of files.
     pub fn new(files: &'f [LoadedFile<'f>]) -> Self {
-        Self { files, sections: Sections::new(files), listener: None }
+        let sections = Arc::new(Sections::new(files));
+        Self { files, sections, listener: None, bound: None, edited: None }
+    }
+
+    /// The same, to be run on one control again and again: what its interpreter makes of programs is kept.
+    pub fn bound_to(self, control: &'f Control) -> Self {
+        let bound = Bound { control, rules: Arc::new(Rules::new(control)), shelf: Shelf::default() };
+        Self { bound: Some(Arc::new(bound)), ..self }
+    }
+
+    fn bound(&self, control: &Control) -> Option<&Bound<'f>> {
+        self.bound.as_deref().filter(|bound| std::ptr::eq(bound.control, control))
+    }
+
+    /// What is kept for a control, where the library is bound to it.
+    pub(super) fn shelf(&self, control: &Control) -> Option<&Shelf> {
+        self.bound(control).map(|bound| &bound.shelf)
+    }
+
+    /// The same of the program that was edited, and its place.
+    pub(super) fn edited_shelf(&self) -> Option<(usize, &EditedShelf)> {
+        self.edited.as_ref().map(|edited| (edited.place, &edited.shelf))
+    }
+
+    /// The facts that the machine of a control acts by.
+    pub(super) fn rules(&self, control: &Control) -> Arc<Rules> {
+        let kept = self.bound(control).map(|bound| Arc::clone(&bound.rules));
+        kept.unwrap_or_else(|| Arc::new(Rules::new(control)))
+    }
+
+    /// The same with other blocks in one program, read from these bytes. None where they are no such program any more.
+    pub fn edited<'e>(
+        &'e self,
+        program: ProgramRef,
+        blocks: &'e [Block],
+        source: &'e [u8],
+    ) -> Option<Library<'e>> {
+        let place = self.sections.place(program)?;
+        let (before, mut cuts) = (self.sections.all.get(place)?, Vec::new());
+        cut(before.file, blocks, &mut cuts);
+        let [Section { name, blocks: range, .. }] = cuts.as_slice() else { return None };
+        let same = (name, range.start, range.end) == (&before.name, 0, before.blocks.len());
+        let edited = Edited { place, blocks, source, shelf: EditedShelf::default() };
+        same.then(|| Library { edited: Some(edited), ..self.clone() })
+    }
+
+    /// The blocks of the program at a place.
+    pub fn blocks(&self, place: usize) -> &'f [Block] {
+        if let Some(edited) = self.edited.as_ref().filter(|edited| edited.place == place) {
+            return edited.blocks;
+        }
+        let found = self.sections.all().get(place);
+        let blocks =
+            found.and_then(|section| self.files.get(section.file)?.parsed.blocks.get(section.blocks.clone()));
+        blocks.unwrap_or_default()
+    }
+
+    /// The bytes that they are read from.
+    pub fn source(&self, place: usize) -> &'f [u8] {
+        if let Some(edited) = self.edited.as_ref().filter(|edited| edited.place == place) {
+            return edited.source;
+        }
+        let file = self.sections.all().get(place).and_then(|section| self.files.get(section.file));
+        file.map_or(&[], |file| file.parsed.source)
     }
 
     /// The same, with somebody who is told of events while a program runs. One who is gone is no fault.

@@ -19,6 +19,7 @@ pub mod fadal;
 pub mod fanuc;
 mod fewer;
 pub mod haas;
+mod kept;
 pub mod library;
 pub mod machine;
 mod macro_b;

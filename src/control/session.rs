@@ -54,6 +54,7 @@ pub struct Session<'r, 'f> {
     pub files: &'r [LoadedFile<'f>],
     /// The programs in them.
     pub sections: &'r Sections,
+    library: &'r Library<'f>,
     /// The machine.
     pub machine: Machine,
     /// What happened so far.
@@ -76,13 +77,14 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn new(library: &'r Library<'f>, control: &'r Control, scenario: &'r Scenario) -> Self {
         let deadline =
             scenario.milliseconds.and_then(|ms| Instant::now().checked_add(Duration::from_millis(ms)));
-        let machine = Machine::new(control, scenario);
+        let machine = Machine::new(library.rules(control), control, scenario);
         let mut trace = Trace::new(scenario.events, &control.profile().confirm);
         machine.tell_entry(&scenario.entry, &mut trace);
         Self {
             control,
             scenario,
             files: library.files,
+            library,
             sections: &library.sections,
             machine,
             trace,
@@ -105,15 +107,22 @@ impl<'r, 'f> Session<'r, 'f> {
 
     /// A block of a section, counted from the section's start; none behind its end.
     pub fn block(&self, section: usize, index: usize) -> Option<&'r Block> {
-        let section = self.sections.all().get(section)?;
-        let at = section.blocks.start.checked_add(index).filter(|at| *at < section.blocks.end)?;
-        self.files.get(section.file)?.parsed.blocks.get(at)
+        self.library.blocks(section).get(index)
+    }
+
+    /// How many blocks a section has.
+    pub fn length(&self, section: usize) -> usize {
+        self.library.blocks(section).len()
+    }
+
+    /// The blocks of a section.
+    pub fn blocks(&self, section: usize) -> &'r [Block] {
+        self.library.blocks(section)
     }
 
     /// The bytes of the file that holds a section.
     pub fn source(&self, section: usize) -> &'r [u8] {
-        let file = self.sections.all().get(section).and_then(|section| self.files.get(section.file));
-        file.map_or(&[], |file| file.parsed.source)
+        self.library.source(section)
     }
 
     /// The number that places give a section; it is listed from its first block on.

@@ -6,6 +6,10 @@ use super::{CodeHead, CodeMeaning, Control, Dialect, WordMeaning};
 use crate::canon::{Op, Role};
 use std::collections::BTreeMap;
 
+/// The place of a code's row in its table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CodePlace(usize);
+
 /// A code that calls a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Alias {
@@ -22,13 +26,23 @@ impl Control {
     /// all words of its block. Of several rows the one with most words beside it
     /// counts: `G10 L2` before `G10`.
     pub fn code(&self, letter: char, number: f64, block: &[(char, Option<f64>)]) -> Option<&CodeMeaning> {
+        self.code_at(self.code_place(letter, number, block)?)
+    }
+
+    /// The same as a place, for what is to outlive its reader.
+    pub fn code_place(&self, letter: char, number: f64, block: &[(char, Option<f64>)]) -> Option<CodePlace> {
         let rows = self.codes.get(&CodeHead::new(letter, number)?)?;
         let fitting = rows.iter().filter_map(|(at, beside)| {
             let row = self.dialect.codes.get(*at)?;
             let fits = beside.iter().all(|wanted| self.stands(*wanted, (letter, number), block));
-            fits.then_some(((beside.len(), row.when.is_some()), row))
+            fits.then_some(((beside.len(), row.when.is_some()), *at))
         });
-        fitting.max_by_key(|(rank, _)| *rank).map(|(_, row)| row)
+        fitting.max_by_key(|(rank, _)| *rank).map(|(_, at)| CodePlace(at))
+    }
+
+    /// The row of a code at its place.
+    pub fn code_at(&self, place: CodePlace) -> Option<&CodeMeaning> {
+        self.dialect.codes.get(place.0)
     }
 
     /// All rows of a code, whatever words they want beside it.

@@ -35,7 +35,7 @@ mod unconfirmed;
 
 pub use acts::{Acts, Ends};
 pub use control::Control;
-pub use control_codes::Alias;
+pub use control_codes::{Alias, CodePlace};
 pub use load::load;
 pub use matrix::matrix;
 pub use model::*;

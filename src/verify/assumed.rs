@@ -257,21 +257,19 @@ pub fn telling_numbers(assumptions: &Assumptions, program: ProgramRef, names: &N
     all.flat_map(|assumption| assumption.predicate.telling_numbers(&held)).collect()
 }
 
-/// The same assumptions where the text of a file grew by so many bytes behind a place.
-pub fn moved(assumptions: &Assumptions, file: usize, behind: u32, grown: i64) -> Assumptions {
-    let shift = |at: &mut u32| {
-        if *at > behind {
-            *at = u32::try_from(i64::from(*at) + grown).unwrap_or(*at);
-        }
-    };
-    let mut moved = assumptions.clone();
-    for (_, all) in moved.iter_mut().filter(|(program, _)| program.file == file) {
-        for assumption in all {
-            let places = assumption.predicate.places_mut().into_iter().flatten();
-            for place in places.chain([&mut assumption.place]) {
-                shift(&mut place.start);
-                shift(&mut place.end);
-            }
+/// What these programs suppose, where the places of one of them stand elsewhere now.
+pub fn moved(
+    assumptions: &Assumptions,
+    programs: impl Iterator<Item = ProgramRef>,
+    edited: ProgramRef,
+    now: impl Fn(u32) -> u32,
+) -> Assumptions {
+    let supposed = |program: ProgramRef| Some((program, assumptions.get(&program)?.clone()));
+    let mut moved: Assumptions = programs.filter_map(supposed).collect();
+    for assumption in moved.get_mut(&edited).into_iter().flatten() {
+        let places = assumption.predicate.places_mut().into_iter().flatten();
+        for place in places.chain([&mut assumption.place]) {
+            (place.start, place.end) = (now(place.start), now(place.end));
         }
     }
     moved

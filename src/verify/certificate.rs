@@ -271,7 +271,8 @@ impl Moment {
             let event = serde_json::to_value(&event.what).unwrap_or_default();
             return Self { file: String::new(), program, line: 0, block: String::new(), event };
         };
-        let (place, source) = (event.at.span.start, file.parsed.source);
+        let source = ran.and_then(|program| side.source(program.file)).unwrap_or_default();
+        let place = event.at.span.start;
         let (line, _) = ran.map_or((1, 1), |ran| side.line_of(ran.file, place));
         let (before, behind) = source.split_at_checked(place as usize).unwrap_or((source, &[]));
         let start = memrchr(b'\n', before).map_or(0, |at| at + 1);

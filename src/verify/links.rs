@@ -5,7 +5,7 @@
 use super::inputs::calls;
 use super::side::Side;
 use crate::control::{ProgramRef, Run, trace};
-use crate::syntax::{ItemKind, ProgramName};
+use crate::syntax::{Block, ItemKind, ProgramName};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Calls nest no deeper than this on an emulated control, so what lies deeper no run comes to.
@@ -30,6 +30,9 @@ pub struct Links {
     rotary: [bool; 3],
 }
 
+/// The letters of the rotary axes.
+const ROTARY: [char; 3] = ['A', 'B', 'C'];
+
 impl Links {
     /// Reads the texts of a side.
     pub fn new(side: &Side<'_>) -> Self {
@@ -41,19 +44,19 @@ impl Links {
             let all = (0..).map(|program| ProgramRef { file, program });
             all.take_while(|program| side.has(*program)).for_each(|program| links.take_in(side, program));
         }
-        let blocks = side.files.iter().flat_map(|file| &file.parsed.blocks);
-        for item in blocks.flat_map(|block| &block.items) {
-            let ItemKind::Word(word) = &item.kind else { continue };
-            let axis = ['A', 'B', 'C'].iter().position(|letter| *letter == word.letter);
-            axis.and_then(|axis| links.rotary.get_mut(axis)).into_iter().for_each(|moved| *moved = true);
-        }
         links
     }
 
+    /// True if a program that was edited calls the same and moves the same axes as before.
+    pub fn hold_in(&self, (before, now): (&Side<'_>, &Side<'_>), program: ProgramRef) -> bool {
+        rotary_in(before.text(program)) == rotary_in(now.text(program))
+            && callees_of(now, program) == self.callees(program)
+    }
+
     fn take_in(&mut self, side: &Side<'_>, program: ProgramRef) {
-        let mut seen = HashSet::new();
-        let all = side.text(program).iter().flat_map(|block| calls(side, &block.items));
-        let callees: Vec<ProgramRef> = all.filter(|callee| seen.insert(*callee)).collect();
+        let callees = callees_of(side, program);
+        let moved = rotary_in(side.text(program));
+        self.rotary.iter_mut().zip(moved).for_each(|(all, here)| *all |= here);
         self.called.extend(callees.iter().filter(|callee| **callee != program));
         self.callees.insert(program, callees);
         let name = side.name(program);
@@ -142,6 +145,24 @@ impl Links {
         }
         found
     }
+}
+
+/// What the text of a program calls, each program once.
+fn callees_of(side: &Side<'_>, program: ProgramRef) -> Vec<ProgramRef> {
+    let mut seen = HashSet::new();
+    let all = side.text(program).iter().flat_map(|block| calls(side, &block.items));
+    all.filter(|callee| seen.insert(*callee)).collect()
+}
+
+/// True for each rotary axis that blocks have a word of.
+fn rotary_in(blocks: &[Block]) -> [bool; 3] {
+    let mut found = [false; 3];
+    for item in blocks.iter().flat_map(|block| &block.items) {
+        let ItemKind::Word(word) = &item.kind else { continue };
+        let axis = ROTARY.iter().position(|letter| *letter == word.letter);
+        axis.and_then(|axis| found.get_mut(axis)).into_iter().for_each(|moved| *moved = true);
+    }
+    found
 }
 
 /// A program's name as runs have it.

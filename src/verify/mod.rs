@@ -20,6 +20,7 @@ mod clock;
 mod compare;
 mod constants;
 mod differ;
+mod edits;
 mod given;
 mod inputs;
 mod left;

@@ -1,6 +1,7 @@
 //! One side of a comparison: a library on its control, and what is known of all of it.
 
 use super::certificate::sha256;
+use super::edits::EditedText;
 use super::given::Given;
 use super::links::Links;
 use crate::control::{Execute, Library, LoadedFile, ProgramRef};
@@ -8,7 +9,7 @@ use crate::dialect::Control;
 use crate::syntax::{Block, ProgramName};
 use crate::text::LineIndex;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// One side of a comparison: a library and the control that runs it.
 pub struct Side<'a> {
@@ -25,26 +26,71 @@ pub struct Side<'a> {
     /// The programs that runs of other programs came through, where anybody asked.
     pub(super) entered: OnceLock<BTreeSet<ProgramRef>>,
     /// How its programs stand to each other, where anybody asked.
-    links: OnceLock<Links>,
+    links: OnceLock<Arc<Links>>,
     /// Of the target: the programs that those of the source became, where anybody asked.
-    pub(super) became: OnceLock<BTreeSet<ProgramRef>>,
+    pub(super) became: OnceLock<Arc<BTreeSet<ProgramRef>>>,
     /// Of each file what reports say of it, where anybody asked.
-    reported: Vec<Reported>,
+    reported: Arc<Vec<Reported>>,
+    /// The text of a program that was edited since, and its file.
+    edited: Option<(usize, &'a EditedText)>,
 }
 
 impl<'a> Side<'a> {
     /// A library on a control.
     pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
+        let reported = files.iter().map(|_| Reported::default()).collect();
+        Self::over(control, execute, Library::new(files).bound_to(control), Arc::new(reported))
+    }
+
+    fn over(
+        control: &'a Control,
+        execute: Execute,
+        library: Library<'a>,
+        reported: Arc<Vec<Reported>>,
+    ) -> Self {
         Self {
             control,
             execute,
-            files,
-            library: Library::new(files),
+            files: library.files,
+            library,
             given: OnceLock::new(),
             entered: OnceLock::new(),
             links: OnceLock::new(),
             became: OnceLock::new(),
-            reported: files.iter().map(|_| Reported::default()).collect(),
+            reported,
+            edited: None,
+        }
+    }
+
+    /// The same side with another text of one program. How the programs stand to each other is worked out anew only where
+    /// that text makes it another. None where it is no such program any more.
+    pub(super) fn edited<'e>(
+        &'e self,
+        program: ProgramRef,
+        text: &'e EditedText,
+        blocks: &'e [Block],
+    ) -> Option<Side<'e>> {
+        let library = self.library.edited(program, blocks, &text.bytes)?;
+        let mut side = Side::over(self.control, self.execute, library, Arc::clone(&self.reported));
+        side.edited = Some((program.file, text));
+        if self.links().hold_in((self, &side), program) {
+            let _ = side.links.set(Arc::clone(self.all_links()));
+        }
+        Some(side)
+    }
+
+    /// Of an edited target: the programs that those of the source became are the same if both sides stand as before.
+    pub(super) fn take_over(&self, before: &Side<'_>, source_stands: bool) {
+        if let Some(became) = before.became.get().filter(|_| source_stands && self.stands_as(before)) {
+            let _ = self.became.set(Arc::clone(became));
+        }
+    }
+
+    /// True for an edited side whose programs stand to each other as before.
+    pub(super) fn stands_as(&self, before: &Side<'_>) -> bool {
+        match (self.links.get(), before.links.get()) {
+            (Some(now), Some(before)) => Arc::ptr_eq(now, before),
+            _ => false,
         }
     }
 
@@ -55,7 +101,11 @@ impl<'a> Side<'a> {
 
     /// How its programs stand to each other.
     pub(super) fn links(&self) -> &Links {
-        self.links.get_or_init(|| Links::new(self))
+        self.all_links()
+    }
+
+    fn all_links(&self) -> &Arc<Links> {
+        self.links.get_or_init(|| Arc::new(Links::new(self)))
     }
 
     /// The name of a program, as written; none for one without.
@@ -80,8 +130,7 @@ impl<'a> Side<'a> {
 
     /// The blocks of a program.
     pub fn text(&self, program: ProgramRef) -> &[Block] {
-        let file = self.files.get(program.file);
-        file.and_then(|file| file.parsed.blocks.get(self.blocks(program))).unwrap_or_default()
+        self.library.sections.place(program).map_or(&[], |place| self.library.blocks(place))
     }
 
     /// The blocks of a program, as a range of its file's.
@@ -95,7 +144,15 @@ impl<'a> Side<'a> {
         let (Some(reported), Some(loaded)) = (self.reported.get(file), self.files.get(file)) else {
             return (1, 1);
         };
+        let edited = self.edited.filter(|(edited, _)| *edited == file);
+        let place = edited.map_or(place, |(_, text)| text.before(place));
         reported.lines.get_or_init(|| LineIndex::new(loaded.parsed.source)).place(place)
+    }
+
+    /// The bytes of a file, with those of an edited program behind them; none where there is no such file.
+    pub(super) fn source(&self, file: usize) -> Option<&[u8]> {
+        let edited = self.edited.filter(|(edited, _)| *edited == file).map(|(_, text)| text.bytes.as_slice());
+        edited.or_else(|| self.files.get(file).map(|file| file.parsed.source))
     }
 
     /// The hash of a file's bytes; empty where there is no such file.

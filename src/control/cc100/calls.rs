@@ -1,6 +1,6 @@
 //! Jumps, subprograms behind labels, and cycles in files of their own.
 
-use super::{At, Interpreter, Next};
+use super::{At, Interpreter, Labels, Next};
 use crate::control::ProgramRef;
 use crate::control::library::cycle_number;
 use crate::control::outcome::Stop;
@@ -8,7 +8,6 @@ use crate::control::session::{Flow, Halt};
 use crate::control::trace::Happening;
 use crate::dialect::Question;
 use crate::syntax::{ItemKind, Label};
-use std::collections::HashMap;
 
 /// How deep calls nest before the emulation gives up.
 const DEEPEST: u32 = 40;
@@ -22,25 +21,27 @@ impl Interpreter<'_, '_> {
 
     fn label(&mut self, label: u32) -> Flow<usize> {
         let section = self.at.section;
-        if !self.labels.contains_key(&section) {
-            let mut found: HashMap<u32, (usize, bool)> = HashMap::new();
-            for (index, block) in (0..).map_while(|at| Some((at, self.session.block(section, at)?))) {
-                for item in &block.items {
-                    if let ItemKind::Label(Label::Number(number)) = item.kind {
-                        found.entry(number).and_modify(|(_, again)| *again = true).or_insert((index, false));
-                    }
-                }
-            }
-            self.labels.insert(section, found);
-        }
-        let found = self.labels.get(&section).and_then(|labels| labels.get(&label)).copied();
-        let Some((index, again)) = found else {
+        let labels = self.kept.program(section, self.session.length(section), || self.labels(section));
+        let Some((index, again)) = labels.and_then(|labels| labels.get(&label)).copied() else {
             return Err(self.session.no_label(&format!("label ${label} is not there")));
         };
         if again {
             self.session.rest_on(Question::GotoFirstLabel);
         }
         Ok(index)
+    }
+
+    /// The labels of a program.
+    fn labels(&self, section: usize) -> Labels {
+        let mut found = Labels::new();
+        for (index, block) in (0..).map_while(|at| Some((at, self.session.block(section, at)?))) {
+            for item in &block.items {
+                if let ItemKind::Label(Label::Number(number)) = item.kind {
+                    found.entry(number).and_modify(|(_, again)| *again = true).or_insert((index, false));
+                }
+            }
+        }
+        found
     }
 
     /// G22: runs the blocks from a label on, up to G99.

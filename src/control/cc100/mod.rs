@@ -10,6 +10,7 @@ mod store;
 mod tests;
 mod values;
 
+use super::kept::{Kept, with_kept};
 use super::library::{Library, ProgramRef};
 use super::outcome::Run;
 use super::scenario::Scenario;
@@ -27,6 +28,16 @@ use store::Store;
 /// The files of the library named `cycle20...` and so on are the cycles: G820 runs the first
 /// program of `cycle20...`.
 pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+    with_kept(library, control, || (), |kept| run(library, kept, main, control, scenario))
+}
+
+fn run<'r>(
+    library: &'r Library<'_>,
+    kept: Kept<'r, (), Labels>,
+    main: ProgramRef,
+    control: &'r Control,
+    scenario: &'r Scenario,
+) -> Run {
     let session = Session::new(library, control, scenario);
     let lasting = Lasting::at_start(&session);
     let last = session.words_in_force().into_iter().collect();
@@ -35,7 +46,7 @@ pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scena
         store: Store::new(scenario),
         condition: Condition::default(),
         polar: Polar::default(),
-        labels: HashMap::new(),
+        kept,
         last,
         at: At { section: 0, index: 0 },
         depth: 0,
@@ -45,6 +56,9 @@ pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scena
     let variables = interpreter.store.all();
     interpreter.session.finish(halt, variables)
 }
+
+/// The labels of a program: the first block of each, and whether it stands again.
+type Labels = HashMap<u32, (usize, bool)>;
 
 /// The next block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +82,7 @@ struct Interpreter<'r, 'f> {
     store: Store,
     condition: Condition,
     polar: Polar,
-    /// The labels of the programs that jumped so far: the first block of each, and whether it stands again.
-    labels: HashMap<usize, HashMap<u32, (usize, bool)>>,
+    kept: Kept<'r, (), Labels>,
     /// The last value of each address.
     last: HashMap<char, f64>,
     at: At,

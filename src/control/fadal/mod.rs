@@ -14,6 +14,7 @@ mod system;
 mod tests;
 mod values;
 
+use super::kept::{Kept, with_kept};
 use super::library::{Library, ProgramRef};
 use super::outcome::Run;
 use super::scenario::Scenario;
@@ -24,17 +25,26 @@ use crate::dialect::{Control, Question};
 use crate::syntax::Block;
 use outline::Outline;
 use registers::Registers;
-use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::LazyLock;
 
 /// Runs a program on the emulated control; [`super::Execute`].
 pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scenario: &Scenario) -> Run {
+    with_kept(library, control, || (), |kept| run(library, kept, main, control, scenario))
+}
+
+fn run<'r>(
+    library: &'r Library<'_>,
+    kept: Kept<'r, (), Outline>,
+    main: ProgramRef,
+    control: &'r Control,
+    scenario: &'r Scenario,
+) -> Run {
     let session = Session::new(library, control, scenario);
     let lasting = Lasting::at_start(&session);
     let mut interpreter = Interpreter {
         session,
         registers: Registers::new(scenario),
-        outlines: HashMap::new(),
+        kept,
         at: At { section: 0, index: 0 },
         level: Level::Main,
         depth: 0,
@@ -49,6 +59,9 @@ pub fn execute(library: &Library<'_>, main: ProgramRef, control: &Control, scena
     let variables = interpreter.registers.all();
     interpreter.session.finish(halt, variables)
 }
+
+/// The outline of a program that is not there.
+static NOWHERE: LazyLock<Outline> = LazyLock::new(Outline::default);
 
 /// The next block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +94,7 @@ enum Next {
 struct Interpreter<'r, 'f> {
     session: Session<'r, 'f>,
     registers: Registers,
-    outlines: HashMap<usize, Rc<Outline>>,
+    kept: Kept<'r, (), Outline>,
     at: At,
     level: Level,
     depth: u32,
@@ -155,14 +168,13 @@ impl<'r> Interpreter<'r, '_> {
     }
 
     /// The outline of the running program.
-    fn outline(&mut self) -> Rc<Outline> {
+    fn outline(&self) -> &'r Outline {
         let section = self.at.section;
-        if let Some(outline) = self.outlines.get(&section) {
-            return Rc::clone(outline);
-        }
-        let blocks: Vec<&'r Block> = (0..).map_while(|index| self.session.block(section, index)).collect();
-        let outline = Rc::new(Outline::new(&blocks));
-        self.outlines.insert(section, Rc::clone(&outline));
-        outline
+        let made = || {
+            let blocks: Vec<&'r Block> =
+                (0..).map_while(|index| self.session.block(section, index)).collect();
+            Outline::new(&blocks)
+        };
+        self.kept.program(section, self.session.length(section), made).unwrap_or(&NOWHERE)
     }
 }

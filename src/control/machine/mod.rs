@@ -28,6 +28,7 @@ mod tooling;
 pub use command::Command;
 pub use frame::{Frame, Rotation};
 pub use left::Left;
+pub(super) use rules::Rules;
 
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};
@@ -37,8 +38,8 @@ use crate::canon::{Group, Op, Pause, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
 use rounding::Rounding;
-use rules::Rules;
 use std::collections::HashMap;
+use std::sync::Arc;
 use tooling::Lost;
 
 /// The groups of modes that a called program finds as its caller left them.
@@ -50,7 +51,7 @@ pub const INCH: f64 = 25.4;
 /// The state of the machine.
 #[derive(Debug)]
 pub struct Machine {
-    rules: Rules,
+    rules: Arc<Rules>,
     rounding: Rounding,
     /// Machine position.
     position: Axes,
@@ -109,10 +110,10 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// A machine of a control, as a scenario finds it.
-    pub fn new(control: &Control, scenario: &Scenario) -> Self {
+    /// A machine of a control, which has these facts, as a scenario finds it.
+    pub(super) fn new(rules: Arc<Rules>, control: &Control, scenario: &Scenario) -> Self {
         let mut machine = Self {
-            rules: Rules::new(control),
+            rules,
             rounding: Rounding::new(control),
             position: scenario.start,
             probed: scenario.start,

@@ -5,7 +5,8 @@ use crate::canon::Role;
 use crate::control::trace::Happening;
 
 fn machine(scenario: &Scenario) -> Machine {
-    Machine::new(&Control::plain("fanuc").expect("the shipped table loads"), scenario)
+    let control = Control::plain("fanuc").expect("the shipped table loads");
+    Machine::new(Arc::new(Rules::new(&control)), &control, scenario)
 }
 
 fn run(machine: &mut Machine, ops: &[Op], words: &[(Role, f64)]) -> Vec<Happening> {

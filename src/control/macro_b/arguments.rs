@@ -42,16 +42,16 @@ fn triples(words: &[(usize, usize)]) -> Vec<(usize, Triple)> {
 
 impl<'c> Runner<'c> {
     /// The arguments that stand behind the call's code, or round an alias.
-    pub fn arguments(&mut self, words: &Words<'c>, call: Coded<'c>) -> Result<Arguments, Halt> {
+    pub fn arguments(&mut self, words: &Words, call: Coded) -> Result<Arguments, Halt> {
         let mut read = Arguments { locals: Locals::default(), program: None, count: None };
         let places = self.places(words, call);
-        let mut others = false;
+        let (mut others, row) = (false, self.row(call.row));
         for (at, word) in words.words.iter().enumerate() {
             let before = at < call.word && call.alias.is_none();
             if at == call.word || before {
                 continue;
             }
-            let role = call.row.and_then(|row| self.session.control.role(word.letter, word.comma, Some(row)));
+            let role = row.and_then(|row| self.session.control.role(word.letter, word.comma, Some(row)));
             match (role, word.letter) {
                 (Some(Role::Program), _) => read.program = self.eval(&word.value)?,
                 (Some(Role::CallCount), _) | (None, 'L') => read.count = self.eval(&word.value)?,
@@ -78,7 +78,7 @@ impl<'c> Runner<'c> {
     }
 
     /// The I, J and K of the list, where their places say which locals they set.
-    fn places(&mut self, words: &Words<'c>, call: Coded<'c>) -> Vec<(usize, Triple)> {
+    fn places(&mut self, words: &Words, call: Coded) -> Vec<(usize, Triple)> {
         let letters = words.words.iter().enumerate().filter(|(at, word)| *at != call.word && !word.comma);
         let letters = letters.filter_map(|(at, word)| Some((at, SETS.find(word.letter)?)));
         let all = triples(&letters.collect::<Vec<_>>());

@@ -72,14 +72,14 @@ impl<'c> Runner<'c> {
     }
 
     /// A call with arguments, or the start of a modal one.
-    pub fn call_macro(&mut self, words: &Words<'c>, call: Coded<'c>) -> Result<Next, Halt> {
+    pub fn call_macro(&mut self, words: &Words, call: Coded) -> Result<Next, Halt> {
         let arguments = self.arguments(words, call)?;
         let alias = call.alias;
         let number = alias.map(|alias| f64::from(alias.program)).or(arguments.program);
         let number = number.ok_or_else(|| Halt::Error("a call without its program".into()))?;
         let Some(section) = self.find(number) else { return Err(missing(number)) };
         let Some(count) = self.count(arguments.count) else { return Ok(Next::On) };
-        let op = call.row.map_or(Op::CallMacro, |row| row.op);
+        let op = self.row(call.row).map_or(Op::CallMacro, |row| row.op);
         if alias.is_some_and(|alias| alias.modal) || op != Op::CallMacro {
             let each = op == Op::CallModalEach;
             let visible = self.frames.last().map_or(0, |frame| frame.visible);
@@ -147,7 +147,7 @@ impl<'c> Runner<'c> {
     /// A call of a part of this program.
     pub fn call_local(&mut self, sequence: f64, count: Option<f64>) -> Result<Next, Halt> {
         let Some(frame) = self.frames.last() else { return Ok(Next::On) };
-        let (program, from, visible, alias) = (frame.program.clone(), frame.at, frame.visible, frame.alias);
+        let (program, from, visible, alias) = (frame.program, frame.at, frame.visible, frame.alias);
         let to = self.jump(sequence.max(0.0).round() as u32, from)?;
         let Some(count) = self.count(count) else { return Ok(Next::On) };
         let mut frame = Frame::new(program, to, visible);

@@ -2,21 +2,23 @@
 
 use crate::canon::{Func, Role, Sys};
 use crate::control::outcome::Stop;
-use crate::dialect::{Alias, CodeMeaning};
+use crate::dialect::{Alias, CodePlace};
 use crate::syntax::BinaryOp;
 use crate::text::Span;
-use std::cell::Cell;
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// A program.
-pub struct Program<'c> {
-    pub blocks: Vec<Block<'c>>,
+#[derive(Default)]
+pub struct Program {
+    pub blocks: Vec<Block>,
     /// Blocks of each sequence number, in order.
     pub labels: HashMap<u32, Vec<usize>>,
     /// The innermost loop that each block stands in, as a place in `loops`.
     pub loop_of: Vec<Option<usize>>,
     pub loops: Vec<Loop>,
+    /// Where its branches stand.
+    pub branches: Vec<Span>,
 }
 
 /// A loop that has its end.
@@ -27,23 +29,21 @@ pub struct Loop {
 }
 
 /// A block.
-pub struct Block<'c> {
+pub struct Block {
     pub span: Span,
     /// Its sequence number.
     pub sequence: Option<u32>,
-    pub steps: Vec<Step<'c>>,
+    pub steps: Vec<Step>,
     /// Facts that it rests on whatever the values are.
     pub facts: Vec<String>,
-    /// True once they are in the trace.
-    pub told: Cell<bool>,
 }
 
 /// What a block does, one after the other.
-pub enum Step<'c> {
+pub enum Step {
     /// If this switch is on, the block ends here, with the words before the sign; else they act with those behind it.
     Skip {
         level: u8,
-        before: Vec<Step<'c>>,
+        before: Vec<Step>,
     },
     Assign {
         target: Var,
@@ -58,7 +58,7 @@ pub enum Step<'c> {
     If {
         condition: Ex,
         branch: usize,
-        body: Vec<Step<'c>>,
+        body: Vec<Step>,
     },
     /// The head of a loop: where it ends, and its condition.
     While {
@@ -73,7 +73,7 @@ pub enum Step<'c> {
         target: Goto,
         branch: usize,
     },
-    Words(Words<'c>),
+    Words(Words),
     Names {
         first: u32,
         names: Vec<String>,
@@ -145,10 +145,10 @@ pub struct System {
 }
 
 /// The words of a block.
-pub struct Words<'c> {
+pub struct Words {
     pub words: Vec<Word>,
     /// What they mean; absent where a code is computed.
-    pub meaning: Option<Rc<Meaning<'c>>>,
+    pub meaning: Option<Arc<Meaning>>,
     /// The text that a stop among them shows.
     pub shown: Option<String>,
 }
@@ -185,10 +185,10 @@ impl Form {
 
 /// What the words of a block mean together.
 #[derive(Clone, Debug, Default)]
-pub struct Meaning<'c> {
-    pub codes: Vec<Coded<'c>>,
+pub struct Meaning {
+    pub codes: Vec<Coded>,
     /// The role of each word beside the codes, where one reads it.
-    pub beside: Vec<Option<(Role, &'c CodeMeaning)>>,
+    pub beside: Vec<Option<(Role, CodePlace)>>,
     /// The role of each word by itself.
     pub alone: Vec<Option<Role>>,
     /// Facts that it rests on.
@@ -198,11 +198,11 @@ pub struct Meaning<'c> {
 
 /// A code of a block.
 #[derive(Clone, Copy, Debug)]
-pub struct Coded<'c> {
+pub struct Coded {
     /// Its place among the words.
     pub word: usize,
     pub letter: char,
     pub number: f64,
-    pub row: Option<&'c CodeMeaning>,
+    pub row: Option<CodePlace>,
     pub alias: Option<Alias>,
 }

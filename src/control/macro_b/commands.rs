@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 
 impl<'c> Runner<'c> {
     /// Does what the words say.
-    pub fn words(&mut self, words: &Words<'c>) -> Result<Next, Halt> {
+    pub fn words(&mut self, words: &Words) -> Result<Next, Halt> {
         let count = words.words.len();
         let mut values: SmallVec<[Option<f64>; 16]> = smallvec::smallvec![None; count];
         let mut there: SmallVec<[bool; 16]> = smallvec::smallvec![true; count];
@@ -33,11 +33,10 @@ impl<'c> Runner<'c> {
         let Some(mut meaning) = fresh.as_ref().or(words.meaning.as_deref()) else { return Ok(Next::On) };
         let call = self.macro_call(meaning);
         // The words of its own block count in the unit that a code names.
-        meaning
-            .codes
-            .iter()
-            .filter_map(|code| code.row)
-            .for_each(|row| self.session.machine.name_unit(row.op));
+        let control = self.session.control;
+        for row in meaning.codes.iter().filter_map(|code| control.code_at(code.row?)) {
+            self.session.machine.name_unit(row.op);
+        }
         for (at, word) in words.words.iter().enumerate() {
             let argument = call.is_some_and(|call| at > call.word || call.alias.is_some());
             if argument || is_code(word.letter, word.comma) {
@@ -86,26 +85,20 @@ impl<'c> Runner<'c> {
     }
 
     /// The code of the block whose other words are arguments.
-    fn macro_call(&self, meaning: &Meaning<'c>) -> Option<Coded<'c>> {
+    fn macro_call(&self, meaning: &Meaning) -> Option<Coded> {
         meaning.codes.iter().copied().find(|code| {
             code.alias.is_some_and(|alias| alias.arguments && self.aliases_count())
-                || code
-                    .row
+                || self
+                    .row(code.row)
                     .is_some_and(|row| matches!(row.op, Op::CallMacro | Op::CallModal | Op::CallModalEach))
         })
     }
 
     /// Makes the command of those words that are no arguments.
-    fn gather(
-        &mut self,
-        words: &Words<'c>,
-        meaning: &Meaning<'c>,
-        call: Option<Coded<'c>>,
-        values: &[Option<f64>],
-    ) {
+    fn gather(&mut self, words: &Words, meaning: &Meaning, call: Option<Coded>, values: &[Option<f64>]) {
         let mut command = std::mem::take(&mut self.command);
         for code in &meaning.codes {
-            let Some(row) = code.row else {
+            let Some(row) = self.row(code.row) else {
                 if code.alias.is_none() || !self.aliases_count() {
                     command.ops.push(Op::Builder);
                     command.own_code = Some(format!("{}{}", code.letter, code.number));
@@ -128,7 +121,7 @@ impl<'c> Runner<'c> {
         }
         command.without_dwell = self.cycle.is_some_and(|row| !row.takes(Role::CycleDwell));
         let last = call.map_or(usize::MAX, |call| if call.alias.is_some() { 0 } else { call.word });
-        let flow = meaning.codes.iter().any(|code| code.row.is_some_and(|row| row.op.is_flow()));
+        let flow = meaning.codes.iter().any(|code| self.row(code.row).is_some_and(|row| row.op.is_flow()));
         for (at, word) in words.words.iter().enumerate().take(last) {
             let Some(value) = values.get(at).copied().flatten() else { continue };
             if !word.comma
@@ -164,7 +157,7 @@ impl<'c> Runner<'c> {
     }
 
     /// Notes the code in force in a modal group, and the end of a drilling cycle.
-    fn keep_modal(&mut self, code: &Coded<'c>, op: Op) {
+    fn keep_modal(&mut self, code: &Coded, op: Op) {
         let group = op.group();
         if let Some(place) = group.number().and_then(|number| self.modal.get_mut(number as usize)) {
             *place = code.number;
@@ -184,22 +177,24 @@ impl<'c> Runner<'c> {
     /// Where the codes of the block send the program.
     fn flow(
         &mut self,
-        words: &Words<'c>,
-        meaning: &Meaning<'c>,
+        words: &Words,
+        meaning: &Meaning,
         values: &[Option<f64>],
         moves: bool,
     ) -> Result<Next, Halt> {
+        let control = self.session.control;
         let value = |wanted: Role| {
             meaning.beside.iter().zip(values).find_map(|(beside, value)| {
-                let (role, row) = beside.as_ref()?;
-                (row.op.is_flow() && *role == wanted).then_some(*value)?
+                let (role, place) = (*beside)?;
+                let row = control.code_at(place)?;
+                (row.op.is_flow() && role == wanted).then_some(*value)?
             })
         };
         for code in &meaning.codes {
             if let Some(alias) = code.alias.filter(|_| self.aliases_count()) {
                 return self.call_program(f64::from(alias.program), None, true);
             }
-            let Some(row) = code.row.filter(|row| row.op.is_flow()) else { continue };
+            let Some(row) = self.row(code.row).filter(|row| row.op.is_flow()) else { continue };
             return match row.op {
                 Op::End | Op::EndRewind => Err(Halt::Ended(row.op)),
                 Op::Return => {

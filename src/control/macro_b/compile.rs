@@ -4,36 +4,32 @@ use super::Style;
 use super::code::*;
 use super::expressions::Expressions;
 use super::meaning;
-use crate::control::library::{LoadedFile, Section};
 use crate::control::outcome::Stop;
-use crate::control::trace::Place;
 use crate::diag::{Code, Severity};
 use crate::dialect::{Control, Question, Row};
 use crate::syntax::{self, Item, ItemKind, OutputPart, Target};
 use crate::text::{Span, decode};
-use std::cell::Cell;
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Of each word its letter, whether a comma stands before it, and whether its value is written.
 type Shape = Vec<(char, bool, bool)>;
 
 /// Prepares programs of a library.
-pub struct Compiler<'c, 'a> {
+pub struct Compiler<'c> {
     pub control: &'c Control,
     pub style: &'static Style,
-    pub file: &'a LoadedFile<'a>,
-    /// The number of the program among those that ran.
-    pub program: u32,
-    /// Where the branches of all programs stand.
-    pub branches: &'a mut Vec<Place>,
+    /// The bytes that the blocks are read from.
+    pub source: &'c [u8],
+    /// Where the branches of the program stand.
+    pub branches: Vec<Span>,
     /// What words without a code mean, by their letters.
-    pub plain: HashMap<Shape, Option<Rc<Meaning<'c>>>>,
+    pub plain: HashMap<Shape, Option<Arc<Meaning>>>,
 }
 
 /// What is gathered while a block is read.
-struct Gather<'c> {
-    steps: Vec<Step<'c>>,
+struct Gather {
+    steps: Vec<Step>,
     words: Vec<Word>,
     facts: Vec<String>,
     shown: Option<String>,
@@ -46,15 +42,15 @@ struct Open {
     index: Option<usize>,
 }
 
-impl<'c> Compiler<'c, '_> {
+impl Compiler<'_> {
     /// Prepares a program.
-    pub fn program(&mut self, section: &Section) -> Program<'c> {
-        let blocks = self.file.parsed.blocks.get(section.blocks.clone()).unwrap_or_default();
+    pub fn program(&mut self, blocks: &[syntax::Block]) -> Program {
         let mut program = Program {
             blocks: Vec::with_capacity(blocks.len()),
             labels: HashMap::new(),
             loop_of: Vec::new(),
             loops: Vec::new(),
+            branches: Vec::new(),
         };
         for block in blocks {
             let at = program.blocks.len();
@@ -66,6 +62,7 @@ impl<'c> Compiler<'c, '_> {
             program.blocks.push(compiled);
         }
         match_loops(&mut program, self.style);
+        program.branches = std::mem::take(&mut self.branches);
         program
     }
 
@@ -83,7 +80,7 @@ impl<'c> Compiler<'c, '_> {
         None
     }
 
-    fn block(&mut self, block: &syntax::Block, sequence: Option<u32>) -> Block<'c> {
+    fn block(&mut self, block: &syntax::Block, sequence: Option<u32>) -> Block {
         let mut gather = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new(), shown: None };
         // What has no value is an alarm where it is computed, and a statement behind a condition may never be.
         let at_run_time = |code| matches!(code, Code::DivisionByZero | Code::FunctionDomain);
@@ -106,7 +103,7 @@ impl<'c> Compiler<'c, '_> {
         gather.facts.dedup();
         gather.facts.shrink_to_fit();
         gather.steps.shrink_to_fit();
-        Block { span: block.span, sequence, steps: gather.steps, facts: gather.facts, told: Cell::new(false) }
+        Block { span: block.span, sequence, steps: gather.steps, facts: gather.facts }
     }
 
     /// The text that an alarm or a message of the block shows: the first comment behind the statement.
@@ -131,7 +128,7 @@ impl<'c> Compiler<'c, '_> {
     }
 
     fn text(&self, span: Span) -> String {
-        decode(span.of(self.file.parsed.source)).into_owned()
+        decode(span.of(self.source)).into_owned()
     }
 
     /// Several statements in one block, or a statement and words.
@@ -167,7 +164,7 @@ impl<'c> Compiler<'c, '_> {
         }
     }
 
-    fn items(&mut self, items: &[Item], text: &str, gather: &mut Gather<'c>) {
+    fn items(&mut self, items: &[Item], text: &str, gather: &mut Gather) {
         for (at, item) in items.iter().enumerate() {
             if let ItemKind::Skip(level) = item.kind {
                 let before = self.before(items.get(..at).unwrap_or_default(), gather);
@@ -178,7 +175,7 @@ impl<'c> Compiler<'c, '_> {
     }
 
     /// The words gathered so far, by themselves: the last of these items.
-    fn before(&mut self, items: &[Item], gather: &mut Gather<'c>) -> Vec<Step<'c>> {
+    fn before(&mut self, items: &[Item], gather: &mut Gather) -> Vec<Step> {
         let words = items.iter().filter(|item| matches!(item.kind, ItemKind::Word(_)));
         let others = words.clone().count().saturating_sub(gather.words.len());
         let shown = gather.shown.clone();
@@ -191,7 +188,7 @@ impl<'c> Compiler<'c, '_> {
         alone.steps
     }
 
-    fn item(&mut self, item: &Item, text: &str, gather: &mut Gather<'c>) {
+    fn item(&mut self, item: &Item, text: &str, gather: &mut Gather) {
         let control = self.control;
         match &item.kind {
             ItemKind::Word(word) => {
@@ -277,7 +274,7 @@ impl<'c> Compiler<'c, '_> {
         &mut self,
         (condition, body, bare): (&syntax::Expr, &[Item], bool),
         text: &str,
-        gather: &mut Gather<'c>,
+        gather: &mut Gather,
     ) {
         self.flush(gather);
         if bare {
@@ -298,23 +295,23 @@ impl<'c> Compiler<'c, '_> {
     }
 
     fn branch(&mut self, span: Span) -> usize {
-        self.branches.push(Place { program: self.program, span });
+        self.branches.push(span);
         self.branches.len() - 1
     }
 
     /// What words mean. Without a code among them their letters say it, so that the many blocks of plain moves share
     /// one.
-    fn meaning(&mut self, words: &[Word]) -> Option<Rc<Meaning<'c>>> {
+    fn meaning(&mut self, words: &[Word]) -> Option<Arc<Meaning>> {
         if words.iter().any(|word| meaning::is_code(word.letter, word.comma)) {
-            return meaning::fixed(self.control, self.style, words).map(Rc::new);
+            return meaning::fixed(self.control, self.style, words).map(Arc::new);
         }
         let shape = words.iter().map(|word| (word.letter, word.comma, word.form.is_literal())).collect();
         let found = self.plain.entry(shape);
-        found.or_insert_with(|| meaning::fixed(self.control, self.style, words).map(Rc::new)).clone()
+        found.or_insert_with(|| meaning::fixed(self.control, self.style, words).map(Arc::new)).clone()
     }
 
     /// Puts the words gathered so far into the steps.
-    fn flush(&mut self, gather: &mut Gather<'c>) {
+    fn flush(&mut self, gather: &mut Gather) {
         if gather.words.is_empty() {
             return;
         }
@@ -327,7 +324,7 @@ impl<'c> Compiler<'c, '_> {
 }
 
 /// Finds the ends of loops. A loop without its end, and an end without its loop, is an alarm where it is met.
-fn match_loops(program: &mut Program<'_>, style: &Style) {
+fn match_loops(program: &mut Program, style: &Style) {
     let mut open: Vec<Open> = Vec::new();
     let mut faults: Vec<(usize, &'static str)> = Vec::new();
     program.loop_of = vec![None; program.blocks.len()];
@@ -378,7 +375,7 @@ fn match_loops(program: &mut Program<'_>, style: &Style) {
     }
 }
 
-fn set_ends(blocks: &mut [Block<'_>], head_block: usize, tail_block: usize) {
+fn set_ends(blocks: &mut [Block], head_block: usize, tail_block: usize) {
     for step in blocks.get_mut(head_block).into_iter().flat_map(|block| &mut block.steps) {
         if let Step::While { tail, .. } = step {
             *tail = tail_block;

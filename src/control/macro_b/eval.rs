@@ -42,7 +42,7 @@ impl Runner<'_> {
                 let off_a = self.off;
                 let b = self.eval_in(b, increment)?;
                 let result = self.numeric.binary(*op, a, b, &mut self.session.trace)?;
-                if let Some(short) = &self.numeric.short {
+                if let Some(short) = self.numeric.short {
                     let (a, b) = ((a.unwrap_or(0.0), off_a), (b.unwrap_or(0.0), self.off));
                     self.off = short.binary(*op, a, b, result, &mut self.session.trace);
                 }
@@ -52,7 +52,7 @@ impl Runner<'_> {
                 let value = self.eval_in(inner, increment)?;
                 let value = self.numeric.number(value, &mut self.session.trace);
                 let count = increment.map_or(1.0, |increment| (1.0 / increment).round());
-                if let Some(short) = &self.numeric.short {
+                if let Some(short) = self.numeric.short {
                     short.place(self.off, 1.0 / count, &mut self.session.trace);
                     self.off = 0.0;
                 }
@@ -73,7 +73,7 @@ impl Runner<'_> {
             Ex::Call(function, inner) => {
                 let value = self.eval_in(inner, increment)?;
                 let result = self.numeric.call(*function, value, &mut self.session.trace)?;
-                if let Some(short) = &self.numeric.short {
+                if let Some(short) = self.numeric.short {
                     let value = (value.unwrap_or(0.0), self.off);
                     self.off = short.call(*function, value, result, &mut self.session.trace);
                 }
@@ -84,7 +84,7 @@ impl Runner<'_> {
                 let off_a = self.off;
                 let b = self.eval_in(b, increment)?;
                 let result = self.numeric.call2(*function, a, b, &mut self.session.trace)?;
-                if let Some(short) = &self.numeric.short {
+                if let Some(short) = self.numeric.short {
                     let (a, b) = ((a.unwrap_or(0.0), off_a), (b.unwrap_or(0.0), self.off));
                     self.off = short.call2(*function, a, b, result, &mut self.session.trace);
                 }
@@ -95,12 +95,12 @@ impl Runner<'_> {
 
     /// By how much a value is off that the text or the machine gives.
     pub fn reading_off(&self, value: f64) -> f64 {
-        self.numeric.short.as_ref().map_or(0.0, |short| short.read(value))
+        self.numeric.short.map_or(0.0, |short| short.read(value))
     }
 
     /// Notes a value that is about to be rounded to a whole number.
     pub fn rounds_to_whole(&mut self, value: f64) {
-        if let Some(short) = &self.numeric.short {
+        if let Some(short) = self.numeric.short {
             short.whole(value, self.off, &mut self.session.trace);
         }
     }
@@ -114,7 +114,7 @@ impl Runner<'_> {
     /// A subscript.
     pub fn index(&mut self, ex: &Ex) -> Result<u32, Halt> {
         let value = self.eval(ex)?.unwrap_or(0.0);
-        if let Some(short) = self.numeric.short.as_ref().filter(|_| self.off > 0.0) {
+        if let Some(short) = self.numeric.short.filter(|_| self.off > 0.0) {
             // Rounded or cut, either may name another variable.
             short.call(Func::Fix, (value, self.off), value, &mut self.session.trace);
             short.whole(value, self.off, &mut self.session.trace);

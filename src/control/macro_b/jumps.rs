@@ -11,7 +11,7 @@ impl Runner<'_> {
         let value = self.eval(value)?.unwrap_or(0.0);
         self.rounds_to_whole(value);
         let value = value.round();
-        if let Some(place) = self.branches.get(branch) {
+        if let Some(place) = self.branches.get(self.branch_at(branch)) {
             self.session.branches.took(*place, value as i64);
         }
         if (0.0..=f64::from(u32::MAX)).contains(&value) {
@@ -24,7 +24,7 @@ impl Runner<'_> {
     /// The block that a jump in the running program finds.
     pub fn jump(&mut self, number: u32, from: usize) -> Result<usize, Halt> {
         let Some(frame) = self.frames.last() else { return Err(self.no_sequence(f64::from(number))) };
-        let program = std::rc::Rc::clone(&frame.program.code);
+        let program = frame.program.code;
         let places = program.labels.get(&number).map_or(&[][..], Vec::as_slice);
         let (Some(first), Some(last)) = (places.first(), places.last()) else {
             return Err(self.no_sequence(f64::from(number)));
@@ -37,7 +37,7 @@ impl Runner<'_> {
             // Numbers that were passed are remembered and found first.
             places.iter().copied().find(|place| *place <= from).unwrap_or(*first)
         };
-        if enters_loop(&program, from, to) {
+        if enters_loop(program, from, to) {
             self.session.trace.doubt("machine:jump.into.loop");
         }
         Ok(to)
@@ -57,7 +57,7 @@ impl Runner<'_> {
 }
 
 /// True where the target stands in a loop that the jump does not.
-fn enters_loop(program: &Program<'_>, from: usize, to: usize) -> bool {
+fn enters_loop(program: &Program, from: usize, to: usize) -> bool {
     let mut around = program.loop_of.get(to).copied().flatten();
     while let Some(loop_) = around.and_then(|index| program.loops.get(index)) {
         // The head of a loop is not inside it.

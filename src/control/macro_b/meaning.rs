@@ -7,7 +7,7 @@ use crate::control::outcome::Stop;
 use crate::dialect::{Control, Question, Row};
 
 /// The meaning, where no code is computed.
-pub fn fixed<'c>(control: &'c Control, style: &Style, words: &[Word]) -> Option<Meaning<'c>> {
+pub fn fixed(control: &Control, style: &Style, words: &[Word]) -> Option<Meaning> {
     let constant = |word: &Word| match word.value {
         Ex::Number(value) if word.form.is_literal() => Some(value),
         _ => None,
@@ -39,13 +39,13 @@ pub fn is_code(letter: char, comma: bool) -> bool {
 }
 
 /// The meaning of those words that are there; `values` holds the values that are known.
-pub fn of<'c>(
-    control: &'c Control,
+pub fn of(
+    control: &Control,
     style: &Style,
     words: &[Word],
     there: &[bool],
     values: &[Option<f64>],
-) -> Meaning<'c> {
+) -> Meaning {
     let mut meaning = Meaning {
         beside: Vec::with_capacity(words.len()),
         alone: Vec::with_capacity(words.len()),
@@ -71,7 +71,8 @@ pub fn of<'c>(
         }
         let number = value.unwrap_or(f64::NAN);
         let alias = control.alias(word.letter, number);
-        let row = if alias.is_some() { None } else { control.code(word.letter, number, &block) };
+        let place = if alias.is_some() { None } else { control.code_place(word.letter, number, &block) };
+        let row = place.and_then(|place| control.code_at(place));
         called = alias.is_some_and(|alias| alias.arguments)
             || row.is_some_and(|row| matches!(row.op, Op::CallMacro | Op::CallModal | Op::CallModalEach));
         if let Some(row) = row.filter(|row| !row.origin.confirmed) {
@@ -81,14 +82,15 @@ pub fn of<'c>(
             let text = format!("G{number} is no code of this control");
             meaning.fault.get_or_insert(Stop::alarm(style.alarms.no_such_code, text));
         }
-        meaning.codes.push(Coded { word: at, letter: word.letter, number, row, alias });
+        meaning.codes.push(Coded { word: at, letter: word.letter, number, row: place, alias });
     }
     count_m(control, &meaning.codes, &mut meaning.facts);
     for (at, word) in words.iter().enumerate() {
         let here = there.get(at).copied().unwrap_or(false) && !is_code(word.letter, word.comma);
-        let beside = meaning.codes.iter().filter_map(|code| code.row).find_map(|row| {
+        let beside = meaning.codes.iter().filter_map(|code| code.row).find_map(|place| {
+            let row = control.code_at(place)?;
             let role = control.role(word.letter, word.comma, Some(row))?;
-            (row.words.iter().any(|(_, found)| *found == role) && reads(row, word)).then_some((role, row))
+            (row.words.iter().any(|(_, found)| *found == role) && reads(row, word)).then_some((role, place))
         });
         meaning.beside.push(beside.filter(|_| here));
         let alone = control.word(word.letter, word.comma).filter(|_| here);
@@ -112,7 +114,7 @@ fn reads(row: &crate::dialect::CodeMeaning, word: &Word) -> bool {
     })
 }
 
-fn count_m(control: &Control, codes: &[Coded<'_>], facts: &mut Vec<String>) {
+fn count_m(control: &Control, codes: &[Coded], facts: &mut Vec<String>) {
     let count = codes.iter().filter(|code| code.letter == 'M').count();
     let most = match control.behaviour(Question::MCodesPerBlock).map(|row| row.value.as_str()) {
         Some("any") => usize::MAX,

@@ -63,13 +63,13 @@ fn is(word: &'static str, no: &'static str) -> impl Fn(&str) -> Option<bool> {
     move |value| (value == word || value == no).then_some(value == word)
 }
 
-/// How the control calculates.
+/// The answers of a control's table that arithmetic rests on, read once.
 #[derive(Debug)]
-pub struct Numeric {
-    /// Significant digits that are kept.
-    digits: FewerDigits,
+pub struct Answers {
     /// How far values may be off, where few digits are kept.
-    pub short: Option<Digits>,
+    short: Option<Digits>,
+    /// Digits that the control keeps, where it keeps few.
+    own_digits: Option<u32>,
     largest: f64,
     smallest: f64,
     alarms: &'static Alarms,
@@ -88,15 +88,14 @@ pub struct Numeric {
     tangent_by_quotient: bool,
 }
 
-impl Numeric {
-    /// The arithmetic of a control; the digits of the scenario in place of its own where given.
-    pub fn new(control: &Control, scenario: &Scenario, alarms: &'static Alarms) -> Self {
+impl Answers {
+    /// The answers of a control, whose alarms have these names.
+    pub fn new(control: &Control, alarms: &'static Alarms) -> Self {
         let short = control.numbers().arithmetic == "decimal8";
-        let digits = FewerDigits::of(scenario, short.then_some(8));
         let alarm = |value: &str| (value == "alarm").then_some(true);
         Self {
-            digits,
             short: Digits::of(&control.numbers().arithmetic),
+            own_digits: short.then_some(8),
             largest: if short { 1e47 } else { f64::MAX },
             smallest: if short { 1e-29 } else { 0.0 },
             alarms,
@@ -115,13 +114,31 @@ impl Numeric {
             tangent_by_quotient: short,
         }
     }
+}
+
+/// How the control calculates.
+#[derive(Debug)]
+pub struct Numeric<'c> {
+    /// Significant digits that are kept.
+    digits: FewerDigits,
+    /// How far values may be off, where few digits are kept.
+    pub short: Option<&'c Digits>,
+    answers: &'c Answers,
+}
+
+impl<'c> Numeric<'c> {
+    /// The arithmetic of a control; the digits of the scenario in place of its own where given.
+    pub fn new(answers: &'c Answers, scenario: &Scenario) -> Self {
+        let digits = FewerDigits::of(scenario, answers.own_digits);
+        Self { digits, short: answers.short.as_ref(), answers }
+    }
 
     /// A result as the control keeps it.
     pub fn keep(&self, value: f64) -> Result<f64, Stop> {
-        if value.is_nan() || value.abs() > self.largest {
-            return Err(Stop::alarm(self.alarms.overflow, "the result is too large"));
+        if value.is_nan() || value.abs() > self.answers.largest {
+            return Err(Stop::alarm(self.answers.alarms.overflow, "the result is too large"));
         }
-        if value.abs() < self.smallest {
+        if value.abs() < self.answers.smallest {
             return Ok(0.0);
         }
         Ok(self.digits.keep(value))
@@ -135,7 +152,7 @@ impl Numeric {
     /// An operand of arithmetic.
     pub fn number(&self, value: Value, trace: &mut Trace) -> f64 {
         value.unwrap_or_else(|| {
-            self.vacant_adds_as_zero.ask(trace);
+            self.answers.vacant_adds_as_zero.ask(trace);
             0.0
         })
     }
@@ -149,7 +166,7 @@ impl Numeric {
             NotEqual => return truth(!self.equal(a, b, trace)),
             Less | LessEqual | Greater | GreaterEqual => {
                 if a.is_none() || b.is_none() {
-                    self.vacant_orders_as_zero.ask(trace);
+                    self.answers.vacant_orders_as_zero.ask(trace);
                 }
                 let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
                 return truth(match op {
@@ -167,8 +184,8 @@ impl Numeric {
             Subtract => a - b,
             Multiply => a * b,
             Divide if b == 0.0 => {
-                self.divide_by_zero.ask(trace);
-                return Err(Stop::alarm(self.alarms.division, "division by zero"));
+                self.answers.divide_by_zero.ask(trace);
+                return Err(Stop::alarm(self.answers.alarms.division, "division by zero"));
             }
             Divide => a / b,
             Modulo => self.modulo(a, b, trace)?,
@@ -183,24 +200,25 @@ impl Numeric {
         }
         // A vacant one against a number: it matters what it counts as where that is zero.
         let other = a.or(b).unwrap_or(0.0);
-        other == 0.0 && self.vacant_equals_zero.ask(trace)
+        other == 0.0 && self.answers.vacant_equals_zero.ask(trace)
     }
 
     fn modulo(&self, a: f64, b: f64, trace: &mut Trace) -> Result<f64, Stop> {
         let fractions = a.fract() != 0.0 || b.fract() != 0.0;
-        let rounds = if fractions { self.mod_rounds.ask(trace) } else { true };
+        let rounds = if fractions { self.answers.mod_rounds.ask(trace) } else { true };
         let (a, b) = if rounds { (a.round(), b.round()) } else { (a, b) };
         if b == 0.0 {
-            return Err(Stop::alarm(self.alarms.division, "division by zero"));
+            return Err(Stop::alarm(self.answers.alarms.division, "division by zero"));
         }
         if a < 0.0 || b < 0.0 {
-            self.mod_sign_of_dividend.ask(trace);
+            self.answers.mod_sign_of_dividend.ask(trace);
         }
         Ok(a % b)
     }
 
     fn bits(&self, op: BinaryOp, a: f64, b: f64, trace: &mut Trace) -> f64 {
-        let round = if a.fract() == 0.0 && b.fract() == 0.0 { true } else { self.bits_round.ask(trace) };
+        let round =
+            if a.fract() == 0.0 && b.fract() == 0.0 { true } else { self.answers.bits_round.ask(trace) };
         let whole = |value: f64| (if round { value.round() } else { value.trunc() }) as i64 as i32;
         let (a, b) = (whole(a), whole(b));
         f64::from(match op {
@@ -217,7 +235,11 @@ impl Numeric {
             trace.argument(function, x, 0.0);
         }
         let domain = |inside: bool| {
-            if inside { Ok(()) } else { Err(Stop::alarm(self.alarms.domain, format!("{function} of {x}"))) }
+            if inside {
+                Ok(())
+            } else {
+                Err(Stop::alarm(self.answers.alarms.domain, format!("{function} of {x}")))
+            }
         };
         let result = match function {
             Func::Sin => sin_cos(x).0,
@@ -226,14 +248,14 @@ impl Numeric {
                 let (sin, cos) = sin_cos(x);
                 if cos == 0.0 {
                     trace.doubt("function:tan");
-                    return Err(Stop::alarm(self.alarms.domain, "tan of a right angle"));
+                    return Err(Stop::alarm(self.answers.alarms.domain, "tan of a right angle"));
                 }
-                if self.tangent_by_quotient { self.keep(sin)? / self.keep(cos)? } else { sin / cos }
+                if self.answers.tangent_by_quotient { self.keep(sin)? / self.keep(cos)? } else { sin / cos }
             }
             Func::Asin => {
                 domain(x.abs() <= 1.0)?;
                 let angle = x.asin().to_degrees();
-                if angle < 0.0 && self.asin_full_turn.ask(trace) { angle + 360.0 } else { angle }
+                if angle < 0.0 && self.answers.asin_full_turn.ask(trace) { angle + 360.0 } else { angle }
             }
             Func::Acos => {
                 domain(x.abs() <= 1.0)?;
@@ -242,7 +264,7 @@ impl Numeric {
             Func::Atan => x.atan().to_degrees(),
             Func::Sqrt => {
                 if x < 0.0 {
-                    self.root_of_negative.ask(trace);
+                    self.answers.root_of_negative.ask(trace);
                 }
                 domain(x >= 0.0)?;
                 x.sqrt()
@@ -251,7 +273,7 @@ impl Numeric {
             Func::Round => self.round(x, trace),
             Func::Fix => {
                 if x < 0.0 && x.fract() != 0.0 {
-                    self.fix_toward_zero.ask(trace);
+                    self.answers.fix_toward_zero.ask(trace);
                 }
                 x.trunc()
             }
@@ -275,7 +297,7 @@ impl Numeric {
             }
             Func::Exp => {
                 let result = x.exp();
-                domain(result <= self.largest)?;
+                domain(result <= self.answers.largest)?;
                 result
             }
             Func::Bin => digits_to(x, 10, 16),
@@ -288,7 +310,7 @@ impl Numeric {
     /// The nearest whole number.
     pub fn round(&self, x: f64, trace: &mut Trace) -> f64 {
         if x < 0.0 && x.fract() == -0.5 {
-            self.round_half_away.ask(trace);
+            self.answers.round_half_away.ask(trace);
         }
         x.round()
     }
@@ -301,16 +323,20 @@ impl Numeric {
                 // Zero over zero has no angle; no source says what a control makes of it, so nothing goes on from there.
                 if a == 0.0 && b == 0.0 {
                     trace.doubt("function:atan/2");
-                    return Err(Stop::alarm(self.alarms.domain, "ATAN of 0 and 0"));
+                    return Err(Stop::alarm(self.answers.alarms.domain, "ATAN of 0 and 0"));
                 }
                 let angle = (a + 0.0).atan2(b + 0.0).to_degrees();
-                self.keep(if angle < 0.0 && self.atan2_full_turn.ask(trace) { angle + 360.0 } else { angle })
+                self.keep(if angle < 0.0 && self.answers.atan2_full_turn.ask(trace) {
+                    angle + 360.0
+                } else {
+                    angle
+                })
             }
             Func::Pow => {
                 trace.argument(function, a, b);
                 let result = a.powf(b);
                 if result.is_nan() {
-                    return Err(Stop::alarm(self.alarms.domain, format!("{a} to the power of {b}")));
+                    return Err(Stop::alarm(self.answers.alarms.domain, format!("{a} to the power of {b}")));
                 }
                 self.keep(result)
             }

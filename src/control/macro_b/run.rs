@@ -5,25 +5,29 @@ use super::code::{Goto, Program, Step};
 use super::commands::place_of;
 use super::compile::Compiler;
 use super::memory::{Locals, Memory};
-use super::numeric::Numeric;
+use super::numeric::{Answers, Numeric};
 use super::rules::Rules;
 use super::{Style, meaning};
 use crate::canon::{Op, Pause, Role};
+use crate::control::kept::{Kept, with_kept};
 use crate::control::library::{Library, ProgramRef};
 use crate::control::machine::Command;
 use crate::control::outcome::{Run, Stop};
 use crate::control::scenario::Scenario;
 use crate::control::session::{Halt, Session};
 use crate::control::trace::{Happening, Place};
-use crate::dialect::{CodeMeaning, Control};
+use crate::dialect::{CodeMeaning, CodePlace, Control};
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::LazyLock;
 
 /// A program and its number among those that ran.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub struct Loaded<'c> {
-    pub code: Rc<Program<'c>>,
+    pub code: &'c Program,
     pub number: u32,
+    /// The first of its branches and of its blocks among those of all programs that ran.
+    branches: usize,
+    blocks: usize,
 }
 
 /// Where the run goes on.
@@ -40,12 +44,15 @@ pub enum Next {
 pub struct Runner<'c> {
     pub session: Session<'c, 'c>,
     pub style: &'static Style,
-    pub rules: Rules,
-    pub numeric: Numeric,
+    pub rules: &'c Rules,
+    pub numeric: Numeric<'c>,
+    kept: Kept<'c, Made, Program>,
     loaded: HashMap<usize, Loaded<'c>>,
     /// Where the branches of the programs stand, and the ways each went: bit 0 for false, bit 1 for true.
     pub branches: Vec<Place>,
     ways: Vec<u8>,
+    /// The blocks whose facts are in the trace, by number among those of all programs that ran.
+    told: Vec<bool>,
     pub memory: Memory,
     pub frames: Vec<Frame<'c>>,
     pub modal_calls: Vec<ModalCall>,
@@ -71,29 +78,44 @@ pub fn execute(
     control: &Control,
     scenario: &Scenario,
 ) -> Run {
-    let mut runner = Runner::new(style, library, control, scenario);
-    let halt = match runner.session.section_of(main) {
-        Ok(section) => runner.run(section),
-        Err(halt) => halt,
-    };
-    runner.finish(halt)
+    let made = || Made { rules: Rules::new(control), answers: Answers::new(control, &style.alarms) };
+    with_kept(library, control, made, |kept| {
+        let mut runner = Runner::new(style, library, kept, control, scenario);
+        let halt = match runner.session.section_of(main) {
+            Ok(section) => runner.run(section),
+            Err(halt) => halt,
+        };
+        runner.finish(halt)
+    })
 }
+
+/// What is read of a control's table for all runs.
+struct Made {
+    rules: Rules,
+    answers: Answers,
+}
+
+/// What a section without a file is.
+static EMPTY: LazyLock<Program> = LazyLock::new(Program::default);
 
 impl<'c> Runner<'c> {
     fn new(
         style: &'static Style,
         library: &'c Library<'c>,
+        kept: Kept<'c, Made, Program>,
         control: &'c Control,
         scenario: &'c Scenario,
     ) -> Self {
         let mut runner = Self {
             session: Session::new(library, control, scenario),
             style,
-            rules: Rules::new(control),
-            numeric: Numeric::new(control, scenario, &style.alarms),
+            rules: &kept.rules.rules,
+            numeric: Numeric::new(&kept.rules.answers, scenario),
+            kept,
             loaded: HashMap::new(),
             branches: Vec::new(),
             ways: Vec::new(),
+            told: Vec::new(),
             memory: Memory::new(&scenario.variables),
             frames: Vec::new(),
             modal_calls: Vec::new(),
@@ -124,31 +146,39 @@ impl<'c> Runner<'c> {
     /// The prepared program of a section.
     pub fn load(&mut self, section: usize) -> Loaded<'c> {
         if let Some(loaded) = self.loaded.get(&section) {
-            return loaded.clone();
+            return *loaded;
         }
         let number = self.session.program_number(section);
-        let found = self.session.sections.all().get(section);
-        let file = found.and_then(|found| self.session.files.get(found.file));
-        let code = match (found, file) {
-            (Some(found), Some(file)) => {
-                let (control, branches) = (self.session.control, &mut self.branches);
-                let plain = HashMap::new();
-                Compiler { control, style: self.style, file, program: number, branches, plain }.program(found)
-            }
-            _ => Program::empty(),
-        };
+        let (control, style) = (self.session.control, self.style);
+        let (blocks, source) = (self.session.blocks(section), self.session.source(section));
+        let code = self.kept.program(section, blocks.len(), || {
+            let (branches, plain) = (Vec::new(), HashMap::new());
+            Compiler { control, style, source, branches, plain }.program(blocks)
+        });
+        let code = code.unwrap_or(&EMPTY);
+        let loaded = Loaded { code, number, branches: self.branches.len(), blocks: self.told.len() };
+        self.branches.extend(code.branches.iter().map(|span| Place { program: number, span: *span }));
         self.ways.resize(self.branches.len(), 0);
-        let loaded = Loaded { code: Rc::new(code), number };
-        self.loaded.insert(section, loaded.clone());
+        self.told.resize(loaded.blocks + code.blocks.len(), false);
+        self.loaded.insert(section, loaded);
         loaded
+    }
+
+    /// The number of a branch of the running program among those of all programs.
+    pub fn branch_at(&self, branch: usize) -> usize {
+        self.frames.last().map_or(0, |frame| frame.program.branches) + branch
+    }
+
+    /// The row of a code.
+    pub fn row(&self, place: Option<CodePlace>) -> Option<&'c CodeMeaning> {
+        self.session.control.code_at(place?)
     }
 
     /// Executes one block and goes to the next.
     fn block(&mut self) -> Result<(), Halt> {
         let Some(frame) = self.frames.last() else { return Err(Halt::Ended(Op::End)) };
-        let (program, at) = (Rc::clone(&frame.program.code), frame.at);
-        let number = frame.program.number;
-        let Some(block) = program.blocks.get(at) else {
+        let (Loaded { code, number, blocks, .. }, at) = (frame.program, frame.at);
+        let Some(block) = code.blocks.get(at) else {
             return self.runs_out();
         };
         self.session.trace.at = Place { program: number, span: block.span };
@@ -156,7 +186,7 @@ impl<'c> Runner<'c> {
         if let Some(sequence) = block.sequence {
             self.addresses[14] = f64::from(sequence);
         }
-        if !block.told.replace(true) {
+        if self.told.get_mut(blocks + at).is_some_and(|told| !std::mem::replace(told, true)) {
             block.facts.iter().for_each(|fact| self.session.trace.doubt(fact));
         }
         let next = self.steps_of(&block.steps, at)?;
@@ -169,7 +199,7 @@ impl<'c> Runner<'c> {
     }
 
     /// Executes steps. [`Next::On`] where all are done, [`Next::Block`] where the frame knows where to go on.
-    fn steps_of(&mut self, steps: &[Step<'c>], at: usize) -> Result<Next, Halt> {
+    fn steps_of(&mut self, steps: &[Step], at: usize) -> Result<Next, Halt> {
         for step in steps {
             match step {
                 Step::Assign { target, value } => {
@@ -232,10 +262,11 @@ impl<'c> Runner<'c> {
     /// A condition, and the way it went.
     fn holds(&mut self, condition: &super::code::Ex, branch: usize) -> Result<bool, Halt> {
         let value = self.eval(condition)?.unwrap_or(0.0);
-        if let Some(short) = &self.numeric.short {
+        if let Some(short) = self.numeric.short {
             short.truth(value, self.off, &mut self.session.trace);
         }
         let holds = value != 0.0;
+        let branch = self.branch_at(branch);
         if let Some(ways) = self.ways.get_mut(branch) {
             *ways |= if holds { 2 } else { 1 };
         }
@@ -327,13 +358,7 @@ impl<'c> Runner<'c> {
         words: &[super::code::Word],
         there: &[bool],
         values: &[Option<f64>],
-    ) -> super::code::Meaning<'c> {
+    ) -> super::code::Meaning {
         meaning::of(self.session.control, self.style, words, there, values)
-    }
-}
-
-impl Program<'_> {
-    fn empty() -> Self {
-        Self { blocks: Vec::new(), labels: HashMap::new(), loop_of: Vec::new(), loops: Vec::new() }
     }
 }

@@ -14,13 +14,13 @@ pub type Known<'c> = Option<(Role, Option<&'c CodeMeaning>)>;
 
 impl<'c> Runner<'c> {
     /// The role of a word: beside a code of the block, beside the drilling cycle in force, or by itself.
-    pub fn role_of(&self, meaning: &Meaning<'c>, at: usize, word: &Word) -> Known<'c> {
+    pub fn role_of(&self, meaning: &Meaning, at: usize, word: &Word) -> Known<'c> {
         if let Some(Some((role, row))) = meaning.beside.get(at) {
-            return Some((*role, Some(row)));
+            return Some((*role, self.row(Some(*row))));
         }
         let alone = || Some((meaning.alone.get(at).copied().flatten()?, None));
         let Some(cycle) = self.cycle else { return alone() };
-        let ends = meaning.codes.iter().filter_map(|code| code.row).any(|row| {
+        let ends = meaning.codes.iter().filter_map(|code| self.row(code.row)).any(|row| {
             row.op == Op::CycleOff
                 || (row.op.group() == crate::canon::Group::Motion)
                 || moves_by_itself(row.op)
@@ -156,7 +156,7 @@ impl<'c> Runner<'c> {
             }
             _ => match increment {
                 Some(increment) if self.rules.word_rounds => {
-                    if let Some(short) = &self.numeric.short {
+                    if let Some(short) = self.numeric.short {
                         short.place(self.off, increment, &mut self.session.trace);
                     }
                     let word = to_increment(value, increment);

@@ -7,12 +7,13 @@
 //! same. Where they part, the program is undecided: a person sees whether that literal is the one.
 
 use super::Verifier;
-use crate::control::{LoadedFile, ProgramRef};
-use crate::syntax::{Expr, ExprKind, Item, ItemKind, parse_file};
+use crate::control::ProgramRef;
+use crate::syntax::{Expr, ExprKind, Item, ItemKind};
 use crate::text::Span;
 use crate::verify::Job;
 use crate::verify::assumed::moved;
 use crate::verify::certificate::{Edit, Why};
+use crate::verify::edits::EditedText;
 use crate::verify::inputs::{inputs, name_of};
 use crate::verify::scenarios::{Proposals, unit};
 use crate::verify::side::Side;
@@ -68,10 +69,9 @@ impl Verifier<'_, '_> {
         steps: &mut u64,
     ) {
         let Job { source, target, names, assumptions, effort, spent } = *self.job;
-        let Some(text) = with(source, self.program, ours, value) else { return };
-        let parsed = parse_file(&text, source.control.entry().parse);
-        let files = replaced(source, self.program, &parsed);
-        let new_source = Side::new(source.control, source.execute, &files);
+        let Some(text) = EditedText::new(source, self.program, ours.span, value) else { return };
+        let blocks = text.parse(source);
+        let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return };
         let told = Constant { value, ..ours.clone() };
         if !constants(&new_source, self.program, true)
             .iter()
@@ -86,29 +86,27 @@ impl Verifier<'_, '_> {
         self.given.start(&mut scenario);
         let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
         *steps = steps.saturating_sub(run.steps);
-        let old = source.files.get(self.program.file).map_or(0, |file| file.parsed.source.len());
-        let grown = text.len() as i64 - old as i64;
         let mut coverage = self.coverage.clone();
-        let back = moved_back(source, self.program.file, &text, ours);
-        let new = coverage.add_moved(&run, &back);
+        let new = coverage.add_moved(&run, &back(&text, self.program.file));
         if !new && self.target_coverage.is_complete() {
             return;
         }
-        let Some(text) = with(target, there, theirs, value) else { return };
-        let parsed = parse_file(&text, target.control.entry().parse);
-        let files = replaced(target, there, &parsed);
-        let new_target = Side::new(target.control, target.execute, &files);
+        let Some(other) = EditedText::new(target, there, theirs.span, value) else { return };
+        let blocks = other.parse(target);
+        let Some(new_target) = target.edited(there, &other, other.own(&blocks)) else { return };
+        new_target.take_over(target, new_source.stands_as(source));
         if !constants(&new_target, there, false).iter().any(|c| c.name == theirs.name && c.value == value) {
             return;
         }
-        let assumptions = moved(assumptions, self.program.file, ours.span.start, grown);
+        let entered = new_source.links().entered(&run).chain([self.program]);
+        let assumptions = moved(assumptions, entered, self.program, |place| text.now(place));
         let job =
             Job { source: &new_source, target: &new_target, names, assumptions: &assumptions, effort, spent };
         let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
         pair.compare(&scenario, &run, there);
-        let back = moved_back(target, there.file, &text, theirs);
         let mut target_coverage = self.target_coverage.clone();
-        if !target_coverage.add_gone(&pair.target_coverage, &back) && !new && pair.witness.is_none() {
+        let new_there = target_coverage.add_gone(&pair.target_coverage, &back(&other, there.file));
+        if !new_there && !new && pair.witness.is_none() {
             return;
         }
         let edit = Edit {
@@ -207,41 +205,10 @@ fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
     all.filter(|value| seen.insert(value.to_bits())).take(VALUES).collect()
 }
 
-/// The text of a program's file with another literal.
-fn with(side: &Side<'_>, program: ProgramRef, constant: &Constant, value: f64) -> Option<Vec<u8>> {
-    let source = side.files.get(program.file)?.parsed.source;
-    let range = constant.span.range();
-    let point = source.get(range.clone())?.contains(&b'.') && value.fract() == 0.0;
-    let literal = format!("{value}{}", if point { "." } else { "" });
-    Some([source.get(..range.start)?, literal.as_bytes(), source.get(range.end..)?].concat())
-}
-
-/// The files of a side with a program's file read anew.
-fn replaced<'f>(
-    side: &'f Side<'_>,
-    program: ProgramRef,
-    parsed: &'f crate::syntax::ParsedFile<'f>,
-) -> Vec<LoadedFile<'f>> {
-    let files = side.files.iter().enumerate();
-    files
-        .map(|(at, file)| LoadedFile {
-            name: file.name,
-            parsed: if at == program.file { parsed } else { file.parsed },
-        })
-        .collect()
-}
-
-/// Where the places of a file stood before it was edited into another text.
-fn moved_back(
-    side: &Side<'_>,
-    edited: usize,
-    text: &[u8],
-    constant: &Constant,
-) -> impl Fn(usize, Span) -> Span {
-    let old = side.files.get(edited).map_or(0, |file| file.parsed.source.len());
-    let (grown, edit) = (text.len() as i64 - old as i64, constant.span.start);
-    move |file, span| {
-        let back = |at: u32| if at > edit { (i64::from(at) - grown).max(0) as u32 } else { at };
-        if file == edited { Span::new(back(span.start), back(span.end)) } else { span }
+/// Where the places of an edited program stood before, by the file that it stands in.
+fn back(text: &EditedText, edited: usize) -> impl Fn(usize, Span) -> Span {
+    move |file, span| match file == edited {
+        true => Span::new(text.before(span.start), text.before(span.end)),
+        false => span,
     }
 }

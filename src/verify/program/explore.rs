@@ -9,6 +9,7 @@ use crate::verify::inputs::inputs_of_both;
 use crate::verify::observe::returns;
 use crate::verify::scenarios::{Proposals, unit};
 use crate::verify::{Effort, Job};
+use std::sync::Arc;
 
 /// How much longer the first run may be where it comes to no end.
 const LONGER: u64 = 10;
@@ -135,7 +136,7 @@ pub fn of_target(job: &Job<'_>, program: ProgramRef) -> Vec<ProgramRef> {
     let Job { source, target, names, .. } = *job;
     let became = |program: ProgramRef| names.program(source, program, target);
     let all = || source.links().programs().iter().copied();
-    let others = || target.became.get_or_init(|| all().filter_map(became).collect());
+    let others = || target.became.get_or_init(|| Arc::new(all().filter_map(became).collect()));
     let own = became(program).map(|own| target.links().called_from(own, |called| !others().contains(called)));
     own.unwrap_or_default()
 }
