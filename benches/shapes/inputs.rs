@@ -110,3 +110,43 @@ pub fn programs(n: usize) -> String {
     }
     out + "%\n"
 }
+
+/// Small macro programs as shops have them; `@a` to `@d` are numbers, `@o` is a program's own, `@p` that of the one before.
+const SMALL: [&str; 8] = [
+    "O@o(SUM)\n#1=0\n#2=1\nN1 IF[#2 GT @d] GOTO 2\n#1=#1+#2\n#2=#2+@b\nGOTO 1\nN2 #50@b=#1\nM30\n",
+    "O@o(BOLT CIRCLE)\n@s#101=@a.\n#102=@b\n#103=@c.\n#104=0\nT@b M6\nS1@a0 M3\nG54 G0 X0 Y0\nG43 H@b Z25. M8\n\
+     WHILE[#104 LT #102]DO1\n#105=#103+#104*360/#102\nG0 X[#101*COS[#105]] Y[#101*SIN[#105]]\nZ2.\n\
+     G1 Z-@b. F1@a.\nG0 Z2.\n#104=#104+1\nEND1\nG0 Z25. M9\nM5\nG91 G28 Z0\nG90\nM30\n",
+    "O@o(GRID)\n@s#1=@e\n#2=@f\nT@b M6\nS1@d0 M3\nG54 G0 X0 Y0\nG43 H@b Z10.\n#3=0\nWHILE[#3 LT #1]DO1\n#4=0\n\
+     WHILE[#4 LT #2]DO2\nG81 X[#3*@a.] Y[#4*@d.] Z-@b. R1. F1@a.\n#4=#4+1\nEND2\n#3=#3+1\nEND1\nG80\nM5\nM30\n",
+    "O@o(CHECK)\n#10=@a\n#20=@d\nIF [#10 GT #20] THEN #1=#10-#20\nIF [#500 EQ #0] GOTO 9\nIF [#500 LT @a.] GOTO 8\n\
+     #501=#500/@b\nGOTO 9\nN8 #3000=@b(TOO SMALL)\nN9 M30\n",
+    "O@o(PECK)\n@s#110=@a.\n#111=@b.\n#112=0.@b\n#113=@d./4\nS1@a0 M3\nG54 G0 X@a. Y@d.\nG43 H@b Z5.\n\
+     N10 IF[#112 GE #110]GOTO20\nG0 Z[1.-#112]\nG1 Z[-#112-#113] F#111\nG0 Z5.\n#112=#112+#113\n#113=#113*.8\n\
+     IF[#113 LT 1.]THEN #113=1.\nGOTO10\nN20 G0 Z-#112\nG1 Z-#110\nG4 P@c\nG0 Z25.\nM5\nM30\n",
+    "O@o(SLOT)\nG90\n#30=#4003\nIF[#26 EQ #0]GOTO90\nG0 X#24 Y#25\nG1 Z-#26 F#9\n#31=0\nWHILE[#31 LT #11]DO1\n\
+     G91 G1 X@b. F[#9*2]\nY@e.\nX-@b.\nY-@e.\n#31=#31+1\nEND1\nG90 G0 Z5.\nG#30\nM99\nN90 #3000=@b(NO DEPTH)\n",
+    "O@o(SLOTS)\n@sT@b M6\nS1@d0 M3\nG54 G0 X0 Y0\nG43 H@b Z10.\nG65 P@p X@a. Y@d. Z@b. F1@a. H@e\n\
+     G65 P@p X-@a. Y@d. Z@b.5 F1@a. H@f\nM5\nM30\n",
+    "O@o(ELLIPSE)\n@s#1=@a.\n#2=@d.\n#3=0\nS1@a0 M3\nG54 G0 X#1 Y0\nG43 H@b Z2.\nG1 Z-@b. F100.\nN5 #3=#3+1@b.\n\
+     IF[#3 GE 360.]GOTO6\n#24=#1*COS[#3]\n#25=#2*SIN[#3]\nG1 X#24 Y#25 F1@a.\nGOTO5\nN6 G1 X#1 Y0\nG0 Z25.\nM5\nM30\n",
+];
+
+/// `n` small programs; of each eight one is a macro that the next one calls.
+pub fn library(n: usize) -> String {
+    let one = |at: usize| {
+        let numbers = [
+            ("@a", 10 + at * 7 % 40),
+            ("@b", 1 + at * 5 % 9),
+            ("@c", 1 + at * 11 % 360),
+            ("@d", 10 + at * 3 % 20),
+            ("@e", 2 + at * 5 % 3),
+            ("@f", 2 + at * 7 % 4),
+            ("@o", at + 1),
+            ("@p", at),
+        ];
+        let text = SMALL[at % SMALL.len()].replace("@s", "G21 G17 G40 G49 G80 G90 G94\n");
+        numbers.iter().fold(text, |text, (name, number)| text.replace(name, &number.to_string()))
+    };
+    format!("%\n{}%\n", (0..n).map(one).collect::<String>())
+}

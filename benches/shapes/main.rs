@@ -9,7 +9,7 @@ mod inputs;
 mod measured;
 
 use measured::Use;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::{fs, io};
 
@@ -26,6 +26,8 @@ enum Done {
     Verified(&'static str, &'static str),
     /// Converted, with a report as a page.
     Converted,
+    /// The same of a folder, each program a file of its own.
+    Library(&'static str, &'static str),
     /// Verified against itself.
     Itself,
 }
@@ -39,6 +41,8 @@ const SHAPES: &[Shape] = &[
     ("IF-THEN one after the other", 10_000, "lines", inputs::ifs, MILL),
     ("IF-GOTO one after the other", 10_000, "lines", inputs::jumps, MILL),
     ("calls of subroutines", 10_000, "lines", inputs::subs, Done::Verified("fadal", "fanuc")),
+    ("small programs, each a file", 100, "programs", inputs::library, Done::Library("fanuc", "haas")),
+    ("small programs in one file", 100, "programs", inputs::library, MILL),
     ("programs verified against themselves", 37, "programs", inputs::programs, Done::Itself),
     ("nested DO", 10_000, "lines", inputs::nested, Done::Converted),
     ("lines that cannot be read", 10_000, "lines", inputs::faulty, Done::Converted),
@@ -89,13 +93,20 @@ fn measure(folder: &Path) -> io::Result<()> {
 fn run(name: &str, text: &str, done: Done, folder: &Path) -> io::Result<Use> {
     let folder = folder.join(name.replace(' ', "-")).join(text.len().to_string());
     fs::create_dir_all(&folder)?;
-    let input = folder.join("shape.nc");
-    fs::write(&input, text)?;
+    let input = match done {
+        Done::Library(..) => files(text, &folder.join("in"))?,
+        _ => {
+            fs::write(folder.join("shape.nc"), text)?;
+            folder.join("shape.nc")
+        }
+    };
     let path = |path: &Path| path.to_string_lossy().into_owned();
     let (input, out, page) = (path(&input), path(&folder.join("out")), path(&folder.join("report.html")));
     let (input, out, page) = (input.as_str(), out.as_str(), page.as_str());
     let arguments = match done {
-        Done::Verified(from, to) => vec!["convert", input, "--from", from, "--to", to, "--out", out],
+        Done::Verified(from, to) | Done::Library(from, to) => {
+            vec!["convert", input, "--from", from, "--to", to, "--out", out]
+        }
         Done::Converted => {
             let to = ["convert", input, "--from", "fanuc", "--to", "haas", "--no-verify"];
             to.into_iter().chain(["--out", out, "--report", page]).collect()
@@ -103,4 +114,15 @@ fn run(name: &str, text: &str, done: Done, folder: &Path) -> io::Result<Use> {
         Done::Itself => vec!["verify", input, input, "--from", "haas", "--to", "haas"],
     };
     measured::run(name, &arguments, 1)
+}
+
+/// A folder with a file for each program of a text.
+fn files(text: &str, folder: &Path) -> io::Result<PathBuf> {
+    fs::create_dir_all(folder)?;
+    let programs = text.trim_matches(['%', '\n']).split("\nO").enumerate();
+    for (at, program) in programs {
+        let program = program.strip_prefix('O').unwrap_or(program);
+        fs::write(folder.join(format!("o{:04}.nc", at + 1)), format!("%\nO{program}\n%\n"))?;
+    }
+    Ok(folder.into())
 }

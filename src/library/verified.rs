@@ -67,9 +67,9 @@ pub fn judge(
         texts.filter_map(|at| Some((at, cut(conversion, at, &refused)?))).collect();
     let bytes = |at: usize| if long[at] { &[][..] } else { &inputs[at].bytes };
     let ours: Vec<ParsedFile<'_>> =
-        (0..inputs.len()).map(|at| parse_file(bytes(at), source.entry().parse)).collect();
+        (0..inputs.len()).into_par_iter().map(|at| parse_file(bytes(at), source.entry().parse)).collect();
     let theirs: Vec<ParsedFile<'_>> =
-        texts.iter().map(|(_, text)| parse_file(text.as_bytes(), target.entry().parse)).collect();
+        texts.par_iter().map(|(_, text)| parse_file(text.as_bytes(), target.entry().parse)).collect();
     let ours: Vec<LoadedFile<'_>> =
         inputs.iter().zip(&ours).map(|(input, parsed)| LoadedFile { name: &input.name, parsed }).collect();
     let theirs: Vec<LoadedFile<'_>> = texts
@@ -97,6 +97,8 @@ pub fn judge(
         spent: &Spent::default(),
     };
     let wanted = wanted(conversion, all, inputs.len());
+    let all_wanted: Vec<ProgramRef> = wanted.iter().flatten().map(|(_, program)| *program).collect();
+    verify::prepare(&job, &all_wanted);
     let mut verified: Vec<Option<Certificate>> = wanted
         .par_iter()
         .map(|wanted| {

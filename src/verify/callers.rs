@@ -7,7 +7,7 @@
 
 use super::assumed::{excuse, tried};
 use super::compare::{Tolerance, compare, is_cut};
-use super::given::Given;
+use super::given::{Given, Gives, given_by};
 use super::inputs::inputs;
 use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
@@ -16,6 +16,7 @@ use super::{Certificate, Outcome, ProgramCertificate};
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::syntax::ProgramName;
 use crate::text::Span;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A block of a library: its file and place.
@@ -187,18 +188,32 @@ pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
 
 /// Whether a program is one that no other enters, as far as a few runs show.
 pub(super) fn is_root(job: &Job<'_>, program: &ProgramRef) -> bool {
-    let entered = job.source.entered.get_or_init(|| {
-        let all = job.source.links().programs().iter();
-        all.flat_map(|caller| {
-            let mut entered = BTreeSet::new();
-            let runs = scenarios(job, *caller, LOOKS);
-            runs.for_each(|(_, run)| entered.extend(job.source.links().entries(&run).into_keys()));
-            entered.remove(caller);
-            entered
-        })
-        .collect()
-    });
+    let all = job.source.links().programs().iter();
+    let entered =
+        job.source.entered.get_or_init(|| all.flat_map(|caller| entered_by(job, *caller)).collect());
     !entered.contains(program)
+}
+
+/// The other programs that a few runs of a program enter.
+fn entered_by(job: &Job<'_>, caller: ProgramRef) -> BTreeSet<ProgramRef> {
+    let mut entered = BTreeSet::new();
+    let runs = scenarios(job, caller, LOOKS);
+    runs.for_each(|(_, run)| entered.extend(job.source.links().entries(&run).into_keys()));
+    entered.remove(&caller);
+    entered
+}
+
+/// Works out on all cores what callers give, if any of these programs is called. Programs that are verified side by side
+/// would wait for the first of them to do it.
+pub(super) fn look_at_callers(job: &Job<'_>, programs: &[ProgramRef]) {
+    let links = job.source.links();
+    if job.source.given.get().is_some() || !programs.iter().any(|program| links.is_called(*program)) {
+        return;
+    }
+    let entered = links.programs().par_iter().flat_map_iter(|caller| entered_by(job, *caller)).collect();
+    let _ = job.source.entered.set(entered);
+    let on_all_cores = |callers: &[ProgramRef], gives: &Gives<'_>| callers.par_iter().map(gives).collect();
+    let _ = job.source.given.set(given_by(job, on_all_cores));
 }
 
 /// Circumstances of a program, and its runs in them.

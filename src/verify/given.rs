@@ -109,6 +109,17 @@ impl Given {
 /// Programs that none calls give first; then, in what they are given themselves, those that these enter give to what
 /// was not come to yet. One that no run comes to begins in what was in force where the runs of its callers ended.
 pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
+    given_by(job, |callers, gives| callers.iter().map(gives).collect())
+}
+
+/// What runs of a caller show.
+pub(super) type Gives<'g> = dyn Fn(&ProgramRef) -> Shown + Sync + 'g;
+
+/// The same where `all` says of callers, in their order, what their runs show.
+pub(super) fn given_by(
+    job: &Job<'_>,
+    all: impl Fn(&[ProgramRef], &Gives<'_>) -> Vec<Shown>,
+) -> BTreeMap<ProgramRef, Given> {
     let links = job.source.links();
     let roots = || links.programs().iter().copied().filter(|program| is_root(job, program));
     let mut found: BTreeMap<ProgramRef, Given> = BTreeMap::new();
@@ -117,8 +128,7 @@ pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
     let mut callers: Vec<ProgramRef> = roots().filter(|program| !links.is_called(*program)).collect();
     loop {
         let mut came: BTreeMap<ProgramRef, Given> = BTreeMap::new();
-        for caller in &callers {
-            let shown = gives(job, *caller, found.get(caller));
+        for shown in all(&callers, &|caller| gives(job, *caller, found.get(caller))) {
             for (to, ran) in shown.met {
                 if !found.contains_key(&to) {
                     came.entry(to).or_default().add(&ran.modes, &ran.entry);
@@ -150,7 +160,7 @@ pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
 
 /// What the runs of a caller show of what it calls.
 #[derive(Default)]
-struct Shown {
+pub(super) struct Shown {
     /// The programs that they come to, and what is in force there.
     met: Vec<(ProgramRef, trace::Program)>,
     /// Those that its text calls and no run comes to.

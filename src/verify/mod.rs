@@ -53,7 +53,7 @@ pub use certificate::{
 };
 pub use clock::Spent;
 pub use names::Names;
-pub use program::{Job, verify};
+pub use program::{Job, prepare, verify};
 pub use side::Side;
 
 /// What a verification amounts to.

@@ -11,7 +11,7 @@ mod weigh;
 
 use super::assumed::{Assumptions, excuse, facts, tried};
 use super::branches::{Coverage, NotReached};
-use super::callers::{Shown, implicate, through};
+use super::callers::{Shown, implicate, look_at_callers, through};
 use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness};
 use super::clock::{Clock, Spent};
 use super::compare::{Difference, Tolerance, compare, is_cut};
@@ -52,10 +52,17 @@ const NAMED: usize = 3;
 /// Verifies programs of the source; all of them where none is named.
 pub fn verify(job: &Job<'_>, programs: &[ProgramRef]) -> Certificate {
     let all = if programs.is_empty() { job.source.links().programs().to_vec() } else { programs.to_vec() };
+    prepare(job, &all);
     let found = all.into_par_iter().map(|program| Verifier::new(job, program).run()).collect();
     let mut certificate = Certificate::new(job.source.control, job.target.control, job.effort, found);
     implicate(std::slice::from_mut(&mut certificate).iter_mut());
     certificate
+}
+
+/// Works out on all cores what programs have in common; whoever calls [`verify`] for several files at a time does this
+/// before.
+pub fn prepare(job: &Job<'_>, programs: &[ProgramRef]) {
+    look_at_callers(job, programs);
 }
 
 struct Verifier<'v, 'j> {
