@@ -20,11 +20,6 @@ impl CallGraph {
         Self { callees, callers }
     }
 
-    /// What a program calls.
-    pub fn callees(&self, program: usize) -> &BTreeSet<(usize, bool)> {
-        &self.callees[program]
-    }
-
     /// Adds to the summary of each program those of its callees, until nothing changes: `join` is given a caller's, a
     /// callee's, and whether the call opens a level of locals, and is true where that changed the caller's. Callees come
     /// first where they can; those that call one another come again until they agree.

@@ -15,14 +15,7 @@ pub struct Cfg {
     preds: Vec<Ways>,
     roots: Vec<BlockId>,
     /// Few ask for it.
-    order: OnceCell<Order>,
-}
-
-/// The blocks that can be reached, in reverse postorder, and where in it each stands.
-#[derive(Clone, Debug, Default)]
-struct Order {
-    blocks: Vec<BlockId>,
-    place: Vec<Option<u32>>,
+    order: OnceCell<Vec<BlockId>>,
 }
 
 impl Cfg {
@@ -87,12 +80,8 @@ impl Cfg {
         Self { succs, preds, roots, order: OnceCell::new() }
     }
 
-    fn numbered(&self) -> &Order {
-        self.order.get_or_init(|| self.number())
-    }
-
-    fn number(&self) -> Order {
-        let mut order = Order { blocks: Vec::new(), place: vec![None; self.succs.len()] };
+    fn number(&self) -> Vec<BlockId> {
+        let mut order = Vec::new();
         let mut seen = vec![false; self.succs.len()];
         let mut stack: Vec<(BlockId, usize)> = Vec::new();
         // The last root first: reversing puts the entry in front.
@@ -103,7 +92,7 @@ impl Cfg {
             stack.push((*root, 0));
             while let Some((at, next)) = stack.last_mut() {
                 let Some(to) = self.succs[at.index()].get(*next).copied() else {
-                    order.blocks.push(*at);
+                    order.push(*at);
                     stack.pop();
                     continue;
                 };
@@ -113,8 +102,7 @@ impl Cfg {
                 }
             }
         }
-        order.blocks.reverse();
-        order.blocks.iter().enumerate().for_each(|(at, id)| order.place[id.index()] = Some(at as u32));
+        order.reverse();
         order
     }
 
@@ -135,12 +123,7 @@ impl Cfg {
 
     /// The blocks that can be reached, in reverse postorder.
     pub fn order(&self) -> &[BlockId] {
-        &self.numbered().blocks
-    }
-
-    /// A block's place in [`Cfg::order`]; none where it cannot be reached.
-    pub fn place(&self, id: BlockId) -> Option<usize> {
-        self.numbered().place.get(id.index()).copied().flatten().map(|place| place as usize)
+        self.order.get_or_init(|| self.number())
     }
 
     /// How many blocks the graph has.

@@ -2,6 +2,7 @@
 
 use super::Cfg;
 use super::cfg::{entries, labelled};
+use super::dataflow::reached;
 use super::effects::Summaries;
 use crate::canon::Sys;
 use crate::ir::{BlockId, Callee, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
@@ -34,56 +35,77 @@ pub fn values_at(
     id: BlockId,
     at: usize,
 ) -> Option<Vec<Constant>> {
-    let cfg = Cfg::of(program);
-    // Where control comes in from what the graph does not show, anything may be held.
     let mut open: BTreeSet<BlockId> = entries(program).chain([BlockId(0)]).collect();
     if summaries.come_back() {
         open.extend(labelled(program));
     }
-    let mut found = Vec::new();
-    let mut seen = BTreeSet::new();
-    let mut work = vec![(id, at, var)];
-    let mut steps = STEPS;
-    while let Some((id, at, var)) = work.pop() {
-        steps = steps.checked_sub(1)?;
-        let stmts = &program.block(id)?.stmts;
+    let search = Search { program, summaries, cfg: Cfg::of(program), open };
+    let (mut found, mut steps) = (Some(Vec::new()), STEPS);
+    reached([(id, at, var)], |place, go| {
+        let known = found.take().filter(|_| steps > 0);
+        steps = steps.saturating_sub(1);
+        found = known.and_then(|known| search.back(place, known, go));
+    });
+    found
+}
+
+/// A variable before a statement of a block.
+type Asked = (BlockId, usize, Var);
+
+/// Where assignments are looked for.
+struct Search<'s> {
+    program: &'s Program,
+    summaries: &'s Summaries,
+    cfg: Cfg,
+    /// Where control comes in from what the graph does not show, anything may be held.
+    open: BTreeSet<BlockId>,
+}
+
+impl Search<'_> {
+    /// Goes back to what gave the variable its value last, or to where that must be asked; none where it is not known.
+    fn back(
+        &self,
+        (id, at, var): Asked,
+        mut found: Vec<Constant>,
+        go: &mut dyn FnMut(Asked),
+    ) -> Option<Vec<Constant>> {
+        let stmts = &self.program.block(id)?.stmts;
         let held = stmts.iter().enumerate().take(at).rev().find_map(|(at, stmt)| {
-            effect(stmt, var, summaries).map(|effect| (at, effect, stmt.site.skip.is_some()))
+            effect(stmt, var, self.summaries).map(|effect| (at, effect, stmt.site.skip.is_some()))
         });
-        if let Some((at, effect, skipped)) = held {
-            match effect {
-                Effect::Constant(constant) if found.contains(&constant) => {}
-                Effect::Constant(_) if found.len() == MOST => return None,
-                Effect::Constant(constant) => found.push(constant),
-                Effect::Copy(from) => {
-                    if seen.insert((id, at, from)) {
-                        work.push((id, at, from));
-                    }
-                }
-                Effect::Unknown => return None,
-            }
-            // A skipped one leaves what was held before.
-            if skipped {
-                work.push((id, at, var));
-            }
-            continue;
+        let Some((at, effect, skipped)) = held else {
+            self.ahead(id, var, go)?;
+            return Some(found);
+        };
+        match effect {
+            Effect::Constant(constant) if found.contains(&constant) => {}
+            Effect::Constant(_) if found.len() == MOST => return None,
+            Effect::Constant(constant) => found.push(constant),
+            Effect::Copy(from) => go((id, at, from)),
+            Effect::Unknown => return None,
         }
-        if open.contains(&id) {
+        // A skipped one leaves what was held before.
+        if skipped {
+            go((id, at, var));
+        }
+        Some(found)
+    }
+
+    /// Goes back to the ends of the blocks before one.
+    fn ahead(&self, id: BlockId, var: Var, go: &mut dyn FnMut(Asked)) -> Option<()> {
+        if self.open.contains(&id) {
             return None;
         }
-        for pred in cfg.preds(id) {
-            let block = program.block(*pred)?;
-            if let TermKind::Call { call, .. } = &block.term.kind
-                && (matches!(call.callee, Callee::Block(_)) || summaries.by_call(call).contains(var))
+        for pred in self.cfg.preds(id) {
+            if let TermKind::Call { call, .. } = &self.program.block(*pred)?.term.kind
+                && (matches!(call.callee, Callee::Block(_)) || self.summaries.by_call(call).contains(var))
             {
                 return None;
             }
-            if seen.insert((*pred, usize::MAX, var)) {
-                work.push((*pred, usize::MAX, var));
-            }
+            go((*pred, usize::MAX, var));
         }
+        Some(())
     }
-    Some(found)
 }
 
 /// What a statement does to a variable.

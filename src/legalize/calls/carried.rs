@@ -3,6 +3,7 @@
 
 use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
+use crate::ir::analysis::calls_of;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Every, reached, solve};
 use crate::ir::{
@@ -75,21 +76,20 @@ pub fn changed_by_callee(
     call: &Call,
     numbers: &Numbers,
 ) -> Option<Var> {
-    let mut seen: BTreeSet<usize> = macros.iter().copied().collect();
-    let mut work = macros.to_vec();
-    while let Some(index) = work.pop() {
+    let shared = |var: Var| !call.level || var.class.shared();
+    let mut found = None;
+    reached(macros.iter().copied(), |index, go| {
         let program = &module.programs[index];
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut places = block.stmts.iter().filter_map(|stmt| stmt.kind.target());
-            let shared = |var: Var| !call.level || var.class.shared();
-            if let Some(var) = places.find_map(|place| argument(call, place, numbers, shared)) {
-                return Some(var);
+            found = found.or_else(|| places.find_map(|place| argument(call, place, numbers, shared)));
+            if found.is_some() {
+                return;
             }
-            let inner = crate::legalize::calls_of(block).flat_map(|inner| called.by((index, id), inner));
-            work.extend(inner.filter(|callee| seen.insert(**callee)));
+            calls_of(block).flat_map(|inner| called.by((index, id), inner)).for_each(|callee| go(*callee));
         }
-    }
-    None
+    });
+    found
 }
 
 /// True where the arguments of a call mean another thing in a program that it runs under.

@@ -21,7 +21,7 @@ pub use values::Values;
 
 use super::Cfg;
 use super::cfg::labelled;
-use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve_within};
+use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, reached, solve_within};
 use super::effects::{Summaries, Vars};
 use crate::ir::{
     Bank, Block, BlockId, Call, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var,
@@ -279,30 +279,28 @@ fn followed(program: &Program) -> BTreeSet<Var> {
             _ => {}
         }
     }
+    if found.is_empty() {
+        return found;
+    }
     // What they are made of, and what they are compared with.
-    loop {
-        let before = found.len();
-        for block in blocks() {
-            for stmt in &block.stmts {
-                if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind
-                    && found.contains(var)
-                {
-                    add(value, &mut found);
-                }
-            }
-            if let TermKind::Branch { cond, .. } = &block.term.kind {
-                compared(cond, &mut |a, b| match (a, b) {
-                    (Expr::Var(var), other) | (other, Expr::Var(var)) if found.contains(var) => {
-                        add(other, &mut found)
-                    }
-                    _ => {}
-                });
+    let mut others: BTreeMap<Var, BTreeSet<Var>> = BTreeMap::new();
+    for block in blocks() {
+        for stmt in &block.stmts {
+            if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
+                add(value, others.entry(*var).or_default());
             }
         }
-        if found.len() == before || found.len() > VARS {
-            break;
+        if let TermKind::Branch { cond, .. } = &block.term.kind {
+            compared(cond, &mut |a, b| {
+                for (a, b) in [(a, b), (b, a)] {
+                    if let Expr::Var(var) = a {
+                        add(b, others.entry(*var).or_default());
+                    }
+                }
+            });
         }
     }
+    let found = reached(found, |var, go| others.get(&var).into_iter().flatten().for_each(|other| go(*other)));
     if found.len() > VARS { BTreeSet::new() } else { found }
 }
 
