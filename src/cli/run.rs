@@ -37,6 +37,10 @@ pub struct Arguments {
     /// What the operator answers, in order; may be given again
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     answer: Vec<f64>,
+    /// Most blocks that are run, however long that takes; else a million, for ten seconds, or what the
+    /// scenario says
+    #[arg(long, value_name = "N")]
+    steps: Option<u64>,
     /// How to print the trace
     #[arg(long, value_enum, default_value_t = Format::Text)]
     trace: Format,
@@ -175,6 +179,9 @@ fn scenario(arguments: &Arguments, control: &Control) -> Result<Scenario, u8> {
         scenario.variables.insert(name.into(), value);
     }
     scenario.answers.extend(&arguments.answer);
+    if let Some(steps) = arguments.steps {
+        (scenario.steps, scenario.events, scenario.milliseconds) = (steps, usize::MAX, None);
+    }
     scenario.variable_events = true;
     Ok(scenario)
 }
@@ -203,9 +210,14 @@ fn finding(run: &Run) -> Option<(Place, Diagnostic)> {
             (*at, Code::AlarmRaised, text)
         }
         End::StepBudget => {
-            (last, Code::NoEnd, format!("after {} blocks the program is still running", run.steps))
+            let text =
+                format!("after {} blocks the program is still running; --steps allows more", run.steps);
+            (last, Code::NoEnd, text)
         }
-        End::TimeBudget => (last, Code::NoEnd, "the program is still running when its time is up".into()),
+        End::TimeBudget => {
+            let text = "the program is still running when its time is up; --steps allows more";
+            (last, Code::NoEnd, text.into())
+        }
         End::Error { at, text } => (*at, Code::CannotRun, text.clone()),
     };
     Some((at, Diagnostic::new(code, at.span, message)))

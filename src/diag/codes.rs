@@ -600,7 +600,7 @@ Where the alarm is the program's own check, run it with the values that it wants
     "0805" NoEnd Error "the program does not come to its end"
 "The program was run on its emulated control and used up the blocks, events or time that it was given; the place is where it was then. A loop that waits for an input, or a main program that begins again, runs for ever without a person at the machine.
 
-Look for the loop at this place. A scenario file can set inputs and allow more blocks."
+Look for the loop at this place; a scenario file can set inputs. A program that is only long is run to its end with `--steps`."
 
     "0806" CannotRun Error "the program cannot be run"
 "The emulated control came to a block that it cannot read or does not know how to run, or to a call of a program that it does not have.

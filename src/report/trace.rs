@@ -1,11 +1,10 @@
 //! The trace of a run, for people and for programs. `docs/trace.md` describes both.
 
 use crate::control::trace::{AXIS_NAMES, Event, Happening, Position, Program};
-use crate::control::{Heard, Run};
+use crate::control::{End, Heard, Run};
 use crate::library::Input;
 use crate::text::{LineIndex, shown, write_json};
 use serde::Serialize;
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
 /// How a trace is printed.
@@ -44,7 +43,7 @@ struct Line<'a> {
 struct Result<'a> {
     event: &'a str,
     #[serde(flatten)]
-    end: &'a crate::control::End,
+    end: &'a End,
     steps: u64,
     variables: &'a std::collections::BTreeMap<String, f64>,
 }
@@ -111,7 +110,11 @@ impl<'a, W: Write> TraceWriter<'a, W> {
         for (name, value) in &run.variables {
             writeln!(self.out, "{name:>12} = {value}")?;
         }
-        writeln!(self.out, "\n{} blocks", run.steps)
+        let goes_on = match run.end {
+            End::StepBudget | End::TimeBudget => "; the program goes on, and --steps allows more",
+            _ => "",
+        };
+        writeln!(self.out, "\n{} blocks{goes_on}", run.steps)
     }
 }
 
@@ -121,7 +124,9 @@ fn axes(from: &Position, to: &Position) -> String {
     for (axis, name) in AXIS_NAMES.iter().enumerate() {
         let (a, b) = (from.0[axis], to.0[axis]);
         if a != b {
-            let _ = write!(out, " {}{}", name.to_uppercase(), number(b));
+            out.push(' ');
+            out.extend(name.chars().map(|letter| letter.to_ascii_uppercase()));
+            out += &number(b);
         }
     }
     out
@@ -129,6 +134,32 @@ fn axes(from: &Position, to: &Position) -> String {
 
 /// A number to the sixth place, without trailing zeros.
 fn number(value: f64) -> String {
+    let Some(millionths) = millionths(value) else { return long(value) };
+    let sign = if millionths < 0 { "-" } else { "" };
+    let (whole, mut rest, mut places) =
+        (millionths.unsigned_abs() / MILLION, millionths.unsigned_abs() % MILLION, 6);
+    if rest == 0 {
+        return format!("{sign}{whole}");
+    }
+    while rest.is_multiple_of(10) {
+        (rest, places) = (rest / 10, places - 1);
+    }
+    format!("{sign}{whole}.{rest:0places$}")
+}
+
+const MILLION: u64 = 1_000_000;
+
+/// The nearest whole number of millionths, where that is sure: not where two are as near, and not of so large a number that
+/// its product is off.
+fn millionths(value: f64) -> Option<i64> {
+    let scaled = value * MILLION as f64;
+    let beside_tie = (scaled - scaled.floor() - 0.5).abs() > 1e-3;
+    // The product is off by 2e-5 at the most.
+    (scaled.abs() < 1e11 && beside_tie).then(|| scaled.round() as i64)
+}
+
+/// The same of any number, by its exact digits.
+fn long(value: f64) -> String {
     let text = format!("{value:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
@@ -189,5 +220,34 @@ fn describe(what: &Happening, programs: &[Program]) -> String {
         }
         Leave => "return".into(),
         Unsure { fact } => format!("unsure  {fact}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_they_have_by_exact_arithmetic() {
+        let (mut state, mut short) = (1u64, 0);
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state >> 11
+        };
+        let ties = (0..2000).map(|n| (f64::from(n) + 0.5) / 64.0 / 1e6 * 64.0);
+        let halves = (0..2000).map(|n| f64::from(n) / 128.0);
+        let drawn = (0..20_000).map(|at: i32| {
+            let value = next() as f64 / (1u64 << 53) as f64 - 0.5;
+            value * 10f64.powi(at % 14 - 4)
+        });
+        let drawn: Vec<f64> = drawn.collect();
+        let rounded: Vec<f64> = drawn.iter().map(|value| (value * 1e4).round() / 1e4).collect();
+        let edges = [0.0, -0.0, 1e-7, -1e-7, 5e-7, -5e-7, 1e5, 1e15, f64::NAN, f64::INFINITY, 0.1, -25.4];
+        for value in drawn.into_iter().chain(rounded).chain(ties).chain(halves).chain(edges) {
+            short += usize::from(millionths(value).is_some());
+            assert_eq!(number(value), long(value), "{value:?}");
+            assert_eq!(number(-value), long(-value), "-{value:?}");
+        }
+        assert!(short > 20_000, "{short}");
     }
 }

@@ -107,6 +107,18 @@ fn a_long_trace_is_printed_whole() {
     }
 }
 
+/// A program that is longer than a run says so, and by which option it comes to its end.
+#[test]
+fn a_run_that_is_cut_short_names_the_option_that_allows_more() {
+    let shop = Shop::with(&[("a.nc", "O1\n#1=0\nN1 #1=#1+1\nIF[#1LT50]GOTO1\nM30\n")]);
+    let run = |steps: u32| shop.run(&format!("run a.nc --dialect fanuc --steps {steps}"));
+    let (cut, whole) = (run(60), run(103));
+    assert_eq!((cut.code, whole.code), (1, 0), "{}", whole.err);
+    assert!(cut.out.ends_with("60 blocks; the program goes on, and --steps allows more\n"), "{}", cut.out);
+    assert!(cut.err.contains("after 60 blocks the program is still running; --steps allows"), "{}", cut.err);
+    assert!(whole.out.ends_with("\n103 blocks\n"), "{}", whole.out);
+}
+
 /// A run without end, of which the reader has seen one, fill no memory.
 #[test]
 #[cfg(target_os = "linux")]
