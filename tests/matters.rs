@@ -47,6 +47,60 @@ fn what_a_trace_is_unsure_of_some_profile_confirms() {
     assert!(!confirms("fanuc", "machine:nothing"));
 }
 
+/// Facts that conversions and verification name with a literal. Rows are named by the tables themselves.
+#[test]
+fn what_a_diagnostic_names_some_profile_confirms() {
+    const KINDS: &[&str] = &[
+        "numbers",
+        "limit",
+        "operator",
+        "function",
+        "statement",
+        "behaviour",
+        "variable",
+        "system",
+        "word",
+        "code",
+        "argument",
+        "machine",
+    ];
+    let mut seen = BTreeSet::new();
+    let files = rust_files("src")
+        .into_iter()
+        .filter(|(path, _)| !path.contains("test") && !path.contains("dialect/"));
+    for literal in files.flat_map(|(_, text)| text.split('"').map(str::to_owned).collect::<Vec<_>>()) {
+        let Some((kind, name)) = literal.split_once(':').filter(|(kind, _)| KINDS.contains(kind)) else {
+            continue;
+        };
+        if name.is_empty() || name.contains(' ') {
+            continue;
+        }
+        // What is put in when the program runs.
+        let name = match name.split_once('{') {
+            Some((before, _)) if kind == "code" => format!("{before}M77"),
+            Some((before, _)) if kind == "machine" => format!("{before}M77"),
+            Some((before, _)) if matches!(kind, "word" | "argument") => format!("{before}Q"),
+            Some((before, _)) if kind == "statement" => format!("{before}goto"),
+            Some((before, _)) if kind == "limit" => format!("{before}call.all"),
+            Some((before, _)) if kind == "function" => format!("{before}sin"),
+            Some((before, _)) => format!("{before}1"),
+            None => name.to_owned(),
+        };
+        seen.insert(format!("{kind}:{name}"));
+    }
+    assert!(seen.len() > 40, "{seen:#?}");
+    for fact in &seen {
+        let known = registry::all().iter().any(|entry| confirms(entry.name, fact));
+        assert!(known, "no profile can confirm {fact}");
+    }
+    for entry in registry::all() {
+        let control = Control::plain(entry.name).unwrap();
+        for row in &control.dialect().behaviours {
+            assert!(confirms(entry.name, row.question.fact()), "{}: {}", entry.name, row.question);
+        }
+    }
+}
+
 #[test]
 fn matters_are_listed_and_each_may_come() {
     let (named, page) = (named(), text("docs/trace.md"));

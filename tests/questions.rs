@@ -102,6 +102,17 @@ fn every_question_is_answered_by_some_table() {
     }
 }
 
+/// Whoever states an answer in a machine profile relies on its being heard.
+#[test]
+fn what_a_table_leaves_open_is_asked_of_its_control() {
+    for control in controls() {
+        for row in control.dialect().behaviours.iter().filter(|row| row.value == "unknown") {
+            let heard = concerns(control.dialect(), &places(row.question));
+            assert!(heard, "{}: no code asks {}", control.name(), row.question);
+        }
+    }
+}
+
 /// The tests themselves see what they are for.
 #[test]
 fn the_tests_have_teeth() {

@@ -235,7 +235,11 @@ impl<'r, 'f> Session<'r, 'f> {
     /// they are, in the units in force.
     pub fn unstated_increments(&self) -> Option<Increments> {
         let stated = self.control.behaviour(Question::WordRoundsToIncrement);
-        if !self.scenario.rounds_words || stated.is_some_and(|row| row.value != "unknown") {
+        let known = stated.map_or("unknown", |row| row.value.as_str());
+        // What a machine profile states, the emulated control does.
+        let told =
+            known == "true" && self.control.profile().behaviours.contains_key("word.rounds.to.increment");
+        if !told && (!self.scenario.rounds_words || known != "unknown") {
             return None;
         }
         let numbers = self.control.numbers();
@@ -256,10 +260,20 @@ impl<'r, 'f> Session<'r, 'f> {
         }
     }
 
+    /// Notes that the control acts in the one way that it has here, where nobody confirmed that the machine does so
+    /// too, or where somebody says that it does otherwise.
+    pub fn act_as(&mut self, question: Question, answer: &str) {
+        let as_here = |value: &str| value == answer || value == "unknown";
+        match self.control.behaviour(question) {
+            Some(row) if row.origin.confirmed && as_here(&row.value) => {}
+            _ => self.trace.doubt(question.fact()),
+        }
+    }
+
     /// The halt of a jump to a label or number that no block has, on a control of which no source says that it is an
     /// alarm.
     pub fn no_label(&mut self, text: &str) -> Halt {
-        self.rest_on(Question::GotoMissingAlarms);
+        self.act_as(Question::GotoMissingAlarms, "true");
         Halt::Alarm(Stop::no_label("", text))
     }
 

@@ -172,7 +172,10 @@ fn value<'c>(
     }
     if role.is_integer() && value.fract() != 0.0 {
         if let Some(row) = control.behaviour(Question::IntegerWordRounds) {
-            trace.rest_on(row);
+            match row.value.as_str() {
+                "false" => trace.doubt(row.question.fact()),
+                _ => trace.rest_on(row),
+            }
         }
         value = value.round();
     }

@@ -319,7 +319,7 @@ Multiply by -1 in a step of its own: `V1=V2* -1`."
     "0201" UnconfirmedFact Review "rests on an unconfirmed fact"
 "The conversion depends on how a control behaves in a place where no maker's text says so. The message names the fact and where it is recorded in `dialects/`.
 
-Check it on the machine or in its manual. A machine profile can state it for good."
+Check it on the machine or in its manual. A machine profile states it for good: a fact by its name in `confirm`, and the answer to a question under `[behaviours]`, as `divide.by.zero = \"alarm\"`."
 
     "0202" DialectTable Error "a table of `dialects/` is wrong"
 "A table of facts about a control contradicts itself, names something that does not exist, or has a key that nothing reads. Nothing is converted with a table that is wrong.

@@ -66,7 +66,7 @@ pub const MEANINGS: &[&str] = &[
 ];
 
 /// Statements that a control can have.
-const STATEMENTS: &[&str] = &[
+pub const STATEMENTS: &[&str] = &[
     "goto",
     "goto.label",
     "goto.computed",
@@ -113,10 +113,11 @@ const STATEMENTS: &[&str] = &[
     "indirect",
     "indirect.assign",
     "read.address",
+    "read.bit",
 ];
 
 /// Limits that a control can have.
-const LIMITS: &[&str] = &[
+pub const LIMITS: &[&str] = &[
     "brackets",
     "do.depth",
     "do.numbers",

@@ -28,6 +28,7 @@ pub mod registry;
 mod row;
 mod rows;
 mod spelling;
+mod stated;
 mod table;
 #[cfg(test)]
 mod tests;

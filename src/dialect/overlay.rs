@@ -2,8 +2,8 @@
 
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
-use super::reader::{Reader, closest};
-use super::{Control, Dialect, Entry, Row, SystemVariable, VariableClass, matters, registry};
+use super::reader::Reader;
+use super::{Control, Dialect, Entry, SystemVariable, VariableClass, registry};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,6 +21,7 @@ impl Control {
         overlay.check_machine(&dialect);
         overlay.keep_present(&mut dialect, &settings);
         overlay.doubt(&mut dialect);
+        overlay.behaviours(&mut dialect);
         extents::clamp(&mut dialect, &overlay.profile);
         overlay.axes(&mut dialect);
         let reserved = overlay.runs("reserved", &overlay.profile.reserved.clone());
@@ -238,55 +239,9 @@ impl Overlay {
             dialect.codes.push(super::CodeMeaning { preferred: !taken && row.op != Op::Builder, ..row });
         }
     }
-
-    /// Marks the facts that the shop has checked.
-    fn confirm(&mut self, dialect: &mut Dialect) {
-        for fact in self.profile.confirm.clone() {
-            let mut found = 0;
-            each_row(dialect, &mut |name, origin| {
-                if name == fact {
-                    origin.confirmed = true;
-                    found += 1;
-                }
-            });
-            if found == 0 && matters::meaning(&fact).is_none() {
-                let mut names = Vec::new();
-                each_row(dialect, &mut |name, _| names.push(name.to_string()));
-                names.extend(matters::ALL.iter().map(|(name, _)| (*name).to_owned()));
-                let help = match closest(&fact, names.iter().map(String::as_str)) {
-                    Some(near) => format!("did you mean '{near}'?"),
-                    None => "diagnostics name the fact: 'behaviour:NAME', 'code:G50', 'system:#5041'".into(),
-                };
-                self.fault(&format!("confirm:{fact}"), format!("no fact is named '{fact}'"), help);
-            }
-        }
-    }
 }
 
 /// What a row's `when` asks for: `setting.NAME=VALUE`, or several of them with ` and ` between.
 pub(super) fn conditions(when: &str) -> impl Iterator<Item = (&str, &str)> {
     when.split(" and ").map(|one| one.split_once('=').unwrap_or((one, "")))
-}
-
-/// Visits every row with the name of its fact.
-fn each_row(dialect: &mut Dialect, visit: &mut dyn FnMut(&str, &mut super::Origin)) {
-    fn section<T: Row>(rows: &mut [T], visit: &mut dyn FnMut(&str, &mut super::Origin)) {
-        for row in rows {
-            let name = row.fact();
-            visit(&name, row.origin_mut());
-        }
-    }
-    section(std::slice::from_mut(&mut dialect.numbers), visit);
-    section(std::slice::from_mut(&mut dialect.text), visit);
-    section(&mut dialect.limits, visit);
-    section(&mut dialect.operators, visit);
-    section(&mut dialect.functions, visit);
-    section(&mut dialect.statements, visit);
-    section(&mut dialect.behaviours, visit);
-    section(&mut dialect.variables, visit);
-    section(&mut dialect.system, visit);
-    section(&mut dialect.words, visit);
-    section(&mut dialect.codes, visit);
-    section(&mut dialect.arguments, visit);
-    section(&mut dialect.settings, visit);
 }

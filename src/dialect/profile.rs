@@ -35,6 +35,9 @@ pub struct Profile {
     pub parameters: BTreeMap<String, Plain>,
     /// Settings of the control, by number or name.
     pub settings: BTreeMap<String, Plain>,
+    /// Answers to questions of behaviour, found on the machine: `divide.by.zero = "alarm"`. They count instead of the
+    /// table's, and as confirmed.
+    pub behaviours: BTreeMap<String, Plain>,
     /// Variables that programs must not be given: `#149`, `#500-#549`, `VX`.
     pub reserved: Vec<String>,
     /// The variables that there are; absent where the table's classes all are.
@@ -243,12 +246,12 @@ impl Profile {
     pub fn read(text: &str) -> Result<Self, Vec<Diagnostic>> {
         let mut reader = Reader::new(Code::MachineProfile);
         let mut document = reader.document(text);
-        let places = places(&document);
-        for key in ["parameters", "settings"] {
+        for key in ["parameters", "settings", "behaviours"] {
             if let Some(DeValue::Table(table)) = document.get_mut(key).map(|value| value.get_mut()) {
-                flatten(table);
+                flatten(table, 0);
             }
         }
+        let places = places(&document);
         let whole = toml::Spanned::new(0..0, DeValue::Table(document));
         let profile = reader.value::<Profile>(whole);
         match profile {
@@ -258,15 +261,16 @@ impl Profile {
     }
 }
 
-/// `6004.0 = 1` reaches us as a table in a table: it is the parameter `6004.0`.
-fn flatten(table: &mut DeTable<'_>) {
+/// `6004.0 = 1` reaches us as a table in a table: it is the parameter `6004.0`. So is `divide.by.zero = "alarm"`.
+fn flatten(table: &mut DeTable<'_>, depth: u32) {
     for (key, value) in std::mem::take(table) {
         let place = value.span();
         match value.into_inner() {
-            DeValue::Table(inner) => {
-                for (bit, value) in inner {
-                    let name = format!("{}.{}", key.get_ref(), bit.get_ref());
-                    table.insert(toml::Spanned::new(bit.span(), name.into()), value);
+            DeValue::Table(mut inner) if depth < 8 => {
+                flatten(&mut inner, depth + 1);
+                for (rest, value) in inner {
+                    let name = format!("{}.{}", key.get_ref(), rest.get_ref());
+                    table.insert(toml::Spanned::new(rest.span(), name.into()), value);
                 }
             }
             value => {
@@ -284,16 +288,8 @@ fn places(document: &DeTable<'_>) -> BTreeMap<String, std::ops::Range<usize>> {
         places.insert(section.to_string(), value.span());
         match value.get_ref() {
             DeValue::Table(table) => {
-                for (name, value) in table {
+                for name in table.keys() {
                     places.insert(format!("{section}:{}", name.get_ref()), name.span());
-                    if let Some(bits) = value.get_ref().as_table() {
-                        for bit in bits.keys() {
-                            places.insert(
-                                format!("{section}:{}.{}", name.get_ref(), bit.get_ref()),
-                                bit.span(),
-                            );
-                        }
-                    }
                 }
             }
             DeValue::Array(entries) => {

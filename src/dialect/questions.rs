@@ -27,6 +27,21 @@ impl Answers {
     }
 }
 
+impl Answers {
+    /// The answers that settle the question, as a machine profile writes them.
+    pub fn written(self) -> String {
+        let OneOf(words) = self else { return "NUMBER".into() };
+        let settles = words.iter().filter(|word| !["unknown", "setting"].contains(word));
+        let written: Vec<String> = settles
+            .map(|word| match *word {
+                "true" | "false" => (*word).into(),
+                word => format!("\"{word}\""),
+            })
+            .collect();
+        written.join(" or ")
+    }
+}
+
 impl fmt::Display for Answers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -54,9 +54,21 @@ impl Control {
                     row.name
                 )
             }
+            None if row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
+                Some(question) => to_answer(question, side),
+                None => to_confirm(fact, side),
+            },
             None => to_confirm(fact, side),
         }
     }
+}
+
+/// What to do about a question that nobody has answered.
+fn to_answer(question: Question, side: Side) -> String {
+    format!(
+        "check it on the machine, then write '{question} = {}' under [behaviours] in the machine profile of the {side}",
+        question.answers().written()
+    )
 }
 
 /// What to do about a fact that nothing confirms.

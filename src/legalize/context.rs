@@ -144,6 +144,25 @@ impl<'a> Context<'a> {
         self.rests_on(self.target, Side::Target, program, span, question);
     }
 
+    /// Says, once a program, that the controls are known to give two answers.
+    pub fn must_agree(&mut self, program: usize, span: Span, question: Question) {
+        let answer = |control: &Control| {
+            let row = control.behaviour(question).filter(|row| row.value != "unknown");
+            row.map(|row| row.value.clone())
+        };
+        let answers = (answer(self.source), answer(self.target));
+        if let (Some(ours), Some(theirs)) = answers
+            && ours != theirs
+        {
+            let what = format!(
+                "'{question}' is '{ours}' on the source and '{theirs}' on the target ({})",
+                question.meaning()
+            );
+            let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+            self.add_once(program, &format!("agree {question}"), finding);
+        }
+    }
+
     fn rests_on(&mut self, control: &Control, side: Side, program: usize, span: Span, question: Question) {
         let origin = self.origins.get(program).copied().unwrap_or(program);
         if !self.rested.insert((origin, side, question)) {

@@ -119,7 +119,7 @@ impl<'r> Interpreter<'r, '_> {
     /// The end of a called part; that of a cycle where the code is M2.
     fn go_back(&mut self, of_cycle: bool) -> Flow<Next> {
         if of_cycle && !self.in_cycle() {
-            self.session.rest_on(Question::CycleEndEndsProgram);
+            self.session.act_as(Question::CycleEndEndsProgram, "true");
             return Err(Halt::Ended(Op::End));
         }
         if self.depth > 0 {
@@ -143,7 +143,7 @@ impl<'r> Interpreter<'r, '_> {
                 Op::CallLocal => {
                     let again = read.command.number(Role::CallAgain);
                     if again.is_some() {
-                        self.session.rest_on(Question::RepeatCounts);
+                        self.session.act_as(Question::RepeatCounts, "extra");
                     }
                     self.call_local(label()?, again.unwrap_or(0).saturating_add(1))?;
                 }

@@ -26,7 +26,7 @@ impl Interpreter<'_, '_> {
             return Err(self.session.no_label(&format!("label ${label} is not there")));
         };
         if again {
-            self.session.rest_on(Question::GotoFirstLabel);
+            self.session.act_as(Question::GotoFirstLabel, "true");
         }
         Ok(index)
     }

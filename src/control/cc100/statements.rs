@@ -58,11 +58,11 @@ impl Interpreter<'_, '_> {
     fn step_by_one(&mut self, target: &VarRef, down: bool) -> Flow<()> {
         let cell = self.cell(target)?;
         let before = self.store.get(cell).unwrap_or_else(|| {
-            self.session.rest_on(Question::InitialValue);
+            self.session.act_as(Question::InitialValue, "zero");
             0.0
         });
         if before < 0.0 && before.fract() != 0.0 {
-            self.session.rest_on(Question::FixTowardZero);
+            self.session.act_as(Question::FixTowardZero, "true");
         }
         let after = before.trunc() + if down { -1.0 } else { 1.0 };
         self.keep(cell, after);
@@ -75,7 +75,7 @@ impl Interpreter<'_, '_> {
             TestSubject::Variable(variable) => {
                 let cell = self.cell(variable)?;
                 self.store.get(cell).unwrap_or_else(|| {
-                    self.session.rest_on(Question::InitialValue);
+                    self.session.act_as(Question::InitialValue, "zero");
                     0.0
                 })
             }
@@ -117,7 +117,7 @@ impl Interpreter<'_, '_> {
                 let place = self.cell(variable)?;
                 let number = self.store.get(place).unwrap_or(0.0);
                 if number.fract() != 0.0 {
-                    self.session.rest_on(Question::IndexOfFraction);
+                    self.session.act_as(Question::IndexOfFraction, "round");
                 }
                 // A float outside the range becomes its nearest end.
                 number.round() as u32
@@ -141,7 +141,7 @@ impl Interpreter<'_, '_> {
                 return Err(Stop::unnamed(format!("{name} {row} can only be read")).into());
             }
             let value = self.store.get(place).unwrap_or_else(|| {
-                session.rest_on(Question::InitialValue);
+                session.act_as(Question::InitialValue, "zero");
                 0.0
             });
             return Ok(session.machine.write(state, &subscripts, value, &mut session.trace)?);
@@ -167,7 +167,7 @@ impl Interpreter<'_, '_> {
             Target::Computed(expr) => {
                 let number = self.operand(expr)?;
                 if number.fract() != 0.0 {
-                    self.session.rest_on(Question::IndexOfFraction);
+                    self.session.act_as(Question::IndexOfFraction, "round");
                 }
                 self.jump(number.round() as u32)
             }

@@ -54,7 +54,7 @@ impl Interpreter<'_, '_> {
         let cell = self.cell(variable)?;
         Ok(self.store.get(cell).unwrap_or_else(|| {
             // Nothing has set it since the control was switched on.
-            self.session.rest_on(Question::InitialValue);
+            self.session.act_as(Question::InitialValue, "zero");
             0.0
         }))
     }
@@ -98,7 +98,7 @@ impl Interpreter<'_, '_> {
             BinaryOp::Subtract => a - b,
             BinaryOp::Multiply => a * b,
             BinaryOp::Divide if b == 0.0 => {
-                self.session.rest_on(Question::DivideByZero);
+                self.session.act_as(Question::DivideByZero, "alarm");
                 return Err(Stop::unnamed("a division by zero").into());
             }
             BinaryOp::Divide => a / b,
@@ -120,11 +120,11 @@ impl Interpreter<'_, '_> {
             Func::Sin => x.to_radians().sin(),
             Func::Cos => x.to_radians().cos(),
             Func::Atan => {
-                self.session.rest_on(Question::AtanRange);
+                self.session.act_as(Question::AtanRange, "-90..90");
                 x.atan().to_degrees()
             }
             Func::Sqrt if x < 0.0 => {
-                self.session.rest_on(Question::SqrtOfNegative);
+                self.session.act_as(Question::SqrtOfNegative, "alarm");
                 return Err(Stop::unnamed("SQR of a negative number").into());
             }
             Func::Sqrt => x.sqrt(),

@@ -36,7 +36,10 @@ impl<'r> Interpreter<'r, '_> {
         for item in &block.items {
             match &item.kind {
                 ItemKind::Skip(number) => {
-                    self.session.rest_on(Question::SkipLevels);
+                    match number {
+                        Some(2..) => self.session.act_as(Question::SkipLevels, "true"),
+                        _ => self.session.rest_on(Question::SkipLevels),
+                    }
                     if self.session.skips(*number) {
                         break;
                     }
@@ -73,7 +76,7 @@ impl<'r> Interpreter<'r, '_> {
             && let Index::Number(number) = variable.index
             && Register::new(&variable.name, number).is_some_and(|used| line.set.contains(&used))
         {
-            self.session.rest_on(Question::BlockAssignsFirst);
+            self.session.act_as(Question::BlockAssignsFirst, "true");
         }
     }
 
@@ -91,7 +94,7 @@ impl<'r> Interpreter<'r, '_> {
             && !read.flows(Op::CallModal)
         {
             if !read.command.is_empty() {
-                self.session.rest_on(Question::CallAfterWords);
+                self.session.act_as(Question::CallAfterWords, "true");
             }
             self.call_local(call)?;
         }
@@ -117,7 +120,7 @@ impl<'r> Interpreter<'r, '_> {
         }
         let value = line.words.remove(place).value;
         if value.fract() != 0.0 {
-            self.session.rest_on(Question::IntegerWordRounds);
+            self.session.act_as(Question::IntegerWordRounds, "true");
         }
         if !(0.0..1e6).contains(&value) {
             return Err(Stop::unnamed(format!("L{value} is out of range")).into());
@@ -135,7 +138,7 @@ impl<'r> Interpreter<'r, '_> {
         let Some(role) = role else { return };
         if read.command.word(role).is_some() {
             if role == Role::CycleR {
-                self.session.rest_on(Question::CycleRWord);
+                self.session.act_as(Question::CycleRWord, "true");
             }
             return;
         }
@@ -144,7 +147,7 @@ impl<'r> Interpreter<'r, '_> {
         match role {
             _ if !kept => {}
             // A cycle that is begun without R0 takes what R0 holds.
-            Role::CycleR if begins => self.session.rest_on(Question::CycleR0Kept),
+            Role::CycleR if begins => self.session.act_as(Question::CycleR0Kept, "true"),
             Role::OffsetValue => self.session.trace.doubt("machine:offset.value.kept"),
             _ => return,
         }
@@ -160,9 +163,9 @@ impl<'r> Interpreter<'r, '_> {
             let Asked::Call(call) = asked else {
                 return Err(Halt::Error("G66 stands without the subroutine that it calls".into()));
             };
-            self.session.rest_on(Question::CallModalBlockCalls);
+            self.session.act_as(Question::CallModalBlockCalls, "");
             if self.in_modal || !self.modal.is_empty() {
-                self.session.rest_on(Question::CallModalNested);
+                self.session.act_as(Question::CallModalNested, "");
             }
             self.modal.push(call);
         }
@@ -198,7 +201,7 @@ impl<'r> Interpreter<'r, '_> {
             } else {
                 times = count;
                 if count == 0 {
-                    self.session.rest_on(Question::RepeatZero);
+                    self.session.act_as(Question::RepeatZero, "none");
                 }
             }
         }

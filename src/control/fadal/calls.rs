@@ -35,7 +35,7 @@ impl Interpreter<'_, '_> {
             });
         };
         if call.count == 0 {
-            self.session.rest_on(Question::RepeatZero);
+            self.session.act_as(Question::RepeatZero, "none");
         }
         // What stands behind the definition's own block.
         let to = At { section: self.at.section, index: index + 1 };
@@ -48,7 +48,7 @@ impl Interpreter<'_, '_> {
             return Err(Halt::Error(format!("program O{number} is not in the library")));
         };
         if count == 0 {
-            self.session.rest_on(Question::RepeatZero);
+            self.session.act_as(Question::RepeatZero, "none");
         }
         self.call(At { section, index: 0 }, Level::Program, count)
     }
@@ -90,7 +90,7 @@ impl Interpreter<'_, '_> {
     pub(super) fn give_back(&mut self, to: Option<u32>) -> Flow<Next> {
         if let Some(number) = to {
             if self.level != Level::Main {
-                self.session.rest_on(Question::M99PJumpsHere);
+                self.session.act_as(Question::M99PJumpsHere, "true");
             }
             self.jump(number)?;
             return Ok(Next::On);
@@ -104,7 +104,7 @@ impl Interpreter<'_, '_> {
             // Whoever called it goes on.
             Level::Main if self.session.scenario.called => Ok(Next::Back),
             Level::Main => {
-                self.session.rest_on(Question::M99MainRestarts);
+                self.session.act_as(Question::M99MainRestarts, "false");
                 Err(Halt::Ended(Op::End))
             }
         }
@@ -118,7 +118,7 @@ impl Interpreter<'_, '_> {
                 if self.outline().has_area() {
                     self.session.trace.doubt("machine:sub.area.end.again");
                 }
-                self.session.rest_on(Question::EndAlone);
+                self.session.act_as(Question::EndAlone, "true");
                 Err(Halt::Ended(Op::EndRewind))
             }
             _ => Err(nothing_open()),

@@ -63,7 +63,7 @@ impl Interpreter<'_, '_> {
             }
             Target::Sequence(number) => self.jump(*number)?,
             Target::Computed(expr) => {
-                self.session.rest_on(Question::GotoComputed);
+                self.session.act_as(Question::GotoComputed, "true");
                 let number = self.value(expr)?;
                 // A float outside the range becomes its nearest end.
                 self.jump(number.round() as u32)?;
@@ -78,7 +78,7 @@ impl Interpreter<'_, '_> {
             return Err(self.session.no_label(&format!("N{number} is not there")));
         };
         if again {
-            self.session.rest_on(Question::GotoForwardFirst);
+            self.session.act_as(Question::GotoForwardFirst, "false");
         }
         self.at.index = at;
         Ok(())

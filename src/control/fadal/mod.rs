@@ -154,14 +154,14 @@ impl<'r> Interpreter<'r, '_> {
             return Ok(None);
         }
         if self.level == Level::Subroutine {
-            self.session.rest_on(Question::SubEndsAtNext);
+            self.session.act_as(Question::SubEndsAtNext, "true");
             return Ok(Some(Next::Back));
         }
         if outline.is_in_area(index) {
             return Err(calls::nothing_open());
         }
         if outline.works_before(index) {
-            self.session.rest_on(Question::SubAreaEntered);
+            self.session.act_as(Question::SubAreaEntered, "true");
         }
         self.at.index = outline.main;
         Ok(Some(Next::On))

@@ -16,7 +16,7 @@ impl Interpreter<'_, '_> {
         if let Some(register) = self.register(variable, number)? {
             return Ok(self.registers.get(register).unwrap_or_else(|| {
                 // Nothing has set it since the control was switched on.
-                self.session.rest_on(Question::CommonAtPowerOn);
+                self.session.act_as(Question::CommonAtPowerOn, "");
                 0.0
             }));
         }
@@ -120,7 +120,7 @@ impl Interpreter<'_, '_> {
         };
         let value = self.value(expr)?;
         if value.fract() != 0.0 {
-            self.session.rest_on(Question::IndexOfFraction);
+            self.session.act_as(Question::IndexOfFraction, "round");
         }
         let rounded = value.round();
         if !(0.0..=f64::from(u32::MAX)).contains(&rounded) {

@@ -60,7 +60,7 @@ impl Interpreter<'_, '_> {
 
     fn truth(&mut self, expr: &Expr, depth: u32) -> Flow<bool> {
         if !is_condition(expr, depth) {
-            self.session.rest_on(Question::NumberIsCondition);
+            self.session.act_as(Question::NumberIsCondition, "true");
         }
         Ok(self.nested(expr, depth)? != 0.0)
     }
@@ -73,19 +73,19 @@ impl Interpreter<'_, '_> {
             && a != b
             && (a - b).abs() <= NEAR * a.abs().max(1.0)
         {
-            self.session.rest_on(Question::EqualTolerance);
+            self.session.act_as(Question::EqualTolerance, "0");
         }
         Ok(match op {
             BinaryOp::Add => a + b,
             BinaryOp::Subtract => a - b,
             BinaryOp::Multiply => a * b,
             BinaryOp::Divide if b == 0.0 => {
-                self.session.rest_on(Question::DivideByZero);
+                self.session.act_as(Question::DivideByZero, "alarm");
                 return Err(Stop::unnamed("a division by zero").into());
             }
             BinaryOp::Divide => {
                 if whole(left) && whole(right) && (a / b).fract() != 0.0 {
-                    self.session.rest_on(Question::IntegerDivides);
+                    self.session.act_as(Question::IntegerDivides, "false");
                 }
                 a / b
             }
@@ -130,12 +130,13 @@ impl Interpreter<'_, '_> {
     fn rounded(&mut self, x: f64) -> f64 {
         let places = self.registers.places.unwrap_or_else(|| {
             self.session.rest_on(Question::RoundPlacesDefault);
-            0
+            let row = self.session.control.behaviour(Question::RoundPlacesDefault);
+            row.and_then(|row| row.value.parse().ok()).unwrap_or(0)
         });
         let scale = 10f64.powi(i32::from(places));
         let scaled = x * scale;
         if (scaled.abs().fract() - 0.5).abs() < NEAR {
-            self.session.rest_on(Question::RoundHalfAway);
+            self.session.act_as(Question::RoundHalfAway, "true");
         }
         let rounded = scaled.round() / scale;
         if rounded.is_finite() { rounded } else { x }

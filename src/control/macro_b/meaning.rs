@@ -22,13 +22,13 @@ pub fn fixed(control: &Control, style: &Style, words: &[Word]) -> Option<Meaning
     let measured = |role: &Option<Role>| role.is_some_and(|role| role.is_length() || role.is_axis());
     let computed = |(word, role): (&Word, &Option<Role>)| !word.form.is_literal() && measured(role);
     if words.iter().zip(&meaning.alone).any(computed) {
-        behaviour(control, Question::WordBareExpression, &mut meaning.facts);
+        acts_as(control, Question::WordBareExpression, "value", &mut meaning.facts);
     }
     Some(meaning)
 }
 
-fn behaviour(control: &Control, question: Question, facts: &mut Vec<String>) {
-    if !control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
+fn acts_as(control: &Control, question: Question, answer: &str, facts: &mut Vec<String>) {
+    if !control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value == answer) {
         facts.push(question.fact().into());
     }
 }

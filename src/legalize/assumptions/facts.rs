@@ -7,7 +7,7 @@
 mod vacant;
 
 use crate::canon::{Func, Op, Role};
-use crate::diag::Diagnostic;
+use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Control, Question, Row, Side};
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::{Summaries, Vacancy};
@@ -192,6 +192,18 @@ impl<'c> Found<'c> {
         }
     }
 
+    /// As [`Found::behaviour`], where the common form has one answer: a control that is known to give another has not
+    /// what is written.
+    fn expects(&mut self, question: Question, answer: &str, span: Span) {
+        self.behaviour(question, span);
+        let row =
+            self.control.behaviour(question).filter(|row| row.value != "unknown" && row.value != answer);
+        if let Some(row) = row {
+            let what = format!("'{question}' is '{}' on the target ({})", row.value, question.meaning());
+            self.all.push(Diagnostic::new(Code::NoEquivalent, span, what));
+        }
+    }
+
     /// The place of a statement of the first of `blocks`, or of the next one that has any: what an emulation puts
     /// before a statement has none, and may end a block.
     fn span(&self, blocks: &[Block], at: usize) -> Span {
@@ -240,6 +252,9 @@ impl<'c> Found<'c> {
             }
             TermKind::Computed { .. } => self.statement("goto.computed", span),
             TermKind::Return { to: Some(_) } => self.statement("return.to.sequence", span),
+            TermKind::Call { call, .. } if call.count.as_ref().and_then(Expr::constant) == Some(0.0) => {
+                self.expects(Question::RepeatZero, "none", span);
+            }
             TermKind::Call { call, .. } if call.count.is_some() && !call.arguments.is_empty() => {
                 self.behaviour(Question::CallRepeatReloadsArguments, span);
             }
@@ -302,9 +317,9 @@ impl<'c> Found<'c> {
                     self.row(row, span);
                 }
                 match function {
-                    Func::Round => self.behaviour(Question::RoundHalfAway, span),
+                    Func::Round => self.expects(Question::RoundHalfAway, "true", span),
                     Func::RoundIncrement => self.behaviour(Question::RoundInAddress, span),
-                    Func::Fix => self.behaviour(Question::FixTowardZero, span),
+                    Func::Fix => self.expects(Question::FixTowardZero, "true", span),
                     Func::Asin => self.behaviour(Question::AsinRange, span),
                     Func::Acos => self.behaviour(Question::AcosRange, span),
                     Func::Atan if arguments.len() == 2 => self.behaviour(Question::Atan2Range, span),

@@ -7,7 +7,7 @@
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side, matters};
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::census::{Census, Thing};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -45,6 +45,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         both(context, index, span, Question::CyclePlanesFrozen);
                     }
                     arc(nc, index, span, context);
+                    if nc.word(Role::Repeat).is_some_and(|count| count.constant().is_none_or(|n| n < 1.0)) {
+                        context.must_agree(index, span, Question::CycleL0Stores);
+                    }
                 }
                 if let Some(state) = &mut state {
                     state.step(stmt);
@@ -52,6 +55,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             }
             let span = block.term.site.span;
             block.term.kind.exprs(&mut |e| e.walk(&mut |e| value(e, index, span, context)));
+            if let TermKind::Call { call, .. } = &block.term.kind
+                && call.count.is_some()
+                && !call.arguments.is_empty()
+            {
+                context.must_agree(index, span, Question::CallRepeatReloadsArguments);
+            }
         }
     }
 }
@@ -59,6 +68,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 fn both(context: &mut Context<'_>, program: usize, span: Span, question: Question) {
     context.rests_on_source(program, span, question);
     context.rests_on_target(program, span, question);
+    context.must_agree(program, span, question);
 }
 
 fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {

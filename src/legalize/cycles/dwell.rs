@@ -34,10 +34,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
         let row = target.behaviour(Question::DwellExpression);
-        let known = row.is_some_and(|row| row.value != "unknown" && row.origin.confirmed);
+        let known = row.is_some_and(|row| row.value == "ms" && row.origin.confirmed);
         // In seconds a computed value counts as written; a cycle has no such word.
         let asked = computed.iter().find(|(in_cycle, _)| *in_cycle || !s);
-        if let (Some((_, span)), false) = (asked, known) {
+        if let Some((_, span)) = asked.filter(|_| row.is_some_and(|row| row.value == "seconds")) {
+            let what = "a computed dwell counts milliseconds here, and seconds on the target";
+            context.add(index, Diagnostic::new(Code::NoEquivalent, *span, what));
+        } else if let (Some((_, span)), false) = (asked, known) {
             let what =
                 "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
             context.unconfirmed(index, Side::Target, *span, Question::DwellExpression.fact(), what);

@@ -39,8 +39,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     if !other {
                         let what = "the work offset may be selected while it is written: whether it counts at once or when it is selected again is not known of both controls";
                         let side = if answer(context.target).is_none() { Side::Target } else { Side::Source };
-                        let fact = format!("behaviour:{FACT}");
-                        context.unconfirmed(index, side, stmt.site.span, &fact, what);
+                        let fact = FACT.fact();
+                        context.unconfirmed(index, side, stmt.site.span, fact, what);
                     }
                 }
                 state.step(stmt);

@@ -97,6 +97,11 @@ fn ask(
     let what = format!("the operator enters {whose} in {register} at the stop, before cycle start");
     context.add(index, Diagnostic::new(Code::Conditional, span, what));
     context.rests_on_source(index, span, Question::InputDefaultZero);
+    if context.source.behaviour(Question::InputDefaultZero).is_some_and(|row| row.value == "false") {
+        let what =
+            "an empty answer is not 0 on the source, and the register is set to 0 before it is asked for";
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+    }
     let question = question.map(|q| {
         let question = q.trim().trim_end_matches([':', '?', '=', ' ']);
         question.replace('(', "[").replace(')', "]").replace('%', "PCT")

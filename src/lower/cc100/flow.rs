@@ -40,7 +40,9 @@ impl Lowering<'_> {
         if found.is_none() {
             let message = format!("the program has no label ${label}");
             self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
-        } else if self.repeated.contains(&label) && !self.findings.is(Question::GotoFirstLabel, span) {
+        } else if self.repeated.contains(&label)
+            && self.findings.only(Question::GotoFirstLabel, "true", span).is_none()
+        {
             let message = format!("${label} stands more than once; the first one is taken");
             self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
         }

@@ -5,7 +5,7 @@ use super::words::{Change, Planned};
 use crate::canon::{Op, Role, Sys};
 use crate::dialect::{BareLength, Question};
 use crate::ir::{Class, Expr, Nc, NcItem, Var};
-use crate::lower::common::constant;
+use crate::lower::common::{constant, otherwise};
 use crate::syntax::{Expr as Written, ExprKind, Index, Item, ItemKind, Word};
 use crate::text::Span;
 use thin_vec::ThinVec;
@@ -21,6 +21,12 @@ impl Lowering<'_> {
             Some(number) => self.number(role, number, written, span)?,
             None => self.operand(written)?,
         };
+        if role.is_integer()
+            && value.constant().is_none()
+            && self.control.behaviour(Question::IntegerWordRounds).is_some_and(|row| row.value == "false")
+        {
+            self.findings.not_understood(span, otherwise(Question::IntegerWordRounds, "false"));
+        }
         match role {
             Role::ArcRadius => self.radius(value, span),
             Role::ArcI | Role::ArcJ | Role::ArcK => self.centre(value, span),

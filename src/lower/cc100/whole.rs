@@ -86,6 +86,8 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
                     *counted = Expr::Var(*var);
                 } else if findings.behaviour(Question::StepDropsFraction, span) != Some("true") {
                     findings.not_understood(span, "no source says what a step does with a fraction");
+                } else if findings.only(Question::FixTowardZero, "true", span).is_some() {
+                    // A machine profile has said toward which side.
                 } else {
                     let why = "the fraction is taken off before the step, toward zero";
                     findings.unconfirmed(Question::StepDropsFraction.fact().into(), Some(why), span);

@@ -30,6 +30,11 @@ struct Told {
     last: u32,
 }
 
+/// What is said of a construct that is not converted for a control which answers a question so.
+pub fn otherwise(question: Question, answer: &str) -> String {
+    format!("this is not converted where '{question}' is '{answer}' ({})", question.meaning())
+}
+
 impl<'c> Findings<'c> {
     /// No findings yet.
     pub fn new(control: &'c Control) -> Self {
@@ -75,6 +80,15 @@ impl<'c> Findings<'c> {
     /// True where the answer to a question of behaviour, on which the construct at `span` rests, is `true`.
     pub fn is(&mut self, question: Question, span: Span) -> bool {
         self.behaviour(question, span) == Some("true")
+    }
+
+    /// As [`Findings::behaviour`], where the common form knows one answer alone: another is not understood.
+    pub fn only(&mut self, question: Question, answer: &str, span: Span) -> Option<()> {
+        let known = self.behaviour(question, span)?;
+        if known != answer {
+            self.not_understood(span, otherwise(question, known));
+        }
+        Some(())
     }
 
     /// The construct at `span` rests on a fact that nothing confirms, named as

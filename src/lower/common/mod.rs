@@ -5,7 +5,7 @@ mod findings;
 mod programs;
 mod site;
 
-pub use findings::Findings;
+pub use findings::{Findings, otherwise};
 pub use programs::{ProgramText, programs, says_something};
 pub use site::{remark_text, site_of};
 

@@ -84,7 +84,7 @@ impl<'b> Lowering<'b> {
                 .refuse(span, "whether L repeats the move or calls a subroutine depends on its variable");
         }
         if axes && steps.iter().any(|step| matches!(step, Step::Local(_))) && !codes.has(Op::CallModal) {
-            let _ = self.rely(Question::CallAfterWords, span);
+            self.suppose(Question::CallAfterWords, "true", span);
         }
         if codes.has(Op::CallModal) && !steps.iter().any(|step| matches!(step, Step::Local(_))) {
             return self.refuse(span, "G66 stands without the subroutine that it calls");
@@ -154,7 +154,7 @@ impl<'b> Lowering<'b> {
             && self.control.is(Question::LengthWordPicksRadius);
         let radius = radius.then(|| NcItem::Word(Role::RadiusOffset, lowered.clone()));
         if radius.is_some() && (reading.codes.has(Op::RadiusLeft) || reading.codes.has(Op::RadiusRight)) {
-            let _ = self.rely(Question::LengthWordPicksRadius, item.span);
+            self.suppose(Question::LengthWordPicksRadius, "true", item.span);
         }
         match op {
             Some(Op::SelectWork) if is_zero(value) => reading.items.push(NcItem::Op(Op::ShiftCancel)),

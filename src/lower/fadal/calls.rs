@@ -10,6 +10,7 @@ use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, BlockId, Call, Callee, Cond, Expr, Place, Relation, Site, StmtKind, TermKind};
+use crate::lower::common::otherwise;
 use crate::syntax::{self, Item, ProgramName};
 use crate::text::Span;
 
@@ -55,6 +56,12 @@ impl<'b> Lowering<'b> {
                     Some(count) => Some(self.nc_value(count, Some(Role::CallCount))?),
                     None => None,
                 };
+                let may_be_none =
+                    count.as_ref().is_some_and(|count| count.constant().is_none_or(|n| n == 0.0));
+                let once = self.control.behaviour(Question::RepeatZero).filter(|row| row.value == "once");
+                if may_be_none && once.is_some() {
+                    self.findings.not_understood(span, otherwise(Question::RepeatZero, "once"));
+                }
                 self.call_then(call(callee, count));
             }
             Step::ModalOff => {
@@ -75,7 +82,7 @@ impl<'b> Lowering<'b> {
             Step::End => self.end(TermKind::End { rewind: false }),
             Step::AreaEnd if self.shape.area_end == Some(self.at) => {}
             Step::AreaEnd => {
-                let _ = self.rely(Question::EndAlone, span);
+                self.suppose(Question::EndAlone, "true", span);
                 self.end(TermKind::End { rewind: true });
             }
         }
@@ -156,12 +163,15 @@ impl<'b> Lowering<'b> {
         };
         if times > 1 {
             match goal {
+                Goal::Sequence(_) if self.control.is(Question::GotoForwardFirst) => {
+                    self.findings.not_understood(span, otherwise(Question::GotoForwardFirst, "true"));
+                }
                 Goal::Sequence(number) => {
                     let message = format!("N{number} stands {times} times; the first one is taken");
                     self.once(Code::TargetTwice, &message, span, message.clone());
                 }
                 Goal::Label(_) => {
-                    let _ = self.rely(Question::GotoFirstLabel, span);
+                    self.suppose(Question::GotoFirstLabel, "true", span);
                 }
             }
         }
@@ -267,9 +277,9 @@ impl<'b> Lowering<'b> {
     }
 
     fn modal(&mut self, call: Call, span: Span) -> Option<()> {
-        let _ = self.rely(Question::CallModalBlockCalls, span);
+        self.suppose(Question::CallModalBlockCalls, "", span);
         if self.state.modal > 0 || self.state.in_modal {
-            let _ = self.rely(Question::CallModalNested, span);
+            self.suppose(Question::CallModalNested, "", span);
         }
         self.push(StmtKind::ModalCall(Box::new(call)));
         Some(())

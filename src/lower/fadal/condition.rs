@@ -42,7 +42,7 @@ impl<'b> Lowering<'b> {
             ExprKind::Binary(op, a, b) => {
                 let Some(relation) = relation(*op) else { return self.number(e) };
                 if matches!(relation, Relation::Equal | Relation::NotEqual) {
-                    let _ = self.findings.behaviour(Question::EqualTolerance, e.span);
+                    self.suppose(Question::EqualTolerance, "0", e.span);
                 }
                 let a = self.expr(a)?;
                 let b = self.expr(b)?;

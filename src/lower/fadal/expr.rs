@@ -38,7 +38,7 @@ impl<'b> Lowering<'b> {
                     return self.refuse(e.span, "a comparison is no value here, only a condition of IF");
                 };
                 if op == BinOp::Div && divides_whole(a, b) {
-                    let _ = self.rely(Question::IntegerDivides, e.span);
+                    self.suppose(Question::IntegerDivides, "false", e.span);
                 }
                 let a = self.nested(a, depth + 1)?;
                 let b = self.nested(b, depth + 1)?;
@@ -71,13 +71,13 @@ impl<'b> Lowering<'b> {
             }
             Func::Atan => {
                 let radians = self.radians(span)?;
-                let _ = self.rely(Question::AtanRange, span);
+                self.suppose(Question::AtanRange, "-90..90", span);
                 let angle = Expr::Call(function, values);
                 Some(if radians { scale(angle, 1f64.to_radians()) } else { angle })
             }
             Func::RoundPlaces => {
                 let places = self.places(span)?;
-                let _ = self.rely(Question::RoundHalfAway, span);
+                self.suppose(Question::RoundHalfAway, "true", span);
                 values.push(Expr::Number(places));
                 Some(Expr::Call(function, values))
             }

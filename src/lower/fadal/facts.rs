@@ -12,25 +12,28 @@ impl<'b> Lowering<'b> {
         let span = reading.span;
         let mine = |role| reading.items.iter().find_map(|item| word_in(item, role));
         if mine(Role::ArcI).or(mine(Role::ArcJ)).or(mine(Role::ArcK)).is_some() {
-            let _ = self.rely(Question::ArcCentre, span);
+            self.suppose(Question::ArcCentre, "incremental", span);
         }
         if let Some(radius) = mine(Role::ArcRadius) {
             let negative = matches!(radius, Expr::Negate(_)) || radius.constant().is_some_and(|r| r < 0.0);
-            let _ = self
-                .rely(if negative { Question::ArcRadiusNegative } else { Question::ArcRadiusPositive }, span);
+            let (question, answer) = match negative {
+                true => (Question::ArcRadiusNegative, "long"),
+                false => (Question::ArcRadiusPositive, "short"),
+            };
+            self.suppose(question, answer, span);
         }
         if reading.assigned.iter().any(|(var, _)| reading.read.contains(var)) {
-            let _ = self.rely(Question::BlockAssignsFirst, span);
+            self.suppose(Question::BlockAssignsFirst, "true", span);
         }
         let codes = reading.codes;
         if codes.has(Op::RotateOn) {
-            let _ = self.rely(Question::RotationDirection, span);
+            self.suppose(Question::RotationDirection, "ccw", span);
             if self.in_cycle() {
                 let _ = self.rely(Question::RotationRunsCycle, span);
             }
         }
         if codes.has(Op::ReferenceReturn) && !axes {
-            let _ = self.rely(Question::ReferenceAllAxes, span);
+            self.suppose(Question::ReferenceAllAxes, "true", span);
         }
         self.cycle_facts(reading, axes);
     }
@@ -49,13 +52,13 @@ impl<'b> Lowering<'b> {
             && codes.value('R').is_some()
             && reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some())
         {
-            let _ = self.rely(Question::CycleRWord, span);
+            self.suppose(Question::CycleRWord, "true", span);
             self.plane_by_word = true;
         }
         match codes.motion() {
             Some(row) if row.op.is_cycle() => {
                 if plane || codes.has(Op::CycleHere) {
-                    let _ = self.rely(Question::CycleBlockRuns, span);
+                    self.suppose(Question::CycleBlockRuns, "true", span);
                 }
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
                 if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
@@ -63,16 +66,16 @@ impl<'b> Lowering<'b> {
                         let what = "which retract plane this cycle takes after a word R is not known: write it as R0 with its sign";
                         self.findings.not_understood(span, what);
                     }
-                    let _ = self.rely(Question::CycleR0Kept, span);
+                    self.suppose(Question::CycleR0Kept, "true", span);
                     let r0 = Expr::Var(Var { class: Class::Parametric, number: 0 });
                     reading.items.push(NcItem::Word(Role::CycleR, r0));
                 }
                 if incremental {
-                    let _ = self.rely(Question::CyclePlanesFrozen, span);
+                    self.suppose(Question::CyclePlanesFrozen, "true", span);
                 }
             }
             None if axes && incremental && self.in_cycle() => {
-                let _ = self.rely(Question::CyclePlanesFrozen, span);
+                self.suppose(Question::CyclePlanesFrozen, "true", span);
             }
             _ => {}
         }

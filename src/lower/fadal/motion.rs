@@ -56,7 +56,7 @@ impl<'b> Lowering<'b> {
     pub fn spell_motion(&mut self, codes: &Codes<'b, 'b>, shown: Move, span: Span) -> Option<Spelling> {
         if let Some(row) = codes.motion() {
             if codes.interpolation().is_some() && codes.cycle().is_none() && self.in_cycle() {
-                let _ = self.rely(Question::CycleEndsByMotion, span);
+                self.suppose(Question::CycleEndsByMotion, "true", span);
             }
             if !is_arc(row.op) {
                 if shown.centre {
@@ -134,7 +134,7 @@ impl<'b> Lowering<'b> {
             return Spelling::default();
         }
         if self.state.resumed {
-            let _ = self.rely(Question::MotionAfterCycle, span);
+            self.suppose(Question::MotionAfterCycle, "kept", span);
         }
         if self.state.motion_called {
             let message = "moves in the motion mode from before the cycle, or in one that a program called since has set";

@@ -9,7 +9,7 @@ use super::words::Codes;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Class, Cond, Place, Program, Remark, Site, StmtKind, TermKind, Var};
-use crate::lower::common::{Findings, ProgramText, site_of};
+use crate::lower::common::{Findings, ProgramText, otherwise, site_of};
 use crate::syntax::{Block, ItemKind, Label};
 use crate::text::Span;
 use std::collections::{HashMap, HashSet};
@@ -111,8 +111,10 @@ impl<'b> Lowering<'b> {
         let codes = Codes::new(&block.items, self.control);
         let unparsed = block.items.iter().any(|item| item.kind == ItemKind::Unparsed);
         let skip = self.site.skip;
-        if skip.is_some() {
+        if skip == Some(1) {
             let _ = self.rely(Question::SkipLevels, block.span);
+        } else if skip.is_some() {
+            self.suppose(Question::SkipLevels, "true", block.span);
         }
         let level_fits = skip.is_none_or(|level| (1..=9).contains(&level));
         if !level_fits {
@@ -171,7 +173,7 @@ impl<'b> Lowering<'b> {
             && self.builder.is_open()
         {
             if sub.followed {
-                let _ = self.rely(Question::SubEndsAtNext, self.site.span);
+                self.suppose(Question::SubEndsAtNext, "true", self.site.span);
             } else {
                 let message = format!("the subroutine L{}00 runs into the end of its area", sub.number);
                 self.once(Code::SubroutineLeft, "area", self.site.span, message);
@@ -180,7 +182,7 @@ impl<'b> Lowering<'b> {
         }
         if shape.subs.first().is_some_and(|sub| sub.blocks.start == at) && self.builder.is_open() {
             if !self.builder.is_at_start() {
-                let _ = self.rely(Question::SubAreaEntered, self.site.span);
+                self.suppose(Question::SubAreaEntered, "true", self.site.span);
             }
             let main = self.entry(shape.main);
             self.builder.end(TermKind::Jump(main), Site::default());
@@ -288,6 +290,14 @@ impl<'b> Lowering<'b> {
             self.findings.unconfirmed(question.fact().into(), note.or(Some("no source says")), span);
         }
         known
+    }
+
+    /// The construct at `span` is converted as for a control that answers so: where it answers otherwise, the
+    /// construct is not understood; where nobody knows, that is an unconfirmed fact.
+    pub fn suppose(&mut self, question: Question, answer: &str, span: Span) {
+        if let Some(other) = self.rely(question, span).filter(|known| *known != answer) {
+            self.findings.not_understood(span, otherwise(question, other));
+        }
     }
 
     /// The block is not understood: the finding is added, and nothing else.

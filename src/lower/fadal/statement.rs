@@ -150,13 +150,13 @@ impl<'b> Lowering<'b> {
             Place::System(..) => false,
         };
         if hit && self.in_cycle() {
-            let _ = self.rely(Question::CycleR0Kept, span);
+            self.suppose(Question::CycleR0Kept, "true", span);
         }
     }
 
     fn clear(&mut self, ranges: &[(VarRef, Option<VarRef>)], span: Span) -> Option<()> {
         if ranges.is_empty() {
-            let _ = self.rely(Question::ClearAll, span);
+            self.suppose(Question::ClearAll, "true", span);
             self.push(StmtKind::ClearAll(Class::Global));
             return Some(());
         }

@@ -30,7 +30,7 @@ impl<'b> Lowering<'b> {
             }
         });
         if twice {
-            let _ = self.rely(Question::WordTwice, span);
+            self.suppose(Question::WordTwice, "true", span);
         }
         match clash {
             Some(role) => self.refuse(span, format!("the block gives '{role}' twice, with different values")),

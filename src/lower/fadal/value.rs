@@ -41,7 +41,7 @@ impl<'b> Lowering<'b> {
             }
             ExprKind::Variable(var) if var.name == "R" => {
                 if role.is_some_and(Role::is_integer) {
-                    let _ = self.rely(Question::IntegerWordRounds, var.span);
+                    self.suppose(Question::IntegerWordRounds, "true", var.span);
                 }
                 self.read(var)
             }

@@ -10,6 +10,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Alias, CodeMeaning, Question};
 use crate::ir::eval::whole;
 use crate::ir::{BinOp, Call, Callee, Expr, Site, StmtKind, TermKind};
+use crate::lower::common::otherwise;
 use crate::syntax::{ProgramName, Word};
 use crate::text::Span;
 
@@ -156,6 +157,10 @@ impl<'a> Lowering<'a> {
                 Some(_) => {}
                 None => self.unknown_behaviour(Question::RepeatZero, site.span),
             }
+        }
+        let once = self.control.behaviour(Question::RepeatZero).filter(|row| row.value == "once");
+        if count.constant().is_none() && once.is_some() {
+            self.findings.not_understood(site.span, otherwise(Question::RepeatZero, "once"));
         }
         (count != Expr::Number(1.0)).then_some(count)
     }

@@ -184,7 +184,14 @@ impl<'a> Lowering<'a> {
             }
         }
         for question in ranges(function, arguments.len()) {
-            if self.findings.behaviour(*question, span).is_none() {
+            // The ranges are told apart by legalization.
+            let told = match question {
+                Question::RoundHalfAway | Question::FixTowardZero => {
+                    self.findings.only(*question, "true", span)
+                }
+                _ => self.findings.behaviour(*question, span).map(|_| ()),
+            };
+            if told.is_none() {
                 self.unknown_behaviour(*question, span);
             }
         }

@@ -1,0 +1,179 @@
+//! What a machine profile says of the facts themselves: answers to questions, and facts that were checked.
+
+use super::check::{LIMITS, STATEMENTS};
+use super::overlay::Overlay;
+use super::profile::Plain;
+use super::reader::closest;
+use super::{Behaviour, CodeHead, Dialect, Origin, Question, Row, matters, registry};
+use crate::canon::Func;
+
+/// Answers that leave a question open.
+const OPEN: [&str; 2] = ["unknown", "setting"];
+
+impl Overlay {
+    /// Puts the answers that the profile states in place of the table's.
+    pub(super) fn behaviours(&mut self, dialect: &mut Dialect) {
+        for (name, value) in self.profile.behaviours.clone() {
+            let value = match value {
+                Plain::Truth(truth) => truth.to_string(),
+                other => other.to_string(),
+            };
+            match stated(dialect, &name, &value) {
+                Ok(question) => match self.contradicted(dialect, question, &value) {
+                    Some(setting) => {
+                        let message = format!("'{setting}' says otherwise of {name}");
+                        self.fault(&format!("behaviours:{name}"), message, "keep one of the two".into());
+                    }
+                    None => answer(dialect, question, value),
+                },
+                Err((message, help)) => self.fault(&format!("behaviours:{name}"), message, help),
+            }
+        }
+    }
+
+    /// The setting that the profile states and that answers the question in another way.
+    fn contradicted(&self, dialect: &Dialect, question: Question, value: &str) -> Option<String> {
+        let says = |name: &String| {
+            let row = dialect.settings.iter().find(|row| row.name == *name)?;
+            let place = ["parameters", "settings"].into_iter().zip(["parameter.", "setting."]);
+            let chosen = place
+                .filter_map(|(section, stem)| Some((section, name.strip_prefix(stem)?)))
+                .find_map(|(section, key)| match section {
+                    "parameters" => self.profile.parameters.get(key),
+                    _ => self.profile.settings.get(key),
+                })?;
+            row.sets.get(&chosen.to_string())?.get(question.fact()).filter(|other| *other != value)
+        };
+        self.stated.iter().find(|name| says(name).is_some()).cloned()
+    }
+
+    /// Marks the facts that the shop has checked.
+    pub(super) fn confirm(&mut self, dialect: &mut Dialect) {
+        for fact in self.profile.confirm.clone() {
+            let mut found = 0;
+            each_row(dialect, &mut |name, origin| {
+                if name == fact {
+                    origin.confirmed = true;
+                    found += 1;
+                }
+            });
+            if found == 0 && matters::meaning(&fact).is_none() && !is_without_row(&fact) {
+                let mut names = Vec::new();
+                each_row(dialect, &mut |name, _| names.push(name.to_string()));
+                names.extend(matters::ALL.iter().map(|(name, _)| (*name).to_owned()));
+                let help = match closest(&fact, names.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean '{near}'?"),
+                    None => "diagnostics name the fact: 'behaviour:NAME', 'code:G50', 'system:#5041'".into(),
+                };
+                self.fault(&format!("confirm:{fact}"), format!("no fact is named '{fact}'"), help);
+            }
+        }
+    }
+}
+
+/// The question that a profile answers; else what is wrong, and what to do.
+fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (String, String)> {
+    let Some(question) = Question::find(name) else {
+        let help = match closest(name, Question::ALL.iter().map(|known| known.name())) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => "'macroglot dialects' lists the questions under BEHAVIOURS".into(),
+        };
+        return Err((format!("no behaviour is named '{name}'"), help));
+    };
+    if !question.answers().admits(value) {
+        return Err((format!("'{value}' is no value of {name}"), format!("it is {}", question.answers())));
+    }
+    let row = dialect.behaviours.iter().find(|row| row.question == question);
+    match row {
+        None if question.needs() != Some("said") => {
+            let message = format!("{} is not asked '{name}'", dialect.title);
+            Err((message, "it has nothing that the question is about: take it out".into()))
+        }
+        Some(row) if !acts_by(dialect, row, value) => {
+            let message = format!("{name} is '{}' in the table, and '{value}' is not converted", row.value);
+            Err((message, "leave the programs out that hang on it".into()))
+        }
+        _ => Ok(question),
+    }
+}
+
+/// True where conversions go by the answer: the table's own, one that settles what is open there, or one that another
+/// control of the family gives, or a setting of one.
+fn acts_by(dialect: &Dialect, row: &Behaviour, value: &str) -> bool {
+    let gives = |other: &Dialect| {
+        let sets = other.settings.iter().flat_map(|setting| setting.sets.values());
+        other.behaviours.iter().any(|its| its.question == row.question && its.value == value)
+            || sets.flatten().any(|(fact, to)| fact == row.question.fact() && to == value)
+    };
+    row.value == value
+        || OPEN.contains(&row.value.as_str())
+        || OPEN.contains(&value)
+        || registry::all()
+            .iter()
+            .filter_map(|entry| entry.dialect().ok())
+            .any(|other| other.family == dialect.family && gives(other))
+}
+
+fn answer(dialect: &mut Dialect, question: Question, value: String) {
+    let open = OPEN.contains(&value.as_str());
+    let note = open.then(|| "the machine profile leaves it open".into());
+    let origin = Origin { source: "machine profile".into(), confirmed: !open, note };
+    let row = Behaviour { question, value, option: None, origin };
+    match dialect.behaviours.iter_mut().find(|row| row.question == question) {
+        Some(old) => *old = row,
+        None => dialect.behaviours.push(row),
+    }
+}
+
+/// True for a fact that a diagnostic may name although the table has no row of it: `word:E`, `code:M77`.
+fn is_without_row(fact: &str) -> bool {
+    let Some((kind, name)) = fact.split_once(':') else { return false };
+    let mut letters = name.chars();
+    let letter = letters.next().is_some_and(|letter| letter.is_ascii_uppercase());
+    let numbered = |name: &str| {
+        let (stem, number) = name.split_at(name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len()));
+        !stem.is_empty() && number.parse::<u32>().is_ok()
+    };
+    match kind {
+        "behaviour" => Question::find(name).is_some_and(|question| question.needs() == Some("said")),
+        "statement" => STATEMENTS.contains(&name),
+        "limit" => LIMITS.contains(&name),
+        "function" => Func::find(name.split_once('/').map_or(name, |(name, _)| name)).is_some(),
+        "word" | "argument" => letter && letters.next().is_none(),
+        "code" => is_code(name),
+        "machine" => name.strip_prefix("code.").is_some_and(is_code),
+        "variable" | "system" => numbered(name),
+        _ => false,
+    }
+}
+
+fn is_code(name: &str) -> bool {
+    let mut signs = name.chars();
+    let head = signs.next().zip(signs.as_str().parse().ok());
+    head.is_some_and(|(letter, number)| {
+        letter.is_ascii_uppercase() && CodeHead::new(letter, number).is_some()
+    })
+}
+
+/// Visits every row with the name of its fact.
+fn each_row(dialect: &mut Dialect, visit: &mut dyn FnMut(&str, &mut super::Origin)) {
+    fn section<T: Row>(rows: &mut [T], visit: &mut dyn FnMut(&str, &mut super::Origin)) {
+        for row in rows {
+            let name = row.fact();
+            visit(&name, row.origin_mut());
+        }
+    }
+    section(std::slice::from_mut(&mut dialect.numbers), visit);
+    section(std::slice::from_mut(&mut dialect.text), visit);
+    section(&mut dialect.limits, visit);
+    section(&mut dialect.operators, visit);
+    section(&mut dialect.functions, visit);
+    section(&mut dialect.statements, visit);
+    section(&mut dialect.behaviours, visit);
+    section(&mut dialect.variables, visit);
+    section(&mut dialect.system, visit);
+    section(&mut dialect.words, visit);
+    section(&mut dialect.codes, visit);
+    section(&mut dialect.arguments, visit);
+    section(&mut dialect.settings, visit);
+}
