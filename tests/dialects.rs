@@ -7,7 +7,7 @@ use macroglot::dialect::{BareLength, Control, Question, faults_as_text, matrix, 
 fn every_table_loads() {
     for entry in registry::all() {
         if let Err(faults) = entry.dialect() {
-            panic!("{}", faults_as_text(entry.file, entry.table, faults));
+            panic!("{}", entry.faults_as_text(faults));
         }
     }
 }
@@ -26,6 +26,40 @@ fn every_profile_loads() {
         }
     }
     assert!(seen >= 2);
+}
+
+/// A base's rows name dialects that extend it, and each of these has a source of its own for every row.
+#[test]
+fn what_a_base_names_extends_it() {
+    for base in &registry::BASES {
+        let extends = format!("extends = \"{}\"", base.name);
+        let children: Vec<&str> = registry::all()
+            .iter()
+            .filter(|entry| entry.table.contains(&extends))
+            .map(|entry| entry.name)
+            .collect();
+        assert!(children.len() > 1, "{}", base.name);
+        let sources = base.text.split("source = { ").skip(1).filter_map(|rest| rest.split(" }").next());
+        let mut named = 0;
+        for name in sources.flat_map(|sources| sources.split(", ")).filter_map(|one| one.split_once(" = ")) {
+            let name = name.0;
+            assert!(
+                children.contains(&name) || ["confirmed", "note"].contains(&name),
+                "{}: {name}",
+                base.file
+            );
+            named += 1;
+        }
+        assert!(named > 200, "{named}");
+        for name in children {
+            let page = page(&control(name));
+            assert!(!page.contains("another control"), "{name} has a row without a source of its own");
+            assert!(
+                page.contains(&format!("[{}: ", base.name)),
+                "the page of {name} shows where its rows are from"
+            );
+        }
+    }
 }
 
 fn control(name: &str) -> Control {

@@ -2,6 +2,7 @@
 
 use super::UNUSABLE;
 use super::streams::{complain, complain_lines, remark};
+use crate::diag::Code;
 use crate::dialect::{Control, Profile, registry};
 use crate::library::{Detected, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like};
 use crate::verify::Effort;
@@ -54,6 +55,9 @@ pub fn control(name: &str, machine: Option<&Path>) -> Result<Control, u8> {
         None => plain(),
     };
     Control::new(entry, profile).map_err(|faults| {
+        if faults.iter().any(|fault| fault.code == Code::DialectTable) {
+            return complain_lines(entry.faults_as_text(&faults));
+        }
         let path = machine.map_or_else(|| entry.file.into(), |path| path.display().to_string());
         let text = machine.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
         complain_lines(crate::dialect::faults_as_text(&path, &text, &faults))

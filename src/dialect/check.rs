@@ -10,6 +10,7 @@ use super::{
 use std::collections::BTreeMap;
 
 /// The rows of a table with their places.
+#[derive(Default)]
 pub(super) struct Tables {
     pub limits: Vec<Placed<Limit>>,
     pub operators: Vec<Placed<Operator>>,
@@ -54,7 +55,7 @@ fn duplicates<T>(reader: &mut Reader, rows: &[Placed<T>], key: impl Fn(&T) -> St
     for placed in rows {
         let key = key(&placed.row);
         if seen.insert(key.clone(), ()).is_some() {
-            reader.fault(placed.place.clone(), format!("'{key}' stands twice"), "keep one of the rows");
+            reader.fault_at(placed.place.clone(), format!("'{key}' stands twice"), "keep one of the rows");
         }
     }
 }
@@ -150,13 +151,23 @@ fn operators(reader: &mut Reader, rows: &[Placed<Operator>]) {
     }
 }
 
-/// Every answer is one that its question may have.
+/// Every answer is one that its question may have. Of several that a source leaves open none is the answer.
 fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
     for placed in rows {
-        let Behaviour { question, value, .. } = &placed.row;
-        if !question.answers().admits(value) {
+        let Behaviour { question, value, one_of, .. } = &placed.row;
+        for value in [value].into_iter().chain(one_of).filter(|value| !question.answers().admits(value)) {
             let message = format!("'{value}' is no value of {question}");
-            reader.fault(placed.place.clone(), message, format!("it is {}", question.answers()));
+            reader.fault_at(placed.place.clone(), message, format!("it is {}", question.answers()));
+        }
+        let open = |value: &str| ["unknown", "setting"].contains(&value);
+        let twice =
+            one_of.iter().enumerate().any(|(at, one)| one_of.iter().take(at).any(|other| other == one));
+        if !one_of.is_empty() && (one_of.len() < 2 || twice || one_of.iter().any(|one| open(one))) {
+            let help = "'one_of' lists two answers or more, each once, and none of them 'unknown'";
+            reader.fault_at(placed.place.clone(), format!("{question} is left open between nothing"), help);
+        } else if !one_of.is_empty() && value != "unknown" {
+            let help = "write value = \"unknown\", or take 'one_of' out";
+            reader.fault_at(placed.place.clone(), format!("{question} has an answer and is left open"), help);
         }
     }
 }
@@ -167,7 +178,7 @@ fn one_of<T: Row>(reader: &mut Reader, placed: &Placed<T>, value: &str, known: &
             Some(near) => format!("did you mean '{near}'?"),
             None => format!("it is one of {}", known.join(", ")),
         };
-        reader.fault(placed.place.clone(), format!("unknown word '{value}'"), help);
+        reader.fault_at(placed.place.clone(), format!("unknown word '{value}'"), help);
     }
 }
 
@@ -179,7 +190,7 @@ fn variables(reader: &mut Reader, rows: &[Placed<VariableClass>]) {
         one_of(reader, placed, &row.class, CLASSES);
         if row.first > row.last {
             let message = format!("the range {}..{} is backwards", row.first, row.last);
-            reader.fault(placed.place.clone(), message, "write the smaller number as 'first'");
+            reader.fault_at(placed.place.clone(), message, "write the smaller number as 'first'");
         }
         // A letter variable (`VX`) has its letter's number, which is not that of `V24`.
         let overlapped = rows.iter().take(at).map(|earlier| &earlier.row).find(|earlier| {
@@ -197,7 +208,7 @@ fn variables(reader: &mut Reader, rows: &[Placed<VariableClass>]) {
                 earlier.last,
                 name = row.name
             );
-            reader.fault(placed.place.clone(), message, "give each variable one class");
+            reader.fault_at(placed.place.clone(), message, "give each variable one class");
         }
     }
 }
@@ -214,7 +225,7 @@ fn free_or_system(reader: &mut Reader, tables: &Tables) {
         });
         if let Some(system) = system {
             let message = format!("{}{}..{} holds {}", class.name, class.first, class.last, system.fact());
-            reader.fault(placed.place.clone(), message, "a variable is free or of the system");
+            reader.fault_at(placed.place.clone(), message, "a variable is free or of the system");
         }
     }
 }
@@ -242,7 +253,7 @@ fn settings(reader: &mut Reader, tables: &Tables) {
             if !known {
                 let help =
                     "it is 'behaviour:NAME', 'limit:NAME' or 'numbers:bare_length', with a value of it";
-                reader.fault(placed.place.clone(), format!("cannot set '{target}' to '{value}'"), help);
+                reader.fault_at(placed.place.clone(), format!("cannot set '{target}' to '{value}'"), help);
             }
         }
     }
@@ -257,7 +268,7 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
         if let Some(machine) = machine
             && !matches!(machine.as_str(), "mill" | "lathe")
         {
-            reader.fault(place.clone(), format!("unknown machine '{machine}'"), "it is 'mill' or 'lathe'");
+            reader.fault_at(place.clone(), format!("unknown machine '{machine}'"), "it is 'mill' or 'lathe'");
         }
         if let Some(when) = when {
             let known = overlay::conditions(when).all(|(name, value)| {
@@ -267,7 +278,7 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
             });
             if !known {
                 let help = "write 'setting.NAME=VALUE' with a setting of this file and one of its values";
-                reader.fault(place.clone(), format!("no setting says '{when}'"), help);
+                reader.fault_at(place.clone(), format!("no setting says '{when}'"), help);
             }
         }
     }
@@ -279,11 +290,11 @@ fn sources(reader: &mut Reader, tables: &Tables) {
         for placed in rows {
             let origin = placed.row.origin();
             if origin.source.trim().is_empty() {
-                reader.fault(placed.place.clone(), "the source is empty", "name the manual and the page");
+                reader.fault_at(placed.place.clone(), "the source is empty", "name the manual and the page");
             }
             if !origin.confirmed && origin.note.is_none() {
                 let help = "add 'note' with what is not certain";
-                reader.fault(placed.place.clone(), format!("{} is unconfirmed", placed.row.fact()), help);
+                reader.fault_at(placed.place.clone(), format!("{} is unconfirmed", placed.row.fact()), help);
             }
         }
     }

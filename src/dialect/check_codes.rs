@@ -10,11 +10,11 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<CodeMeaning>]) {
         let place = || placed.place.clone();
         let (Some(head), Some(_)) = (row.head(), row.beside()) else {
             let help = "write a letter and a number, then words: 'G10 L2', 'G17 Q', 'G54.1 P'";
-            reader.fault(place(), format!("'{}' is no code", row.code), help);
+            reader.fault_at(place(), format!("'{}' is no code", row.code), help);
             continue;
         };
         if row.through.is_some_and(|last| last < head.whole() || last > head.whole() + 1000) {
-            reader.fault(
+            reader.fault_at(
                 place(),
                 "the run of codes is backwards",
                 "write the last code's number as 'through'",
@@ -22,24 +22,24 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<CodeMeaning>]) {
         }
         if row.counted.is_some_and(|role| row.through.is_none() || !row.fixed.contains_key(&role)) {
             let help = "'counted' needs 'through' and a first value in 'fixed'";
-            reader.fault(place(), "nothing counts up", help);
+            reader.fault_at(place(), "nothing counts up", help);
         }
         if row.words.keys().any(|letter| !is_address(letter)) || row.required.iter().any(|l| !is_address(l)) {
-            reader.fault(
+            reader.fault_at(
                 place(),
                 "a word is one letter",
                 "write 'R', ',R' for a comma word, 'R0' for a parametric variable",
             );
         }
         if row.shift.values().flatten().any(|shift| shift.first > shift.last) {
-            reader.fault(place(), "a shift's range is backwards", "write the smaller number as 'first'");
+            reader.fault_at(place(), "a shift's range is backwards", "write the smaller number as 'first'");
         }
         for earlier in rows.iter().take(at).map(|earlier| &earlier.row) {
             if !together(earlier, row) {
                 continue;
             }
             if same_code(earlier, row) {
-                reader.fault(
+                reader.fault_at(
                     place(),
                     format!("{} stands twice", row.code),
                     "keep one row, or say 'machine' or 'when'",
@@ -47,7 +47,7 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<CodeMeaning>]) {
             }
             if both_preferred(earlier, row) {
                 let message = format!("{} and {} are both preferred for {}", earlier.code, row.code, row.op);
-                reader.fault(place(), message, "write 'preferred = false' in the one that is only read");
+                reader.fault_at(place(), message, "write 'preferred = false' in the one that is only read");
             }
         }
     }

@@ -8,17 +8,17 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<SystemVariable>]) {
     for (at, placed) in rows.iter().enumerate() {
         let row = &placed.row;
         if !matches!(row.access.as_str(), "r" | "w" | "rw") {
-            reader.fault(
+            reader.fault_at(
                 placed.place.clone(),
                 format!("unknown access '{}'", row.access),
                 "it is r, w or rw",
             );
         }
         if row.first.is_none() && !row.subscripts.is_empty() {
-            reader.fault(placed.place.clone(), "a run of variables has a first number", "add 'first'");
+            reader.fault_at(placed.place.clone(), "a run of variables has a first number", "add 'first'");
         }
         if row.subscripts.iter().any(|subscript| subscript.count == 0 || subscript.step == 0) {
-            reader.fault(
+            reader.fault_at(
                 placed.place.clone(),
                 "a subscript has no values",
                 "write 'count' and 'step' of 1 or more",
@@ -27,12 +27,12 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<SystemVariable>]) {
         }
         if !decodable(row) {
             let help = "a step is at least the whole extent of the subscripts with smaller steps";
-            reader.fault(placed.place.clone(), "two subscripts give the same number", help);
+            reader.fault_at(placed.place.clone(), "two subscripts give the same number", help);
         }
         let twin = rows.iter().take(at).map(|earlier| &earlier.row).find(|earlier| shares(earlier, row));
         if let Some(twin) = twin {
             let message = format!("{} overlaps {} ({})", span(row), span(twin), twin.state);
-            reader.fault(placed.place.clone(), message, "shorten one, or say 'machine' or 'when'");
+            reader.fault_at(placed.place.clone(), message, "shorten one, or say 'machine' or 'when'");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Reads a dialect's table and refuses one that contradicts itself.
 
 use super::check::{self, Tables};
+use super::extend::{self, Base, Bases, Whole};
 use super::reader::{Placed, Reader};
 use super::{CodeMeaning, Dialect, Row};
 use crate::diag::{Code, Diagnostic};
@@ -12,6 +13,8 @@ const KEYS: &[&str] = &[
     "title",
     "family",
     "extensions",
+    "extends",
+    "without",
     "numbers",
     "text",
     "limits",
@@ -28,40 +31,50 @@ const KEYS: &[&str] = &[
     "settings",
 ];
 
-/// Reads a table. All that is wrong with it comes back at once, each fault at
-/// its place in `text`.
-pub fn load(text: &str) -> Result<Dialect, Vec<Diagnostic>> {
+/// What a base may say.
+pub(super) const BASE_KEYS: &[&str] = &[
+    "name",
+    "title",
+    "extends",
+    "without",
+    "numbers",
+    "text",
+    "limits",
+    "operators",
+    "functions",
+    "statements",
+    "behaviours",
+    "variables",
+    "in_use",
+    "system",
+    "words",
+    "codes",
+    "arguments",
+    "settings",
+];
+
+/// Reads a table, laid over the base that it extends. All that is wrong comes back at once, each fault at its place in
+/// `text`, or behind its end in the texts of the bases.
+pub fn load(text: &str, bases: &[Base<'_>]) -> Result<Dialect, Vec<Diagnostic>> {
     let mut reader = Reader::new(Code::DialectTable);
     let mut document = reader.document(text);
-    let dialect = read(&mut reader, &mut document);
+    let dialect = read(&mut reader, &mut document, &Bases { all: bases, own: text.len() });
     match dialect {
         Some(dialect) if reader.faults.is_empty() => Ok(dialect),
         _ => Err(reader.faults),
     }
 }
 
-fn read(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<Dialect> {
+fn read(reader: &mut Reader, document: &mut DeTable<'_>, bases: &Bases<'_>) -> Option<Dialect> {
     reader.known_keys(document, KEYS);
-    let name = reader.require(document, "name");
+    let name: Option<String> = reader.require(document, "name");
     let title = reader.require(document, "title");
     let family = reader.require(document, "family");
     let extensions = reader.take(document, "extensions").unwrap_or_default();
-    let numbers = only(reader, document);
-    let text = only(reader, document);
-    let tables = Tables {
-        limits: reader.rows(document),
-        operators: reader.rows(document),
-        functions: reader.rows(document),
-        statements: reader.rows(document),
-        behaviours: reader.rows(document),
-        variables: reader.rows(document),
-        in_use: reader.rows(document),
-        system: reader.rows(document),
-        words: reader.rows(document),
-        codes: reader.rows(document),
-        arguments: reader.rows(document),
-        settings: reader.rows(document),
-    };
+    reader.control = name.clone().unwrap_or_default();
+    let Whole { numbers, text, tables } = extend::read(reader, document, bases);
+    let numbers = there(reader, numbers);
+    let text = there(reader, text);
     check::all(reader, &tables);
     Some(Dialect {
         name: name?,
@@ -86,13 +99,40 @@ fn read(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<Dialect> {
     })
 }
 
+/// The sections of a document.
+pub(super) fn sections(reader: &mut Reader, document: &mut DeTable<'_>) -> Whole {
+    Whole {
+        numbers: only(reader, document),
+        text: only(reader, document),
+        tables: Tables {
+            limits: reader.rows(document),
+            operators: reader.rows(document),
+            functions: reader.rows(document),
+            statements: reader.rows(document),
+            behaviours: reader.rows(document),
+            variables: reader.rows(document),
+            in_use: reader.rows(document),
+            system: reader.rows(document),
+            words: reader.rows(document),
+            codes: reader.rows(document),
+            arguments: reader.rows(document),
+            settings: reader.rows(document),
+        },
+    }
+}
+
 /// A section that is one row.
-fn only<T: Row>(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<T> {
-    let Some(value) = document.remove(T::SECTION) else {
+fn only<T: Row>(reader: &mut Reader, document: &mut DeTable<'_>) -> Option<Placed<T>> {
+    let value = document.remove(T::SECTION)?;
+    reader.row(value)
+}
+
+/// A section that must be there.
+fn there<T: Row>(reader: &mut Reader, row: Option<Placed<T>>) -> Option<T> {
+    if row.is_none() && reader.faults.is_empty() {
         reader.fault(0..0, format!("'{}' is missing", T::SECTION), format!("add '[{}]'", T::SECTION));
-        return None;
-    };
-    reader.row(value).map(|row| row.row)
+    }
+    row.map(|row| row.row)
 }
 
 fn plain<T>(rows: Vec<Placed<T>>) -> Vec<T> {

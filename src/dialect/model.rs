@@ -16,6 +16,9 @@ pub struct Origin {
     /// What is not certain, or what to beware of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// The base that the row stands in; none for a row of the control's own table.
+    #[serde(skip)]
+    pub table: Option<String>,
 }
 
 pub(super) fn yes() -> bool {

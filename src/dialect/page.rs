@@ -56,7 +56,11 @@ pub fn page(control: &Control) -> String {
         vec![row.name.clone(), row.spelling.clone(), option(&row.option)]
     });
     section(&mut out, "BEHAVIOURS", &dialect.behaviours, |row| {
-        vec![row.question.name().into(), row.value.clone(), row.question.meaning().into()]
+        let one_of = match row.one_of.as_slice() {
+            [] => row.value.clone(),
+            answers => answers.join(" or "),
+        };
+        vec![row.question.name().into(), one_of, row.question.meaning().into()]
     });
     section(&mut out, "VARIABLES", &dialect.variables, |row| {
         let kept = match row.retained {
@@ -116,7 +120,8 @@ fn section<T: Row>(out: &mut String, title: &str, rows: &[T], cells: impl Fn(&T)
                 *first = mark(first, origin);
             }
             let note = origin.note.as_ref().map_or(String::new(), |note| format!("; {note}"));
-            line.push(format!("[{}{note}]", origin.source));
+            let table = origin.table.as_ref().map_or(String::new(), |table| format!("{table}: "));
+            line.push(format!("[{table}{}{note}]", origin.source));
             line
         })
         .collect();

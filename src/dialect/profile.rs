@@ -193,6 +193,7 @@ impl SiteCode {
                 source: "machine profile".into(),
                 confirmed: true,
                 note: Some(self.text.clone()),
+                table: None,
             },
         }
     }

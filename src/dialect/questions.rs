@@ -28,10 +28,11 @@ impl Answers {
 }
 
 impl Answers {
-    /// The answers that settle the question, as a machine profile writes them.
-    pub fn written(self) -> String {
+    /// The answers that settle the question, as a machine profile writes them: those of `among` where it has any.
+    pub fn written(self, among: &[String]) -> String {
         let OneOf(words) = self else { return "NUMBER".into() };
-        let settles = words.iter().filter(|word| !["unknown", "setting"].contains(word));
+        let is_among = |word: &str| among.is_empty() || among.iter().any(|one| one == word);
+        let settles = words.iter().filter(|word| !["unknown", "setting"].contains(word) && is_among(word));
         let written: Vec<String> = settles
             .map(|word| match *word {
                 "true" | "false" => (*word).into(),
@@ -206,7 +207,7 @@ questions! {
     ArcWithoutCentre "arc.without.centre" OneOf(&["error", "straight", "unknown"]), "a block under a modal arc without centre and radius";
     ArcCentre "arc.centre" OneOf(&["incremental", "absolute", "unknown"]), "from where I, J and K count";
     RepeatCounts "repeat.counts" OneOf(&["total", "extra"]), "whether the number of a repeated call counts the first time";
-    RepeatZero "repeat.zero" OneOf(&["none", "once", "unknown"]), "what a repeat of zero does";
+    RepeatZero "repeat.zero" OneOf(&["none", "once", "unknown"]), "what a repeat of zero does", if "role:call.count";
     DwellBare "dwell.bare" OneOf(&["ms", "seconds", "unknown"]), "what P of a dwell counts without a decimal point";
     DwellPoint "dwell.point" OneOf(&["ms", "seconds", "error", "unknown"]), "what P of a dwell counts with a decimal point", if "op:dwell";
     DwellExpression "dwell.expression" OneOf(&["ms", "seconds", "unknown"]), "what P of a dwell counts when it is computed", if "op:dwell";

@@ -4,7 +4,9 @@
 use super::{Origin, Row};
 use crate::diag::{Code, Diagnostic};
 use crate::text::{LineIndex, Span, shown};
+use serde::Deserialize;
 use serde::de::{DeserializeOwned, Deserializer, Visitor};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -23,17 +25,50 @@ pub(super) struct Reader {
     pub code: Code,
     /// What was found so far.
     pub faults: Vec<Diagnostic>,
+    /// The control whose table is read: of several sources its own counts.
+    pub control: String,
+    /// The base that is read, and where its places begin.
+    base: Option<(String, usize)>,
+}
+
+/// What a base's row says of one control's source.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a source is its text, or a table of source, confirmed and note")]
+enum Source {
+    Text(String),
+    Of(Origin),
 }
 
 const ORIGIN: &[&str] = &["source", "confirmed", "note"];
 
 impl Reader {
     pub fn new(code: Code) -> Self {
-        Self { code, faults: Vec::new() }
+        Self { code, faults: Vec::new(), control: String::new(), base: None }
     }
 
-    /// Notes a fault.
+    /// Goes into a base whose places begin at `start`; gives what [`Reader::leave`] takes.
+    pub fn enter(&mut self, base: &str, start: usize) -> Option<(String, usize)> {
+        self.base.replace((base.into(), start))
+    }
+
+    /// Goes back to the table that extends the base.
+    pub fn leave(&mut self, outer: Option<(String, usize)>) {
+        self.base = outer;
+    }
+
+    /// A place of the text that is read as one of all texts.
+    pub fn placed(&self, place: Range<usize>) -> Range<usize> {
+        let start = self.base.as_ref().map_or(0, |(_, start)| *start);
+        place.start + start..place.end + start
+    }
+
+    /// Notes a fault in the text that is read.
     pub fn fault(&mut self, place: Range<usize>, message: impl Into<Arc<str>>, help: impl Into<Arc<str>>) {
+        self.fault_at(self.placed(place), message, help);
+    }
+
+    /// Notes a fault at a place of all texts.
+    pub fn fault_at(&mut self, place: Range<usize>, message: impl Into<Arc<str>>, help: impl Into<Arc<str>>) {
         let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         let span = Span::new(offset(place.start), offset(place.end));
         self.faults.push(Diagnostic::new(self.code, span, message).with_help(help));
@@ -122,10 +157,47 @@ impl Reader {
                 origin.insert(key, value);
             }
         }
-        let origin = self.value::<Origin>(Spanned::new(place.clone(), DeValue::Table(origin)));
+        let origin = self.origin(place.clone(), origin);
         let mut row = self.value::<T>(Spanned::new(place.clone(), DeValue::Table(table)))?;
         *row.origin_mut() = origin?;
-        Some(Placed { row, place })
+        Some(Placed { row, place: self.placed(place) })
+    }
+
+    /// Where a row comes from. In a base each control has a source of its own, which is its text, or a table of
+    /// `source`, `confirmed` and `note` where these are its own too.
+    fn origin(&mut self, place: Range<usize>, mut table: DeTable<'_>) -> Option<Origin> {
+        let by_control = table.get("source").is_some_and(|source| source.get_ref().is_table());
+        if !by_control {
+            let mut origin = self.value::<Origin>(Spanned::new(place.clone(), DeValue::Table(table)))?;
+            origin.table = self.base.as_ref().map(|(base, _)| base.clone());
+            if self.base.is_some() && origin.confirmed {
+                let help = "write source = { NAME = \"...\" } with the source of each control";
+                self.fault(place, "a confirmed row of a base has a source for each control", help);
+            }
+            return Some(origin);
+        }
+        let Some((base, _)) = self.base.clone() else {
+            self.fault(
+                place,
+                "a source for each control stands in a base",
+                "write the source of this control",
+            );
+            return None;
+        };
+        let sources: BTreeMap<String, Source> = self.take(&mut table, "source")?;
+        let confirmed = self.take(&mut table, "confirmed").unwrap_or(true);
+        let note = self.take(&mut table, "note");
+        let origin = match sources.get(&self.control) {
+            Some(Source::Of(origin)) => origin.clone(),
+            Some(Source::Text(source)) => Origin { source: source.clone(), confirmed, note, table: None },
+            None => {
+                let named: Vec<&str> = sources.keys().map(String::as_str).collect();
+                let note =
+                    format!("known of {}, and no source of {} says so", named.join(", "), self.control);
+                Origin { source: "another control".into(), confirmed: false, note: Some(note), table: None }
+            }
+        };
+        Some(Origin { table: Some(base), ..origin })
     }
 
     /// Reads all rows of a section.
@@ -205,6 +277,25 @@ fn distance(a: &str, b: &str) -> usize {
         }
     }
     row.last().copied().unwrap_or(0)
+}
+
+/// The faults of a table and of its bases as text: the texts that their places count through, with their files.
+pub fn faults_of_files(files: &[(&str, &str)], faults: &[Diagnostic]) -> String {
+    let mut out = String::new();
+    for fault in faults {
+        let mut start = 0;
+        let mut files = files.iter().copied();
+        let found = files.find_map(|(file, text)| {
+            let here = fault.span.start as usize - start;
+            start += text.len();
+            ((fault.span.start as usize) < start).then_some((file, text, here))
+        });
+        let (file, text, here) = found.unwrap_or(("", "", 0));
+        let at = u32::try_from(here).unwrap_or(u32::MAX);
+        let placed = Diagnostic { span: Span::new(at, at), ..fault.clone() };
+        out += &faults_as_text(file, text, std::slice::from_ref(&placed));
+    }
+    out
 }
 
 /// The faults as text, one a line: file, line, what is wrong, what to do.

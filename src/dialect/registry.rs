@@ -1,7 +1,7 @@
 //! The list of dialects: the one place where a dialect is added, and so the one
 //! that names modules further right than its own.
 
-use super::{Dialect, load};
+use super::{Base, Dialect, faults_of_files, load};
 use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
@@ -95,6 +95,13 @@ static ENTRIES: [Entry; 4] = [
     ),
 ];
 
+/// The tables that others extend.
+pub static BASES: [Base<'static>; 1] = [Base {
+    name: "macro_b",
+    file: "dialects/macro_b.toml",
+    text: include_str!("../../dialects/macro_b.toml"),
+}];
+
 /// Every dialect.
 pub fn all() -> &'static [Entry] {
     &ENTRIES
@@ -108,7 +115,20 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 impl Entry {
     /// Its facts. A shipped table loads (a test says so); the faults are for one that is being edited.
     pub fn dialect(&self) -> Result<&Dialect, &[Diagnostic]> {
-        self.loaded.get_or_init(|| load(self.table)).as_ref().map_err(Vec::as_slice)
+        self.loaded.get_or_init(|| load(self.table, &BASES)).as_ref().map_err(Vec::as_slice)
+    }
+}
+
+impl Entry {
+    /// The texts that its facts are read from, with their files: its table, and those that tables extend.
+    pub fn files(&self) -> Vec<(&'static str, &'static str)> {
+        let bases = BASES.iter().map(|base| (base.file, base.text));
+        std::iter::once((self.file, self.table)).chain(bases).collect()
+    }
+
+    /// The faults of its table and of what it extends, one a line.
+    pub fn faults_as_text(&self, faults: &[Diagnostic]) -> String {
+        faults_of_files(&self.files(), faults)
     }
 }
 

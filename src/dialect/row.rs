@@ -20,6 +20,11 @@ pub trait Row: DeserializeOwned {
     /// Where it comes from, to be changed.
     fn origin_mut(&mut self) -> &mut Origin;
 
+    /// What a row of an extending table shares with the row that it stands for: its name, and where it holds.
+    fn full_key(&self) -> String {
+        self.key()
+    }
+
     /// The name that diagnostics give it and that a machine profile confirms it
     /// by: `behaviour:goto.forward.first`, `code:G10 L2`, `system:#5221`, `operator:and.bits`.
     fn fact(&self) -> String {
@@ -30,8 +35,12 @@ pub trait Row: DeserializeOwned {
     }
 }
 
+fn limited(key: String, machine: &Option<String>, when: &Option<String>) -> String {
+    format!("{key} {machine:?} {when:?}")
+}
+
 macro_rules! row {
-    ($($type:ident $section:literal $kind:literal |$row:ident| $key:expr;)*) => {$(
+    ($($type:ident $section:literal $kind:literal |$row:ident| $key:expr $(, $limits:ident)?;)*) => {$(
         impl Row for $type {
             const SECTION: &'static str = $section;
             const KIND: &'static str = $kind;
@@ -39,6 +48,9 @@ macro_rules! row {
                 let $row = self;
                 $key
             }
+            $(fn full_key(&self) -> String {
+                $limits(self.key(), &self.machine, &self.when)
+            })?
             fn origin(&self) -> &Origin {
                 &self.origin
             }
@@ -65,9 +77,9 @@ row! {
     SystemVariable "system" "system" |row| match row.first {
         Some(first) => format!("{}{first}", row.name),
         None => row.name.clone(),
-    };
-    WordMeaning "words" "word" |row| row.letter.clone();
-    CodeMeaning "codes" "code" |row| row.code.clone();
+    }, limited;
+    WordMeaning "words" "word" |row| row.letter.clone(), limited;
+    CodeMeaning "codes" "code" |row| row.code.clone(), limited;
     Argument "arguments" "argument" |row| row.letter.to_string();
     Setting "settings" "setting" |row| row.name.clone();
 }

@@ -101,6 +101,9 @@ pub struct Behaviour {
     pub question: Question,
     /// The answer: one that the question may have.
     pub value: String,
+    /// Where the answer is unknown: those that a source leaves open between.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub one_of: Vec<String>,
     /// The option that the answer is `true` by; without it it is `false`.
     #[serde(default)]
     pub option: Option<String>,

@@ -89,6 +89,11 @@ fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (Strin
             let message = format!("{} is not asked '{name}'", dialect.title);
             Err((message, "it has nothing that the question is about: take it out".into()))
         }
+        Some(row) if !row.one_of.is_empty() && !row.one_of.iter().any(|one| one == value) => {
+            let message =
+                format!("{name} is one of {} on this control, not '{value}'", row.one_of.join(", "));
+            Err((message, "the table's source says so: check it again".into()))
+        }
         Some(row) if !acts_by(dialect, row, value) => {
             let message = format!("{name} is '{}' in the table, and '{value}' is not converted", row.value);
             Err((message, "leave the programs out that hang on it".into()))
@@ -117,8 +122,8 @@ fn acts_by(dialect: &Dialect, row: &Behaviour, value: &str) -> bool {
 fn answer(dialect: &mut Dialect, question: Question, value: String) {
     let open = OPEN.contains(&value.as_str());
     let note = open.then(|| "the machine profile leaves it open".into());
-    let origin = Origin { source: "machine profile".into(), confirmed: !open, note };
-    let row = Behaviour { question, value, option: None, origin };
+    let origin = Origin { source: "machine profile".into(), confirmed: !open, note, table: None };
+    let row = Behaviour { question, value, one_of: Vec::new(), option: None, origin };
     match dialect.behaviours.iter_mut().find(|row| row.question == question) {
         Some(old) => *old = row,
         None => dialect.behaviours.push(row),

@@ -30,6 +30,11 @@ impl Control {
     pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {
         let title = &self.dialect().title;
         let note = note.unwrap_or("no source says so");
+        let row = Question::of_fact(fact).and_then(|question| self.behaviour(question));
+        let note = match row.map(|row| row.one_of.join(" or ")).filter(|answers| !answers.is_empty()) {
+            Some(answers) => format!("{note}; it is {answers}"),
+            None => note.into(),
+        };
         let what = format!("rests on the unconfirmed fact '{fact}' of the {side}, {title}: {note}");
         Diagnostic::new(Code::UnconfirmedFact, span, what)
             .with_help(self.to_settle(fact, side))
@@ -55,7 +60,7 @@ impl Control {
                 )
             }
             None if row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
-                Some(question) => to_answer(question, side),
+                Some(question) => to_answer(question, row.map_or(&[], |row| &row.one_of), side),
                 None => to_confirm(fact, side),
             },
             None => to_confirm(fact, side),
@@ -64,10 +69,10 @@ impl Control {
 }
 
 /// What to do about a question that nobody has answered.
-fn to_answer(question: Question, side: Side) -> String {
+fn to_answer(question: Question, one_of: &[String], side: Side) -> String {
     format!(
         "check it on the machine, then write '{question} = {}' under [behaviours] in the machine profile of the {side}",
-        question.answers().written()
+        question.answers().written(one_of)
     )
 }
 

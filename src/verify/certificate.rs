@@ -247,7 +247,9 @@ impl Identity {
     /// Of a control.
     pub fn of(control: &Control) -> Self {
         let mut hash = Sha256::new();
-        hash.update(control.entry().table.as_bytes());
+        for (_, text) in control.entry().files() {
+            hash.update(text.as_bytes());
+        }
         hash.update(format!("{:?}", control.profile()).as_bytes());
         Self { control: control.name().into(), sha256: hex(&hash.finalize()) }
     }

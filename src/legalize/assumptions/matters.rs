@@ -12,11 +12,14 @@ use crate::legalize::census::{Census, Thing};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
 
-/// True where something is computed, a cycle stands, or an arc by its radius has an end that counts increments.
+/// True where something is computed or called, a cycle stands, or an arc by its radius has an end that counts increments.
 pub fn concerns(census: &Census) -> bool {
     let computed =
         [Thing::Computed, Thing::System, Thing::Indirect].into_iter().any(|thing| census.has(thing));
-    computed || census.any_op(Op::is_cycle) || census.role(Role::ArcRadius) && census.has(Thing::Increments)
+    computed
+        || census.has(Thing::Call)
+        || census.any_op(Op::is_cycle)
+        || census.role(Role::ArcRadius) && census.has(Thing::Increments)
 }
 
 /// Reports what the programs of a library rest on.

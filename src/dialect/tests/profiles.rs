@@ -1,0 +1,137 @@
+//! Machine profiles, and the answers that they state.
+
+use super::{faults, refused};
+use crate::dialect::{Control, Profile, Question, Side, faults_as_text, registry};
+use crate::text::Span;
+
+#[test]
+fn profiles_say_what_is_wrong_and_where() {
+    let wrong = |text: &str, expected: &str| {
+        let faults = Control::from_profile(text).map(|_| ()).unwrap_err();
+        let faults = faults_as_text("p.toml", text, &faults);
+        assert!(faults.contains(expected), "expected '{expected}' in:\n{faults}");
+    };
+    wrong("dialect = \"fanuk\"", "p.toml:1:11: MG0203: no dialect is named 'fanuk'");
+    wrong("title = \"x\"", "the profile does not say its dialect");
+    wrong(
+        "dialect = \"fanuc\"\nmachin = \"mill\"",
+        "p.toml:2:1: MG0203: unknown key 'machin' (did you mean 'machine'?)",
+    );
+    wrong("dialect = \"fanuc\"\nmachine = \"router\"", "p.toml:2:11");
+    let lathe = "dialect = \"haas\"\nmachine = \"lathe\"";
+    wrong(lathe, "p.toml:2:11: MG0203: the table of Haas has no rows for a lathe");
+    wrong(
+        "dialect = \"fanuc\"\n[parameters]\n6004.1 = 1",
+        "p.toml:3:6: MG0203: Fanuc Custom Macro B has no setting 'parameter.6004.1'",
+    );
+    wrong("dialect = \"fanuc\"\n[parameters]\n6004.0 = 2", "'2' is no value of parameter.6004.0");
+    wrong("dialect = \"fanuc\"\nreserved = [\"500\"]", "p.toml:2:13: MG0203: '500' is no variable");
+    wrong("dialect = \"fanuc\"\nconfirm = [\"behaviour:vacancyy\"]", "did you mean 'behaviour:vacancy'?");
+    wrong("dialect = \"fanuc\"\nconfirm = [\"code:G5O\"]", "no fact is named 'code:G5O'");
+    wrong("dialect = \"fanuc\"\naxes = [\"X\", \"X\"]", "an axis stands twice");
+    wrong("dialect = \"fanuc\"\n[[site]]\ncode = \"20\"\ntext = \"x\"", "'20' is no code");
+    wrong(
+        "dialect = \"fanuc\"\n[[site]]\ncode = \"M20\"\nop = \"jump\"\ntext = \"x\"",
+        "'M20' cannot mean 'jump'",
+    );
+    let other = Profile::read("dialect = \"haas\"").unwrap();
+    let fanuc = registry::find("fanuc").unwrap();
+    assert!(Control::new(fanuc, other).is_err());
+}
+
+#[test]
+fn profiles_state_answers() {
+    let haas = |more: &str| Control::from_profile(&format!("dialect = \"haas\"\n{more}"));
+    let told = |more: &str| {
+        let control = haas(more).unwrap();
+        let row = control.behaviour(Question::DivideByZero).unwrap();
+        (row.value.clone(), row.origin.confirmed)
+    };
+    assert_eq!(told(""), ("unknown".into(), false));
+    for text in [
+        "[behaviours]\ndivide.by.zero = \"alarm\"",
+        "[behaviours]\n\"divide.by.zero\" = \"alarm\"",
+        "[behaviours.divide]\nby.zero = \"alarm\"",
+    ] {
+        assert_eq!(told(text), ("alarm".into(), true), "{text}");
+    }
+    let truth = haas("[behaviours]\nvacant.eq.zero = false").unwrap();
+    assert!(truth.behaviour(Question::VacantEqZero).unwrap().origin.confirmed);
+    // Silence of the table is an answer there; a profile may give another.
+    assert!(haas("").unwrap().behaviour(Question::CycleEndsByMotion).is_none());
+    let open = haas("[behaviours]\nalarm.offset = \"unknown\"");
+    assert!(open.is_err(), "a number is asked for");
+    let doubted = haas("[behaviours]\ndwell.bare = \"unknown\"").unwrap();
+    assert!(!doubted.behaviour(Question::DwellBare).unwrap().origin.confirmed);
+}
+
+#[test]
+fn profiles_state_no_wrong_answers() {
+    let wrong = |text: &str, expected: &str| {
+        let faults = Control::from_profile(text).map(|_| ()).unwrap_err();
+        let faults = faults_as_text("p.toml", text, &faults);
+        assert!(faults.contains(expected), "expected '{expected}' in:\n{faults}");
+    };
+    let haas = |line: &str, expected: &str| {
+        wrong(&format!("dialect = \"haas\"\n[behaviours]\n{line}"), expected);
+    };
+    haas(
+        "divide.by.zeroo = \"alarm\"",
+        "p.toml:3:11: MG0203: no behaviour is named 'divide.by.zeroo' (did you mean 'divide.by.zero'?)",
+    );
+    haas("divide.by.zero = \"stop\"", "'stop' is no value of divide.by.zero (it is one of alarm, unknown)");
+    haas("dwell.bare = 1", "'1' is no value of dwell.bare");
+    haas("sub.ends.at.next = true", "Haas is not asked 'sub.ends.at.next'");
+    haas("equal.tolerance = 0.001", "equal.tolerance is '0' in the table, and '0.001' is not converted");
+    haas("fix.toward.zero = false", "'false' is not converted");
+    // Another control of the family does so, and its conversion is there.
+    assert!(Control::from_profile("dialect = \"haas\"\n[behaviours]\nm99.p.jumps.here = false").is_ok());
+    wrong(
+        "dialect = \"fanuc\"\n[parameters]\n6004.0 = 0\n[behaviours]\natan2.range = \"-180..180\"",
+        "p.toml:5:7: MG0203: 'parameter.6004.0' says otherwise of atan2.range",
+    );
+    let fanuc = "dialect = \"fanuc\"\n[parameters]\n6004.0 = 1\n[behaviours]\natan2.range = \"-180..180\"";
+    assert!(Control::from_profile(fanuc).is_ok());
+}
+
+/// What stands in no row is confirmed by the name that a diagnostic gives it.
+#[test]
+fn profiles_confirm_what_has_no_row() {
+    for fact in ["word:E", "code:M77", "machine:code.M77", "argument:Q", "statement:read.bit", "function:tan"]
+    {
+        let text = format!("dialect = \"cc100\"\nconfirm = [\"{fact}\"]");
+        assert!(Control::from_profile(&text).is_ok(), "{fact}");
+    }
+}
+
+#[test]
+fn a_row_may_leave_open_which_of_several_answers_it_is() {
+    let row = |value: &str, one_of: &str| {
+        format!(
+            r#"behaviours = [{{ name = "dwell.point", value = "{value}", one_of = [{one_of}], source = "s", confirmed = false, note = "n" }}]"#
+        )
+    };
+    assert_eq!(faults(&row("unknown", r#""ms", "seconds""#)), "");
+    refused(&row("ms", r#""ms", "seconds""#), "dwell.point has an answer and is left open");
+    refused(&row("unknown", r#""ms", "hours""#), "'hours' is no value of dwell.point");
+    refused(&row("unknown", r#""ms""#), "'one_of' lists two answers or more");
+    refused(&row("unknown", r#""ms", "ms""#), "'one_of' lists two answers or more");
+    refused(&row("unknown", r#""ms", "unknown""#), "'one_of' lists two answers or more");
+}
+
+/// A question with so many answers open, and what a diagnostic says of it.
+#[test]
+fn what_is_open_between_answers_is_told_with_them() {
+    let mut control = Control::plain("haas").unwrap();
+    let told = |control: &Control| {
+        let fact = Question::DwellExpression.fact();
+        let finding = control.unconfirmed(Side::Source, fact, Some("not stated"), Span::new(0, 0));
+        (finding.message.to_string(), finding.help.unwrap().to_string())
+    };
+    let (message, help) = told(&control);
+    assert!(message.ends_with("of the source, Haas: not stated"), "{message}");
+    assert!(help.ends_with("'dwell.expression = \"ms\" or \"seconds\"' under [behaviours] in the machine profile of the source"), "{help}");
+    let row = control.dialect.behaviours.iter_mut().find(|row| row.question == Question::DwellExpression);
+    row.unwrap().one_of = vec!["ms".into(), "seconds".into()];
+    assert!(told(&control).0.ends_with("not stated; it is ms or seconds"));
+}
