@@ -2,7 +2,7 @@
 
 mod support;
 
-use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario, trace::Happening};
+use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario, trace::EventKind};
 use macroglot::dialect::{Control, Profile, Question, matters, registry};
 use macroglot::syntax::parse_file;
 use std::collections::BTreeSet;
@@ -121,7 +121,7 @@ fn unsure(profile: &str, program: &str) -> BTreeSet<String> {
     let (library, main) = (Library::new(&files), ProgramRef { file: 0, program: 0 });
     let run = (entry.execute.unwrap())(&library, main, &control, &Scenario::default());
     let facts = run.events.into_iter().filter_map(|event| match event.what {
-        Happening::Unsure { fact } => Some(fact),
+        EventKind::Unsure { fact } => Some(fact),
         _ => None,
     });
     facts.collect()

@@ -5,7 +5,7 @@ use machine::machine;
 use macroglot::control::LoadedFile;
 use macroglot::dialect::registry;
 use macroglot::syntax::parse_file;
-use macroglot::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, Spent, verify};
+use macroglot::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, verify};
 use std::path::PathBuf;
 
 #[path = "support/machine.rs"]
@@ -73,7 +73,7 @@ fn judge(pair: &Pair<'_>, target: &str) -> Certificate {
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
     let variables = pair.lock.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
-    let names = Names { variables, ..Names::default() };
+    let names = SymbolMap { variables, ..SymbolMap::default() };
     let (assumptions, effort) = (Assumptions::new(), Effort::default());
     verify(
         &Job {

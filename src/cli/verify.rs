@@ -7,7 +7,7 @@ use crate::control::LoadedFile;
 use crate::dialect::Control;
 use crate::library::{Files, Home, Input, Lock, Manifest, is_pending, write_file};
 use crate::syntax::{ParsedFile, parse_file};
-use crate::verify::{Assumptions, Certificate, Effort, Job, Names, Outcome, Side, Spent, verify};
+use crate::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, verify};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -96,12 +96,12 @@ fn tell_changed(home: &Home, theirs: &[Input]) -> Result<(), u8> {
 }
 
 /// What the lock of the target's output folder says.
-fn names(home: &Home, from: &Control, to: &Control) -> Result<Names, u8> {
+fn names(home: &Home, from: &Control, to: &Control) -> Result<SymbolMap, u8> {
     if from.is_same_machine(to) {
-        return Ok(Names::default());
+        return Ok(SymbolMap::default());
     }
     let lock = Lock::load(&home.folder.join(Lock::NAME), from.name(), to.name()).map_err(complain)?;
-    Ok(Names {
+    Ok(SymbolMap {
         variables: lock.variables,
         scratch: lock.scratch.into_iter().collect(),
         programs: lock.programs,
@@ -111,7 +111,7 @@ fn names(home: &Home, from: &Control, to: &Control) -> Result<Names, u8> {
 fn certify(
     (ours, source): (&[Input], &Control),
     (theirs, target): (&[Input], &Control),
-    names: &Names,
+    names: &SymbolMap,
     effort: Effort,
 ) -> Result<Certificate, u8> {
     let executor = |control: &Control| {

@@ -8,7 +8,7 @@
 //! Each dialect has an interpreter that reads its statements and expressions. What a block
 //! tells the machine they hand on in common terms (a [`machine::Command`]) to the one
 //! [`machine::Machine`], which keeps the state of the machine and writes the [`trace`].
-//! Whatever a control cannot say for certain is recorded as [`trace::Happening::Unsure`]
+//! Whatever a control cannot say for certain is recorded as [`trace::EventKind::Unsure`]
 //! where it mattered.
 //!
 //! Every run ends: it is bounded in steps, in events and in time.

@@ -1,6 +1,6 @@
 //! What a run amounts to.
 
-use super::machine::Left;
+use super::machine::ExitState;
 use super::trace::{Computed, Event, Place, Program};
 use crate::canon::{Func, Op};
 use serde::Serialize;
@@ -32,7 +32,7 @@ pub struct Run {
     pub modes: Vec<Op>,
     /// What was in force at its end; none where it did not end by itself.
     #[serde(skip)]
-    pub left: Option<Left>,
+    pub left: Option<ExitState>,
     /// The codes whose numbers it computed: the letter and the number.
     #[serde(skip)]
     pub computed_codes: Vec<Computed<(char, f64)>>,

@@ -5,7 +5,7 @@ use super::library::{Heard, Library, LoadedFile, ProgramRef, Sections};
 use super::machine::{GIVEN, Machine};
 use super::outcome::{Branches, End, Run, Stop};
 use super::scenario::Scenario;
-use super::trace::{Happening, Place, Program, Trace};
+use super::trace::{EventKind, Place, Program, Trace};
 use super::words::Increments;
 use crate::canon::{Op, Pause};
 use crate::diag::Severity;
@@ -151,7 +151,7 @@ impl<'r, 'f> Session<'r, 'f> {
         if let Some(entered) = self.programs.get_mut(program as usize) {
             entered.entry.keep_common(&now);
         }
-        self.trace.push(Happening::Enter { program, level });
+        self.trace.push(EventKind::Enter { program, level });
     }
 
     /// What is in force now of what a called program finds as its caller left it.
@@ -222,7 +222,7 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn answer(&mut self) -> f64 {
         let answer = self.scenario.answers.get(self.answered).copied().unwrap_or(0.0);
         self.answered += 1;
-        self.pause(Pause::Message, Happening::Asked { answer });
+        self.pause(Pause::Message, EventKind::Asked { answer });
         answer
     }
 
@@ -248,7 +248,7 @@ impl<'r, 'f> Session<'r, 'f> {
     }
 
     /// Stops the program: what the control ends then is ended first.
-    pub fn pause(&mut self, pause: Pause, what: Happening) {
+    pub fn pause(&mut self, pause: Pause, what: EventKind) {
         self.machine.pause(pause, what, &mut self.trace);
     }
 
@@ -280,7 +280,7 @@ impl<'r, 'f> Session<'r, 'f> {
     /// Notes that a variable which outlives the program was written, where the scenario asks for it.
     pub fn wrote(&mut self, name: impl FnOnce() -> String, value: Option<f64>) {
         if self.scenario.variable_events {
-            self.trace.push(Happening::Variable { name: name(), value });
+            self.trace.push(EventKind::Variable { name: name(), value });
         }
     }
 

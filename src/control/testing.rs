@@ -1,7 +1,7 @@
 //! What the tests of the interpreters share: running text and the corpus, and the events by kind.
 
 use super::library::{Library, LoadedFile, ProgramRef};
-use super::trace::{Happening, Position};
+use super::trace::{EventKind, Position};
 use super::{End, Run, Scenario};
 use crate::dialect::{Control, registry};
 use crate::syntax::parse_file;
@@ -44,7 +44,7 @@ pub fn answering(answers: &[f64]) -> Scenario {
 /// The ends of the straight moves at feed, X, Y and Z.
 pub fn feeds(run: &Run) -> Vec<[f64; 3]> {
     let ends = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Feed { to, .. } => Some(xyz(to)),
+        EventKind::Feed { to, .. } => Some(xyz(to)),
         _ => None,
     });
     ends.collect()
@@ -53,7 +53,7 @@ pub fn feeds(run: &Run) -> Vec<[f64; 3]> {
 /// The holes, X, Y and bottom.
 pub fn holes(run: &Run) -> Vec<[f64; 3]> {
     let holes = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Hole { at, bottom, .. } => Some([at.0[0], at.0[1], *bottom]),
+        EventKind::Hole { at, bottom, .. } => Some([at.0[0], at.0[1], *bottom]),
         _ => None,
     });
     holes.collect()
@@ -62,7 +62,7 @@ pub fn holes(run: &Run) -> Vec<[f64; 3]> {
 /// The lines of output.
 pub fn output(run: &Run) -> Vec<&str> {
     let lines = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Output { text } => Some(text.as_str()),
+        EventKind::Output { text } => Some(text.as_str()),
         _ => None,
     });
     lines.collect()
@@ -71,7 +71,7 @@ pub fn output(run: &Run) -> Vec<&str> {
 /// The facts that mattered and are not confirmed.
 pub fn doubts(run: &Run) -> Vec<&str> {
     let facts = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Unsure { fact } => Some(fact.as_str()),
+        EventKind::Unsure { fact } => Some(fact.as_str()),
         _ => None,
     });
     facts.collect()

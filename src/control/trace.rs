@@ -4,9 +4,9 @@
 //! per minute or per turn, times seconds, whatever the units of the program. `docs/trace.md`
 //! describes the JSON form.
 
-mod happening;
+mod event_kind;
 
-pub use happening::*;
+pub use event_kind::*;
 
 use super::entry::Entry;
 use super::outcome::Stop;
@@ -23,7 +23,7 @@ pub struct Event {
     pub at: Place,
     /// What happened.
     #[serde(flatten)]
-    pub what: Happening,
+    pub what: EventKind,
     /// How far its positions may lie from where exact numbers would have put them, because words have a least
     /// increment; millimetres.
     #[serde(skip)]
@@ -156,9 +156,9 @@ impl Trace {
     }
 
     /// Records an event of the present block.
-    pub fn push(&mut self, what: Happening) {
+    pub fn push(&mut self, what: EventKind) {
         let text = match &what {
-            Happening::Message { text } | Happening::Output { text } => text.len(),
+            EventKind::Message { text } | EventKind::Output { text } => text.len(),
             _ => 0,
         };
         match self.room.checked_sub(text) {
@@ -255,7 +255,7 @@ impl Trace {
             && !self.confirmed.iter().any(|name| name == fact)
             && self.doubted.insert((fact.into(), self.at))
         {
-            self.push(Happening::Unsure { fact: fact.into() });
+            self.push(EventKind::Unsure { fact: fact.into() });
         }
     }
 
@@ -269,10 +269,10 @@ impl Trace {
     /// Records an alarm.
     pub fn alarm(&mut self, stop: &Stop) {
         // The alarm is the one event that a full trace still takes.
-        self.events.push(self.event(Happening::Alarm(stop.clone())));
+        self.events.push(self.event(EventKind::Alarm(stop.clone())));
     }
 
-    fn event(&self, what: Happening) -> Event {
+    fn event(&self, what: EventKind) -> Event {
         Event { at: self.at, what, rounded: self.rounded, told: Told::Plain, open: self.open }
     }
 }

@@ -1,6 +1,6 @@
 //! Builds a program's blocks from a run of statements with labels and jumps.
 
-use super::{Block, BlockId, Callee, Program, Site, Stmt, StmtKind, TermKind, Terminator};
+use super::{Block, BlockId, Callee, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator};
 use crate::syntax::{Label, ProgramName};
 use smallvec::SmallVec;
 
@@ -53,7 +53,7 @@ impl Builder {
     /// Goes on in the block `id`, once; the present one falls through to it unless it is ended.
     pub fn start(&mut self, id: BlockId) {
         if self.open {
-            self.end(TermKind::Jump(id), Site::default());
+            self.end(TermKind::Jump(id), SourceInfo::default());
         }
         self.current = id;
         self.open = true;
@@ -61,7 +61,7 @@ impl Builder {
         *slot = Some(Block {
             labels: SmallVec::new(),
             stmts: Vec::new(),
-            term: Terminator { kind: TermKind::Stray, site: Site::default() },
+            term: Terminator { kind: TermKind::Stray, site: SourceInfo::default() },
         });
         self.order.push(id);
     }
@@ -79,13 +79,13 @@ impl Builder {
 
     /// Adds a statement; behind an ended block it starts an unreachable one.
     #[inline]
-    pub fn push(&mut self, kind: StmtKind, site: Site) {
+    pub fn push(&mut self, kind: StmtKind, site: SourceInfo) {
         self.reopen();
         self.with_current(|block| block.stmts.push(Stmt { kind, site }));
     }
 
     /// Ends the present block.
-    pub fn end(&mut self, kind: TermKind, site: Site) {
+    pub fn end(&mut self, kind: TermKind, site: SourceInfo) {
         self.reopen();
         self.with_current(|block| {
             block.term = Terminator { kind, site };
@@ -102,7 +102,7 @@ impl Builder {
     }
 
     /// Ends the present block and goes on in a fresh one, which `kind` may name.
-    pub fn end_then(&mut self, site: Site, kind: impl FnOnce(BlockId) -> TermKind) -> BlockId {
+    pub fn end_then(&mut self, site: SourceInfo, kind: impl FnOnce(BlockId) -> TermKind) -> BlockId {
         let next = self.fresh();
         self.end(kind(next), site);
         self.start(next);
@@ -140,7 +140,7 @@ impl Builder {
     }
 
     /// The finished program. An open block ends in [`TermKind::Stray`].
-    pub fn finish(mut self, name: Option<ProgramName>, file: usize, site: Site) -> Program {
+    pub fn finish(mut self, name: Option<ProgramName>, file: usize, site: SourceInfo) -> Program {
         for index in 0..self.blocks.len() {
             if self.blocks[index].is_none() {
                 self.open = false;

@@ -66,7 +66,7 @@ mod walk;
 pub use build::Builder;
 pub use expr::{BinOp, Cond, Expr, Relation};
 pub use stmt::{
-    Argument, Bank, Call, Callee, Class, Nc, NcItem, OutputPart, Place, PrintPart, Remark, Site, Stmt,
+    Argument, Bank, Call, Callee, Class, Nc, NcItem, OutputPart, Place, PrintPart, Remark, SourceInfo, Stmt,
     StmtKind, TermKind, Terminator, Var,
 };
 pub use validate::{Valid, validate};
@@ -93,7 +93,7 @@ pub struct Program {
     /// Which file of the library it stands in.
     pub file: usize,
     /// The block that names it: comments, span.
-    pub site: Site,
+    pub site: SourceInfo,
     /// Its blocks, in source order. Block 0 is the entry.
     pub blocks: Vec<Block>,
 }

@@ -93,7 +93,7 @@ impl Place {
 
 /// Where a statement comes from and what people wrote beside it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Site {
+pub struct SourceInfo {
     /// The bytes of the block in its file.
     pub span: Span,
     /// Its sequence number.
@@ -120,7 +120,7 @@ pub struct Stmt {
     /// What it does.
     pub kind: StmtKind,
     /// Where it comes from.
-    pub site: Site,
+    pub site: SourceInfo,
 }
 
 /// What a statement does.
@@ -241,7 +241,7 @@ pub struct Terminator {
     /// How the block ends.
     pub kind: TermKind,
     /// Where it comes from; default for a mere fall-through.
-    pub site: Site,
+    pub site: SourceInfo,
 }
 
 /// How a block ends.
@@ -254,9 +254,9 @@ pub enum TermKind {
         /// Which.
         cond: Cond,
         /// Where it holds.
-        yes: BlockId,
+        then: BlockId,
         /// Where it does not.
-        no: BlockId,
+        otherwise: BlockId,
     },
     /// Goes on at the block whose label is the value, rounded to nearest; stops with an
     /// alarm where none is.
@@ -329,7 +329,7 @@ impl TermKind {
     pub fn successors(&self) -> SmallVec<[BlockId; 2]> {
         match self {
             TermKind::Jump(to) | TermKind::Call { next: to, .. } => SmallVec::from_buf_and_len([*to; 2], 1),
-            TermKind::Branch { yes, no, .. } => SmallVec::from_buf([*yes, *no]),
+            TermKind::Branch { then, otherwise, .. } => SmallVec::from_buf([*then, *otherwise]),
             TermKind::Computed { targets, .. } => targets.iter().map(|(_, to)| *to).collect(),
             TermKind::Return { .. } | TermKind::Chain(_) | TermKind::End { .. } | TermKind::Stray => {
                 SmallVec::new()
@@ -341,9 +341,9 @@ impl TermKind {
     pub fn for_each_target(&mut self, f: &mut dyn FnMut(&mut BlockId)) {
         match self {
             TermKind::Jump(to) => f(to),
-            TermKind::Branch { yes, no, .. } => {
-                f(yes);
-                f(no);
+            TermKind::Branch { then, otherwise, .. } => {
+                f(then);
+                f(otherwise);
             }
             TermKind::Computed { targets, .. } => targets.iter_mut().for_each(|(_, to)| f(to)),
             TermKind::Call { call, next } => {

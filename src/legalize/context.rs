@@ -1,7 +1,7 @@
 //! What every pass is given: both controls, and a place for what it finds.
 
 use super::Modal;
-use super::census::Census;
+use super::features::Features;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
@@ -31,7 +31,7 @@ pub struct Context<'a> {
     /// What computed numbers of variables reach, until registers are taken.
     pub(super) reached: Reached,
     /// What stands in the library, as it was last counted: perhaps less by now, never more.
-    pub(super) census: Census,
+    pub(super) features: Features,
     /// How much is optimized.
     pub level: Level,
     /// What earlier runs chose.
@@ -69,7 +69,7 @@ impl<'a> Context<'a> {
             faults: Vec::new(),
             origins: (0..programs).collect(),
             reached: Reached::default(),
-            census: Census::default(),
+            features: Features::default(),
             level: Level::default(),
             locked: Locked::default(),
             registers: Registers::default(),

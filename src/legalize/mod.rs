@@ -12,11 +12,11 @@
 
 mod assumptions;
 mod calls;
-mod census;
 mod codes;
 mod context;
 mod cycles;
 mod expressions;
+mod features;
 mod layout;
 mod moves;
 mod offsets;
@@ -27,8 +27,8 @@ mod variables;
 
 pub use crate::ir::analysis::{Modal, ModalFacts, Setting, calls_of, reachable, replace_statements, span_of};
 pub use context::Context;
-pub use expressions::oversize::shares_line;
+pub use expressions::split::shares_line;
 pub use layout::program_numbers::ProgramNumbers;
-pub use rewrite::{Position, Prelude, Rewriter, Wanted, rewrite_program};
+pub use rewrite::{Position, PreStatement, Rewriter, Wanted, rewrite_program};
 pub use variables::locked::Locked;
 pub use variables::registers::{Register, Registers};

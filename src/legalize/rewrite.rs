@@ -3,7 +3,7 @@
 use crate::canon::Role;
 use crate::ir::{
     BinOp, BlockId, Builder, Call, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program,
-    Site, Stmt, StmtKind, TermKind, Terminator, Var,
+    SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::text::Span;
 use std::collections::VecDeque;
@@ -31,7 +31,7 @@ pub enum Position {
 
 /// What runs before the statement whose expression was rewritten.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Prelude {
+pub enum PreStatement {
     /// An assignment.
     Assign(Var, Expr),
     /// An assignment under a condition.
@@ -42,7 +42,7 @@ pub enum Prelude {
 
 /// Collects what must run before a statement.
 pub struct Rewriter<'a> {
-    prelude: Vec<Prelude>,
+    prelude: Vec<PreStatement>,
     next_temp: &'a mut u32,
     /// The bytes that the statement came from.
     pub span: Span,
@@ -56,28 +56,28 @@ impl Rewriter<'_> {
     }
 
     /// Runs something first.
-    pub fn first(&mut self, step: Prelude) {
+    pub fn first(&mut self, step: PreStatement) {
         self.prelude.push(step);
     }
 
     /// Computes `value` first, and yields the temporary that holds it: an operand, which counts as 0 when vacant,
     /// so that it can be compared like the number it is.
-    pub fn hold(&mut self, value: Expr) -> Var {
+    pub fn materialize(&mut self, value: Expr) -> Var {
         let temp = self.temp();
         let value = match value {
             Expr::Vacant => Expr::Number(0.0),
             value if value.may_be_vacant() => Expr::binary(BinOp::Add, value, Expr::Number(0.0)),
             value => value,
         };
-        self.first(Prelude::Assign(temp, value));
+        self.first(PreStatement::Assign(temp, value));
         temp
     }
 
-    /// Like [`Rewriter::hold`], but leaves constants and temporaries as they are.
+    /// Like [`Rewriter::materialize`], but leaves constants and temporaries as they are.
     pub fn held(&mut self, value: Expr) -> Expr {
         match value {
             Expr::Number(_) | Expr::Var(Var { class: Class::Temp, .. }) => value,
-            other => Expr::Var(self.hold(other)),
+            other => Expr::Var(self.materialize(other)),
         }
     }
 }
@@ -150,7 +150,7 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
         rewrite(e, position, rewriter)
     };
     let mut next_temp = highest_temp(program);
-    let mut preludes: VecDeque<(usize, usize, Vec<Prelude>)> = VecDeque::new();
+    let mut preludes: VecDeque<(usize, usize, Vec<PreStatement>)> = VecDeque::new();
     for (id, block) in program.blocks.iter_mut().enumerate() {
         let mut each = |at: usize, span: Span, walk: &mut dyn FnMut(&mut Each<'_>)| {
             let mut rewriter = Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span };
@@ -200,36 +200,36 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
 
 /// What runs first at a place, where that is the next one that something does at.
 fn next_at(
-    preludes: &mut VecDeque<(usize, usize, Vec<Prelude>)>,
+    preludes: &mut VecDeque<(usize, usize, Vec<PreStatement>)>,
     place: (usize, usize),
-) -> Option<Vec<Prelude>> {
+) -> Option<Vec<PreStatement>> {
     preludes.front().filter(|(id, at, _)| (*id, *at) == place)?;
     preludes.pop_front().map(|(.., prelude)| prelude)
 }
 
-fn lay(builder: &mut Builder, prelude: Vec<Prelude>, site: &Site) {
+fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &SourceInfo) {
     // A skipped block skips its prelude with it; comments and number stay with the statement.
     // It has no place of its own in the source, so that optimization may tidy it.
-    let site = || Site { skip: site.skip, ..Site::default() };
+    let site = || SourceInfo { skip: site.skip, ..SourceInfo::default() };
     for step in prelude {
         match step {
-            Prelude::Assign(var, value) => {
+            PreStatement::Assign(var, value) => {
                 builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
             }
-            Prelude::When(cond, var, value) => {
-                let (yes, no) = (builder.fresh(), builder.fresh());
+            PreStatement::When(cond, var, value) => {
+                let (then, otherwise) = (builder.fresh(), builder.fresh());
                 if cond.may_alarm() {
-                    unless_skipped(builder, site().skip, no);
+                    unless_skipped(builder, site().skip, otherwise);
                 }
-                builder.end(TermKind::Branch { cond, yes, no }, Site::default());
-                builder.start(yes);
+                builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+                builder.start(then);
                 builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
-                builder.start(no);
+                builder.start(otherwise);
             }
-            Prelude::Call(call) => {
+            PreStatement::Call(call) => {
                 let behind = builder.fresh();
                 unless_skipped(builder, site().skip, behind);
-                builder.end(TermKind::Call { call: Box::new(call), next: behind }, Site::default());
+                builder.end(TermKind::Call { call: Box::new(call), next: behind }, SourceInfo::default());
                 builder.start(behind);
             }
         }
@@ -240,7 +240,11 @@ fn lay(builder: &mut Builder, prelude: Vec<Prelude>, site: &Site) {
 pub(super) fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
     if let Some(level) = skip {
         let cond = Cond::Switch(level);
-        builder.end_then(Site::default(), |no| TermKind::Branch { cond, yes: behind, no });
+        builder.end_then(SourceInfo::default(), |otherwise| TermKind::Branch {
+            cond,
+            then: behind,
+            otherwise,
+        });
     }
 }
 

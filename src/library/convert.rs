@@ -1,7 +1,7 @@
 //! A library from one control to another: read, lower, link, legalize, emit.
 
+use super::chunks::lower::lower;
 use super::compile::make;
-use super::parts::lower;
 use super::prepare::{Prepared, prepare};
 use super::refused_calls::{self, Link};
 use super::{Input, Lock};
@@ -83,7 +83,7 @@ pub fn convert(
         return unchanged(inputs, source, lock);
     }
     let lock = lock.for_run(inputs.iter().map(|input| input.name.as_str()));
-    if let Some(done) = super::segments::convert(inputs, source, target, &lock, options) {
+    if let Some(done) = super::chunks::convert::convert(inputs, source, target, &lock, options) {
         return done;
     }
     let Prepared { module, found, files, written } = prepare(inputs, source, target);

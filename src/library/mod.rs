@@ -5,6 +5,7 @@
 //! of it, kept in `macroglot.lock` so that the next run makes the same choices.
 
 mod callees;
+mod chunks;
 mod compile;
 mod convert;
 mod detect;
@@ -15,15 +16,12 @@ mod lock;
 mod machine_kind;
 mod names;
 mod outputs;
-mod parts;
 mod partway;
-mod pieces;
 mod places;
 mod prepare;
 mod project;
 mod publish;
 mod refused_calls;
-mod segments;
 mod verified;
 mod walk;
 mod withdrawn;

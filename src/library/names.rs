@@ -43,19 +43,19 @@ pub fn naming(module: &Module, registers: &Registers, names: &[(ProgramName, u32
 
 /// Reports programs that share a number: only one of them can be in a control. Where the library calls
 /// that number it is not known which one is meant.
-pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnostic>]) {
-    let mut twins: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
+pub fn report_duplicates(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnostic>]) {
+    let mut duplicates: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
     for (index, program) in module.programs.iter().enumerate() {
         if let Some(name) = &program.name {
-            twins.entry(name).or_default().push(index);
+            duplicates.entry(name).or_default().push(index);
         }
     }
-    twins.retain(|_, indexes| indexes.len() > 1);
+    duplicates.retain(|_, indexes| indexes.len() > 1);
     let place = |index: &usize| {
         let file = module.programs[*index].file;
         inputs.get(file).map_or("", |input| input.name.as_str())
     };
-    for (name, indexes) in &twins {
+    for (name, indexes) in &duplicates {
         let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         indexes.iter().for_each(|index| *places.entry(place(index)).or_default() += 1);
         for index in indexes {
@@ -67,7 +67,7 @@ pub fn report_twins(module: &Module, inputs: &[Input], found: &mut [Vec<Diagnost
     }
     let all = |indexes: &Vec<usize>| indexes.iter().map(place).collect::<Vec<_>>().join(", ");
     let places: BTreeMap<&ProgramName, String> =
-        twins.iter().map(|(name, indexes)| (*name, all(indexes))).collect();
+        duplicates.iter().map(|(name, indexes)| (*name, all(indexes))).collect();
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
             let modal = calls_of(block).map(|call| &call.callee);

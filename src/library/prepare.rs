@@ -1,8 +1,8 @@
 //! A library as the passes get it: all files lowered into one module, with what was found in them.
 
+use super::chunks::lower::lower;
 use super::convert::same_family;
-use super::names::report_twins;
-use super::parts::lower;
+use super::names::report_duplicates;
 use super::{Input, machine_kind};
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
@@ -47,7 +47,7 @@ pub(super) fn prepare(inputs: &[Input], source: &Control, target: &Control) -> P
     }
     let written = module.programs.iter().map(|p| p.name.as_ref().map(ToString::to_string)).collect();
     name_the_nameless(&mut module, inputs, source, target);
-    report_twins(&module, inputs, &mut found);
+    report_duplicates(&module, inputs, &mut found);
     machine_kind::report(&module, inputs, source, &mut found);
     Prepared { module, found, files, written }
 }

@@ -10,7 +10,7 @@ use crate::dialect::Control;
 use crate::ir::analysis::dataflow::reached;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
-use crate::verify::{self, Certificate, Effort, Job, Names, ProgramCertificate, Side, Spent};
+use crate::verify::{self, Certificate, Effort, Job, ProgramCertificate, Side, Spent, SymbolMap};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -79,7 +79,7 @@ pub fn judge(
         .collect();
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
     let lock = &conversion.lock;
-    let names = Names {
+    let names = SymbolMap {
         variables: lock.variables.clone(),
         scratch: lock.scratch.iter().copied().collect(),
         programs: lock.programs.clone(),

@@ -14,7 +14,7 @@
 use super::fold::fold;
 use super::pass::{Level, Library, Pass};
 use crate::ir::eval::{Memory, holds};
-use crate::ir::{Block, BlockId, Callee, Cond, Expr, Program, Site, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Callee, Cond, Expr, Program, SourceInfo, StmtKind, TermKind};
 
 /// The pass.
 pub struct Branches;
@@ -26,7 +26,7 @@ impl Pass for Branches {
 
     fn run(&self, program: &mut Program, _: &Library, level: Level) {
         for block in &mut program.blocks {
-            if level >= Level::O2 || block.term.site == Site::default() {
+            if level >= Level::O2 || block.term.site == SourceInfo::default() {
                 simplify(&mut block.term.kind);
             }
         }
@@ -35,11 +35,11 @@ impl Pass for Branches {
 }
 
 fn simplify(kind: &mut TermKind) {
-    let TermKind::Branch { cond, yes, no } = kind else { return };
+    let TermKind::Branch { cond, then, otherwise } = kind else { return };
     if let Some(way) = settled(cond) {
-        *kind = TermKind::Jump(if way { *yes } else { *no });
-    } else if yes == no && !cond.may_alarm() {
-        *kind = TermKind::Jump(*yes);
+        *kind = TermKind::Jump(if way { *then } else { *otherwise });
+    } else if then == otherwise && !cond.may_alarm() {
+        *kind = TermKind::Jump(*then);
     }
 }
 
@@ -91,7 +91,7 @@ fn end_of(program: &Program, from: BlockId) -> BlockId {
 
 /// Where a block leads that does nothing else.
 fn passage(block: &Block) -> Option<BlockId> {
-    let empty = block.labels.is_empty() && block.stmts.is_empty() && block.term.site == Site::default();
+    let empty = block.labels.is_empty() && block.stmts.is_empty() && block.term.site == SourceInfo::default();
     match block.term.kind {
         TermKind::Jump(to) if empty => Some(to),
         _ => None,

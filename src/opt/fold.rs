@@ -11,7 +11,7 @@
 
 use super::pass::{Level, Library, Pass};
 use crate::ir::eval::{AtanRange, Memory, eval};
-use crate::ir::{Class, Expr, Place, Program, Site, Stmt, StmtKind, Var};
+use crate::ir::{Class, Expr, Place, Program, SourceInfo, Stmt, StmtKind, Var};
 
 /// The pass.
 pub struct Fold;
@@ -31,7 +31,7 @@ impl Pass for Fold {
                     stmt.kind.exprs_mut(&mut fold);
                 }
             }
-            if level >= Level::O2 || block.term.site == Site::default() {
+            if level >= Level::O2 || block.term.site == SourceInfo::default() {
                 block.term.kind.exprs_mut(&mut fold);
             }
         }
@@ -41,7 +41,8 @@ impl Pass for Fold {
 /// True for a statement that no source block stands behind.
 fn is_introduced(stmt: &Stmt) -> bool {
     let temp = |target: &Place| matches!(target, Place::Var(Var { class: Class::Temp, .. }));
-    stmt.site == Site::default() || matches!(&stmt.kind, StmtKind::Assign { target, .. } if temp(target))
+    stmt.site == SourceInfo::default()
+        || matches!(&stmt.kind, StmtKind::Assign { target, .. } if temp(target))
 }
 
 /// Folds the operations of an expression, innermost first.

@@ -8,8 +8,8 @@
 //! Each pass states its law, its side condition and a counter-example to leaving that out.
 
 mod branches;
-mod copies;
-mod dead_temps;
+mod copy_propagation;
+mod dead_stores;
 mod fold;
 mod pass;
 #[cfg(test)]
@@ -18,8 +18,8 @@ mod retarget;
 mod unreachable;
 
 pub use branches::Branches;
-pub use copies::Copies;
-pub use dead_temps::DeadTemps;
+pub use copy_propagation::CopyPropagation;
+pub use dead_stores::DeadStores;
 pub use fold::Fold;
 pub use fold::fold;
 pub use pass::{Level, Library, PASSES, Pass, find, run};

@@ -1,6 +1,6 @@
 //! Passes, and what runs them.
 
-use super::{branches::Branches, copies::Copies, dead_temps::DeadTemps, fold::Fold};
+use super::{branches::Branches, copy_propagation::CopyPropagation, dead_stores::DeadStores, fold::Fold};
 use super::{retarget::Retarget, unreachable::Unreachable};
 use crate::ir::analysis::{Summaries, Ways};
 use crate::ir::validate::Invalid;
@@ -65,7 +65,7 @@ pub trait Pass: Sync {
 }
 
 /// All passes, in the order in which they run.
-pub const PASSES: &[&dyn Pass] = &[&Copies, &Fold, &Retarget, &Branches, &Unreachable, &DeadTemps];
+pub const PASSES: &[&dyn Pass] = &[&CopyPropagation, &Fold, &Retarget, &Branches, &Unreachable, &DeadStores];
 
 /// The pass of a name.
 pub fn find(name: &str) -> Option<&'static dyn Pass> {

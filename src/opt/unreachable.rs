@@ -11,7 +11,7 @@
 
 use super::pass::{Level, Library, Pass};
 use crate::ir::analysis::dataflow::reached_among;
-use crate::ir::{Block, BlockId, Callee, Program, Site, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Callee, Program, SourceInfo, StmtKind, TermKind};
 use crate::syntax::Label;
 
 /// The pass.
@@ -52,7 +52,7 @@ fn returns_here(program: &Program) -> bool {
 
 fn is_introduced(block: &Block) -> bool {
     let sites = block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]);
-    block.labels.is_empty() && sites.into_iter().all(|site| *site == Site::default())
+    block.labels.is_empty() && sites.into_iter().all(|site| *site == SourceInfo::default())
 }
 
 /// The blocks that calls of a block enter.

@@ -3,7 +3,7 @@
 mod view;
 
 use super::html::escaped;
-use crate::control::trace::{Event, Happening};
+use crate::control::trace::{Event, EventKind};
 use std::fmt::Write;
 use view::{Bounds, View};
 
@@ -183,15 +183,15 @@ impl Path {
         let mut path = Path::default();
         for event in events {
             match &event.what {
-                Happening::Rapid { from, to } => path.line(Kind::Rapid, point(&from.0), point(&to.0)),
-                Happening::Feed { from, to, .. } | Happening::Thread { from, to, .. } => {
+                EventKind::Rapid { from, to } => path.line(Kind::Rapid, point(&from.0), point(&to.0)),
+                EventKind::Feed { from, to, .. } | EventKind::Thread { from, to, .. } => {
                     path.line(Kind::Cut, point(&from.0), point(&to.0));
                 }
-                Happening::Probe { from, to, hit, .. } => {
+                EventKind::Probe { from, to, hit, .. } => {
                     path.line(Kind::Cut, point(&from.0), point(&to.0));
                     path.touches.extend(hit.then(|| point(&to.0)));
                 }
-                Happening::Arc { from, to, centre, plane, sweep, .. } => {
+                EventKind::Arc { from, to, centre, plane, sweep, .. } => {
                     let axes = match plane {
                         crate::control::trace::Plane::Xy => (0, 1, 2),
                         crate::control::trace::Plane::Zx => (2, 0, 1),
@@ -199,7 +199,7 @@ impl Path {
                     };
                     path.arc((point(&from.0), point(&to.0)), point(&centre.0), axes, *sweep);
                 }
-                Happening::Hole { at, .. } => path.holes.push(point(&at.0)),
+                EventKind::Hole { at, .. } => path.holes.push(point(&at.0)),
                 _ => {}
             }
         }

@@ -1,6 +1,6 @@
 //! The trace of a run, for people and for programs. `docs/trace.md` describes both.
 
-use crate::control::trace::{AXIS_NAMES, Event, Happening, Position, Program};
+use crate::control::trace::{AXIS_NAMES, Event, EventKind, Position, Program};
 use crate::control::{End, Heard, Run};
 use crate::library::Input;
 use crate::text::{LineIndex, shown, write_json};
@@ -30,7 +30,7 @@ pub struct TraceWriter<'a, W> {
 #[derive(Serialize)]
 struct Line<'a> {
     #[serde(flatten)]
-    what: &'a Happening,
+    what: &'a EventKind,
     program: &'a str,
     file: &'a str,
     line: u32,
@@ -165,8 +165,8 @@ fn long(value: f64) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
-fn describe(what: &Happening, programs: &[Program]) -> String {
-    use Happening::*;
+fn describe(what: &EventKind, programs: &[Program]) -> String {
+    use EventKind::*;
     match what {
         Rapid { from, to } => format!("rapid  {}", axes(from, to)),
         Feed { from, to, feed, .. } => format!("feed   {}  F{}", axes(from, to), number(*feed)),

@@ -1,7 +1,7 @@
 //! Fanuc Custom Macro B.
 
 use super::Block;
-use super::macro_b::{self, Keep, Known, Reading, Row, Rules, bits_among_arithmetic, lexemes_of_rules};
+use super::macro_b::{self, Keep, ParseCache, Reading, Row, Rules, bits_among_arithmetic, lexemes_of_rules};
 use crate::text::Span;
 use std::cell::RefCell;
 
@@ -18,7 +18,7 @@ use grammar::{Grammar, Rule};
 lexemes_of_rules!(Rule);
 
 thread_local! {
-    static KNOWN: RefCell<Known> = RefCell::default();
+    static KNOWN: RefCell<ParseCache> = RefCell::default();
 }
 
 pub(super) const RULES: Rules = Rules {

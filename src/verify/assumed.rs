@@ -5,11 +5,11 @@
 //! known here.
 
 use super::compare::Difference;
-use super::names::Names;
 use super::program::Job;
 use super::side::Side;
+use super::symbol_map::SymbolMap;
 use crate::assume::{Assumption, Predicate};
-use crate::control::trace::{Computed, Event, Happening};
+use crate::control::trace::{Computed, Event, EventKind};
 use crate::control::{End, ProgramRef, Run};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -220,8 +220,8 @@ fn nesting(run: &Run, counts: [bool; 2], most: u32) -> Held {
     let mut open: Vec<bool> = Vec::new();
     for (before, event) in run.events.iter().enumerate() {
         match event.what {
-            Happening::Enter { level, .. } => open.push(counts[usize::from(level)]),
-            Happening::Leave => drop(open.pop()),
+            EventKind::Enter { level, .. } => open.push(counts[usize::from(level)]),
+            EventKind::Leave => drop(open.pop()),
             _ => continue,
         }
         let depth = open.iter().filter(|counts| **counts).count();
@@ -251,7 +251,7 @@ fn alarm(run: &Run, (side, program): (&Side<'_>, ProgramRef), most: f64) -> Held
 }
 
 /// Numbers that scenarios must try for what is assumed of a program, and of those that a person would say it calls.
-pub fn telling_numbers(assumptions: &Assumptions, program: ProgramRef, names: &Names) -> Vec<f64> {
+pub fn telling_numbers(assumptions: &Assumptions, program: ProgramRef, names: &SymbolMap) -> Vec<f64> {
     let held: Vec<u32> = names.variables.values().copied().collect();
     let all = assumptions.get(&program).into_iter().flatten();
     all.flat_map(|assumption| assumption.predicate.telling_numbers(&held)).collect()

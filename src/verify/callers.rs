@@ -7,7 +7,7 @@
 
 use super::assumed::{excuse, tried};
 use super::compare::{Tolerance, compare, is_cut};
-use super::given::{Given, Gives, given_by};
+use super::entry_state::{EntryState, Gives, given_by};
 use super::inputs::inputs;
 use super::program::Job;
 use super::scenarios::{Proposals, on_target, unit};
@@ -58,7 +58,7 @@ pub struct Through {
 
 impl Through {
     /// True where something calls the program, and no such run could show what it does then.
-    pub fn is_alone(&self, given: &Given) -> bool {
+    pub fn is_alone(&self, given: &EntryState) -> bool {
         let called = self.entered || given.never_come_to || !self.absent.is_empty();
         called && !self.differs && self.reached == 0
     }
@@ -230,7 +230,7 @@ pub(super) fn scenarios_in<'j>(
     job: &'j Job<'_>,
     program: ProgramRef,
     runs: usize,
-    given: Option<&'j Given>,
+    given: Option<&'j EntryState>,
 ) -> impl Iterator<Item = (Scenario, Run)> + 'j {
     let inputs = inputs(job.source, program);
     let inch = unit(job.source, job.target).or(inputs.inch);

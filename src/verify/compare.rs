@@ -1,10 +1,9 @@
 //! Whether two runs amount to the same.
 
 use super::differ::{ANOTHER_FEED, differ};
-use super::left::left_differs;
+use super::exit_state::left_differs;
 use super::letters;
 use super::loose::{Found, farthest};
-use super::names::Names;
 use super::observe::{Act, observe, setting};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn};
@@ -12,8 +11,9 @@ use super::side::Side;
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
 };
+use super::symbol_map::SymbolMap;
 use super::variables::variables_differ;
-use crate::control::trace::{Event, Happening, Position, Told};
+use crate::control::trace::{Event, EventKind, Position, Told};
 use crate::control::{End, Run};
 use crate::dialect::Question;
 use std::collections::BTreeSet;
@@ -98,7 +98,7 @@ impl<'r> Difference<'r> {
 pub fn compare<'r>(
     source: (&Side<'_>, &'r Run),
     target: (&Side<'_>, &'r Run),
-    names: &Names,
+    names: &SymbolMap,
     tolerance: Tolerance,
 ) -> Comparison<'r> {
     let cut = is_cut(source.1) || is_cut(target.1);
@@ -140,7 +140,7 @@ pub fn compare<'r>(
 fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
     let settings = sides.map(|acts| acts.iter().take_while(|act| setting(&act.what).is_some()).count());
     let alarm = |side: usize| {
-        sides[side].get(settings[side]).is_some_and(|act| matches!(*act.what, Happening::Alarm(_)))
+        sides[side].get(settings[side]).is_some_and(|act| matches!(*act.what, EventKind::Alarm(_)))
     };
     if alarm(0) == alarm(1) { [0; 2] } else { settings }
 }
@@ -273,7 +273,7 @@ impl<'r> Pairs<'_, 'r> {
     /// leaves the tool where the other side's is, a limit on reading ahead, or what the target cannot do and
     /// no axis moves for.
     fn passes(&mut self, side: usize, act: &Act<'r>) -> bool {
-        let what: &Happening = &act.what;
+        let what: &EventKind = &act.what;
         if let Some((from, to)) = ends(what) {
             // Before its first move a side stands where the other began.
             let began = self.at[side].is_none().then_some((from, 0.0));
@@ -288,7 +288,7 @@ impl<'r> Pairs<'_, 'r> {
             return passes;
         }
         if side == 1 {
-            return is_idle(what) || (self.uncancelled && matches!(what, Happening::WorkOffset { .. }));
+            return is_idle(what) || (self.uncancelled && matches!(what, EventKind::WorkOffset { .. }));
         }
         if let Some(text) = cannot_cancel(self.target, what) {
             self.found.substituted.insert(text);
@@ -333,7 +333,7 @@ impl<'r> Pairs<'_, 'r> {
         }
         // A size of the tool was rounded where it was written, which another block did.
         let allowed = match **a {
-            Happening::ToolLength { .. } | Happening::CutterRadius { .. } => {
+            EventKind::ToolLength { .. } | EventKind::CutterRadius { .. } => {
                 allowed.max(self.tolerance.rounded)
             }
             _ => allowed,
@@ -373,11 +373,11 @@ fn end_differs(source: &End, target: &End) -> Option<String> {
     (!same).then(|| "one of them ends with an alarm, the other does not".to_owned())
 }
 /// Texts that count as the same and are written differently.
-fn texts(source: &Happening, target: &Happening) -> Option<(String, String)> {
-    let show = |what: &Happening| match what {
-        Happening::Message { text } | Happening::Output { text } => Some(text.trim().to_owned()),
-        Happening::Stop => Some(String::new()),
-        Happening::Alarm(stop) => {
+fn texts(source: &EventKind, target: &EventKind) -> Option<(String, String)> {
+    let show = |what: &EventKind| match what {
+        EventKind::Message { text } | EventKind::Output { text } => Some(text.trim().to_owned()),
+        EventKind::Stop => Some(String::new()),
+        EventKind::Alarm(stop) => {
             stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
         }
         _ => None,

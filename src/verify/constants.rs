@@ -7,8 +7,8 @@
 
 mod known;
 
-use super::names::class_of;
 use super::side::Side;
+use super::symbol_map::class_of;
 use crate::canon::{Func, Sys};
 use crate::control::ProgramRef;
 use crate::dialect::{Control, Question};

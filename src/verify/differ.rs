@@ -4,7 +4,7 @@ use super::observe::returns;
 use super::paths::{apart, arcs_apart};
 use super::texts::say_the_same;
 use crate::control::Stop;
-use crate::control::trace::{Happening, Position};
+use crate::control::trace::{EventKind, Position};
 
 /// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
 const LEAST_WAIT: f64 = 0.000_501;
@@ -15,12 +15,12 @@ pub const ANOTHER_FEED: &str = "the feed is another";
 /// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
 /// is what the target's text could have had more.
 pub fn differ(
-    (source, target): (&Happening, &Happening),
+    (source, target): (&EventKind, &EventKind),
     room: Option<usize>,
     (allowed, paths): (f64, f64),
     largest: &mut f64,
 ) -> Option<&'static str> {
-    use Happening::*;
+    use EventKind::*;
     let mut beyond = |most: f64| {
         *largest = largest.max(if most <= allowed { most } else { 0.0 });
         most > allowed

@@ -1,6 +1,6 @@
 //! Letters outside ASCII as an operator reads them, and those of which nobody knows whether the target shows them.
 
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::dialect::{Control, Question};
 
 /// Letters with an accent, behind the one that is read where it is missing.
@@ -74,7 +74,7 @@ pub fn plain(text: &str, form: Form) -> String {
 
 /// What a person must accept of a text: letters of the source for which nothing stands on the target, or letters that the
 /// target is not known to show.
-pub fn doubt(source: &Happening, target: &Happening, control: &Control) -> Option<String> {
+pub fn doubt(source: &EventKind, target: &EventKind, control: &Control) -> Option<String> {
     let (source, target) = (text(source)?, text(target)?);
     let lost = |c: char| {
         !c.is_ascii() && c.is_alphanumeric() && plain(c.encode_utf8(&mut [0; 4]), Form::Short).is_empty()
@@ -88,11 +88,11 @@ pub fn doubt(source: &Happening, target: &Happening, control: &Control) -> Optio
     Some(format!("the target is not known to show the letter '{c}' of a text"))
 }
 
-fn text(what: &Happening) -> Option<&str> {
+fn text(what: &EventKind) -> Option<&str> {
     match what {
-        Happening::Message { text } | Happening::Output { text } => Some(text),
-        Happening::Alarm(stop) => stop.program_number.map(|_| stop.text.as_str()),
-        Happening::Stop => Some(""),
+        EventKind::Message { text } | EventKind::Output { text } => Some(text),
+        EventKind::Alarm(stop) => stop.program_number.map(|_| stop.text.as_str()),
+        EventKind::Stop => Some(""),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@
 use super::observe::runs;
 use crate::canon::Running;
 use crate::control::Run;
-use crate::control::trace::{Event, Happening, Place, Told};
+use crate::control::trace::{Event, EventKind, Place, Told};
 
 /// The order in which the events of a run are looked at.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ impl<'r> Order<'r> {
                 event.told == Told::Loose && runs(&event.what).is_some_and(|kind| kinds.contains(&kind))
             };
             let idle =
-                |event: &&Event| matches!(event.what, Happening::Rapid { .. } | Happening::Dwell { .. });
+                |event: &&Event| matches!(event.what, EventKind::Rapid { .. } | EventKind::Dwell { .. });
             let (Some(first), Some(last)) = (run.iter().position(idle), run.iter().rposition(idle)) else {
                 continue;
             };

@@ -2,7 +2,7 @@
 //!
 //! The verifier reads `syntax` and drives `control`; it knows nothing of `lower`, `legalize` and
 //! `emit`, so that a fault of theirs cannot hide in it. What it is told of a conversion is the map of
-//! registers and program numbers that a reviewer reads too ([`Names`]).
+//! registers and program numbers that a reviewer reads too ([`SymbolMap`]).
 //!
 //! What is compared is what an observer of the machine could tell: moves with their feeds, arcs,
 //! dwells, spindle, coolant, tools, offsets written, stops, alarms, output, questions, how the run ended,
@@ -21,13 +21,12 @@ mod compare;
 mod constants;
 mod differ;
 mod edits;
-mod given;
+mod entry_state;
+mod exit_state;
 mod inputs;
-mod left;
 mod letters;
 mod links;
 mod loose;
-mod names;
 mod observe;
 mod paths;
 mod pauses;
@@ -40,6 +39,7 @@ mod side;
 mod starts;
 mod stops;
 mod substitutes;
+mod symbol_map;
 #[cfg(test)]
 mod tests;
 mod texts;
@@ -52,9 +52,9 @@ pub use certificate::{
     Assumed, Certificate, Identity, Moment, ProgramCertificate, Reason, Why, Witness, sha256,
 };
 pub use clock::Spent;
-pub use names::Names;
 pub use program::{Job, prepare, verify};
 pub use side::Side;
+pub use symbol_map::SymbolMap;
 
 /// What a verification amounts to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]

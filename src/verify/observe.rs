@@ -6,7 +6,7 @@ use super::paths::apart;
 use super::side::Side as Library;
 use crate::canon::{Group, Op, Running, Sys};
 use crate::control::Run;
-use crate::control::trace::{Event, Happening, Side, Spindle, Told};
+use crate::control::trace::{Event, EventKind, Side, Spindle, Told};
 use std::borrow::Cow;
 
 /// Something that an observer could tell.
@@ -15,7 +15,7 @@ pub struct Act<'r> {
     /// The event.
     pub event: &'r Event,
     /// What the observer tells of it: a stop at which the operator enters a value is a text and a question.
-    pub what: Cow<'r, Happening>,
+    pub what: Cow<'r, EventKind>,
     /// What is known of the event.
     pub told: Told,
     /// Of a text, how many characters more the control would have shown; none where it knows no limit.
@@ -35,15 +35,15 @@ pub(super) enum Setting {
 }
 
 /// The group that a setting belongs to; none for what is no setting.
-pub(super) fn setting(what: &Happening) -> Option<Setting> {
+pub(super) fn setting(what: &EventKind) -> Option<Setting> {
     Some(match what {
-        Happening::WorkOffset { .. } => Setting::Work,
-        Happening::ToolLength { .. } => Setting::Length,
-        Happening::CutterRadius { .. } => Setting::Cutter,
-        Happening::SpeedLimit { .. } => Setting::Limit,
-        Happening::ToolReady { .. } => Setting::Ready,
-        Happening::Spindle { .. } => Setting::Spindle,
-        Happening::Coolant { .. } => Setting::Coolant,
+        EventKind::WorkOffset { .. } => Setting::Work,
+        EventKind::ToolLength { .. } => Setting::Length,
+        EventKind::CutterRadius { .. } => Setting::Cutter,
+        EventKind::SpeedLimit { .. } => Setting::Limit,
+        EventKind::ToolReady { .. } => Setting::Ready,
+        EventKind::Spindle { .. } => Setting::Spindle,
+        EventKind::Coolant { .. } => Setting::Coolant,
         _ => return None,
     })
 }
@@ -58,31 +58,31 @@ fn running(setting: Setting) -> Option<Running> {
 }
 
 /// What an event starts or ends, if it is one of those.
-pub(super) fn runs(what: &Happening) -> Option<Running> {
+pub(super) fn runs(what: &EventKind) -> Option<Running> {
     running(setting(what)?)
 }
 
 /// True for what stops the program, for a while or for good.
-pub(super) fn is_pause(what: &Happening) -> bool {
-    use Happening::{Asked, End, Message, OptionalStop, Stop, ToolChange};
+pub(super) fn is_pause(what: &EventKind) -> bool {
+    use EventKind::{Asked, End, Message, OptionalStop, Stop, ToolChange};
     matches!(what, Asked { .. } | End { .. } | Message { .. } | OptionalStop | Stop | ToolChange { .. })
 }
 
 /// The settings that a machine has before a program says anything. A spindle that was found running and is stopped keeps
 /// its speed, which is nothing that anybody sees.
-fn initial(run: &Run) -> Vec<Happening> {
+fn initial(run: &Run) -> Vec<EventKind> {
     let found = run.events.iter().take_while(|event| event.told == Told::Found);
     let speeds = found.filter_map(|event| match event.what {
-        Happening::Spindle { speed, .. } => Some(speed),
+        EventKind::Spindle { speed, .. } => Some(speed),
         _ => None,
     });
     let speed = speeds.last().unwrap_or(0.0);
     vec![
-        Happening::WorkOffset { number: 1 },
-        Happening::ToolLength { offset: 0, value: 0.0 },
-        Happening::CutterRadius { side: Side::Off, offset: 0, value: 0.0 },
-        Happening::Spindle { direction: Spindle::Stopped, speed, surface: false },
-        Happening::Coolant { state: Op::CoolantOff },
+        EventKind::WorkOffset { number: 1 },
+        EventKind::ToolLength { offset: 0, value: 0.0 },
+        EventKind::CutterRadius { side: Side::Off, offset: 0, value: 0.0 },
+        EventKind::Spindle { direction: Spindle::Stopped, speed, surface: false },
+        EventKind::Coolant { state: Op::CoolantOff },
     ]
 }
 
@@ -139,7 +139,7 @@ struct Observer<'o, 'r> {
     side: &'o Library<'o>,
     out: Vec<Act<'r>>,
     waiting: Vec<(Setting, &'r Event)>,
-    held: Vec<(Setting, Happening)>,
+    held: Vec<(Setting, EventKind)>,
     /// For each of [`Running`], true if nobody knows whether it runs: what the program says of it next is told, even
     /// if it is what ran before.
     open: [bool; 2],
@@ -176,16 +176,16 @@ impl<'r> Observer<'_, 'r> {
             Some(limit.saturating_sub(text.chars().count()))
         };
         let (what, room) = match &event.what {
-            Happening::Message { text } => {
+            EventKind::Message { text } => {
                 let room = room("message", text);
-                let asks = next.is_some_and(|next| matches!(next.what, Happening::Asked { .. }));
+                let asks = next.is_some_and(|next| matches!(next.what, EventKind::Asked { .. }));
                 match asks.then(|| prompt(text)) {
                     Some("") => return,
-                    Some(text) => (Cow::Owned(Happening::Output { text: text.to_owned() }), room),
+                    Some(text) => (Cow::Owned(EventKind::Output { text: text.to_owned() }), room),
                     None => (Cow::Borrowed(&event.what), room),
                 }
             }
-            Happening::Alarm(stop) => (Cow::Borrowed(&event.what), room("message.alarm", &stop.text)),
+            EventKind::Alarm(stop) => (Cow::Borrowed(&event.what), room("message.alarm", &stop.text)),
             what => (Cow::Borrowed(what), None),
         };
         self.out.push(Act { event, what, told: event.told, room });
@@ -205,19 +205,19 @@ fn prompt(text: &str) -> &str {
 }
 
 /// True for a mode of corners or ramps, or a limit on reading ahead: it acts in the moves behind it.
-pub fn is_mode(what: &Happening) -> bool {
-    let Happening::Other { operation, .. } = what else { return false };
+pub fn is_mode(what: &EventKind) -> bool {
+    let EventKind::Other { operation, .. } = what else { return false };
     operation.group() == Group::PathMode || *operation == Op::LimitLookahead
 }
 
 /// True for a move or a wait in which nothing is cut.
-fn is_idle(what: &Happening) -> bool {
-    matches!(what, Happening::Rapid { .. } | Happening::Dwell { .. })
+fn is_idle(what: &EventKind) -> bool {
+    matches!(what, EventKind::Rapid { .. } | EventKind::Dwell { .. })
 }
 
 /// True for what stops the spindle or switches coolant off.
-fn is_end(what: &Happening) -> bool {
-    use Happening::{Coolant, Spindle};
+fn is_end(what: &EventKind) -> bool {
+    use EventKind::{Coolant, Spindle};
     matches!(
         what,
         Spindle { direction: crate::control::trace::Spindle::Stopped, .. }
@@ -226,26 +226,26 @@ fn is_end(what: &Happening) -> bool {
 }
 
 /// True for what finds the tool that was made ready: a change, and what goes on behind an end.
-fn finds_tool(what: &Happening) -> bool {
-    matches!(what, Happening::ToolChange { .. } | Happening::End { .. })
+fn finds_tool(what: &EventKind) -> bool {
+    matches!(what, EventKind::ToolChange { .. } | EventKind::End { .. })
 }
 
 /// True for the end of a program that others call.
-pub fn returns(what: &Happening) -> bool {
-    matches!(what, Happening::End { by: Op::Return | Op::SubEnd })
+pub fn returns(what: &EventKind) -> bool {
+    matches!(what, EventKind::End { by: Op::Return | Op::SubEnd })
 }
 
-fn is_observable(what: &Happening) -> bool {
+fn is_observable(what: &EventKind) -> bool {
     match what {
-        Happening::Rapid { from, to } | Happening::Feed { from, to, .. } => apart(from, to) > NOWHERE,
-        Happening::Dwell { seconds } => *seconds > 0.0,
+        EventKind::Rapid { from, to } | EventKind::Feed { from, to, .. } => apart(from, to) > NOWHERE,
+        EventKind::Dwell { seconds } => *seconds > 0.0,
         // It shows in the machine coordinates of the moves, and in the table at the end.
-        Happening::Write { state: Sys::ExternalShift, .. } => false,
-        Happening::Variable { .. }
-        | Happening::Enter { .. }
-        | Happening::Leave
-        | Happening::Unsure { .. }
-        | Happening::Hole { .. } => false,
+        EventKind::Write { state: Sys::ExternalShift, .. } => false,
+        EventKind::Variable { .. }
+        | EventKind::Enter { .. }
+        | EventKind::Leave
+        | EventKind::Unsure { .. }
+        | EventKind::Hole { .. } => false,
         _ => true,
     }
 }
@@ -260,7 +260,7 @@ mod tests {
         let to = |x: f64| {
             let mut to = Position::default();
             to.0[0] = x;
-            is_observable(&Happening::Rapid { from: Position::default(), to })
+            is_observable(&EventKind::Rapid { from: Position::default(), to })
         };
         assert!(!to(0.0) && !to(3e-13));
         assert!(to(1e-6));

@@ -1,7 +1,7 @@
 //! Paths of moves: whether two are the same for whoever watches the tool.
 
 use crate::control::scenario::Axes;
-use crate::control::trace::{Happening, Plane, Position};
+use crate::control::trace::{EventKind, Plane, Position};
 
 /// Places at which two arcs are held against each other, their ends included.
 const PLACES: u32 = 24;
@@ -14,31 +14,31 @@ pub fn apart(a: &Position, b: &Position) -> f64 {
 }
 
 /// Where a move goes, and true where it is one that may be left out when it is short.
-pub fn ends(what: &Happening) -> Option<(Position, Position)> {
+pub fn ends(what: &EventKind) -> Option<(Position, Position)> {
     match what {
-        Happening::Rapid { from, to } | Happening::Feed { from, to, .. } => Some((*from, *to)),
-        Happening::Arc { from, to, .. } => Some((*from, *to)),
+        EventKind::Rapid { from, to } | EventKind::Feed { from, to, .. } => Some((*from, *to)),
+        EventKind::Arc { from, to, .. } => Some((*from, *to)),
         _ => None,
     }
 }
 
 /// Where an event leaves the tool; none where it moves nothing.
-pub fn leaves(what: &Happening) -> Option<Position> {
+pub fn leaves(what: &EventKind) -> Option<Position> {
     match what {
-        Happening::Rapid { to, .. }
-        | Happening::Feed { to, .. }
-        | Happening::Arc { to, .. }
-        | Happening::Thread { to, .. }
-        | Happening::Probe { to, .. } => Some(*to),
+        EventKind::Rapid { to, .. }
+        | EventKind::Feed { to, .. }
+        | EventKind::Arc { to, .. }
+        | EventKind::Thread { to, .. }
+        | EventKind::Probe { to, .. } => Some(*to),
         _ => None,
     }
 }
 
 /// True for a move that stays, on its whole way, as near to its start as `allowed`.
-pub fn goes_nowhere(what: &Happening, allowed: f64) -> bool {
+pub fn goes_nowhere(what: &EventKind, allowed: f64) -> bool {
     match what {
-        Happening::Rapid { from, to } | Happening::Feed { from, to, .. } => apart(from, to) <= allowed,
-        Happening::Arc { from, .. } => {
+        EventKind::Rapid { from, to } | EventKind::Feed { from, to, .. } => apart(from, to) <= allowed,
+        EventKind::Arc { from, .. } => {
             (0..=PLACES).all(|at| arc_place(what, at).is_some_and(|place| apart(from, &place) <= allowed))
         }
         _ => false,
@@ -46,7 +46,7 @@ pub fn goes_nowhere(what: &Happening, allowed: f64) -> bool {
 }
 
 /// The largest distance between two arcs at the same part of their ways.
-pub fn arcs_apart(a: &Happening, b: &Happening) -> f64 {
+pub fn arcs_apart(a: &EventKind, b: &EventKind) -> f64 {
     let one = |at| match (arc_place(a, at), arc_place(b, at)) {
         (Some(a), Some(b)) => apart(&a, &b),
         _ => f64::INFINITY,
@@ -55,8 +55,8 @@ pub fn arcs_apart(a: &Happening, b: &Happening) -> f64 {
 }
 
 /// Where an arc is after so many parts of its way.
-fn arc_place(what: &Happening, at: u32) -> Option<Position> {
-    let Happening::Arc { from, to, centre, off, plane, sweep, radius, .. } = what else { return None };
+fn arc_place(what: &EventKind, at: u32) -> Option<Position> {
+    let EventKind::Arc { from, to, centre, off, plane, sweep, radius, .. } = what else { return None };
     if at == 0 || at == PLACES {
         return Some(if at == 0 { *from } else { *to });
     }

@@ -5,15 +5,15 @@
 
 use super::observe::{Act, is_pause, runs, setting};
 use crate::canon::{Op, Running};
-use crate::control::trace::{Happening, Spindle, Told};
+use crate::control::trace::{EventKind, Spindle, Told};
 
 /// What runs on one side.
 #[derive(Clone, Debug)]
 pub struct Runs {
-    spindle: Happening,
+    spindle: EventKind,
     /// The same after a cycle, which may leave it turned round.
-    last: Happening,
-    coolant: Happening,
+    last: EventKind,
+    coolant: EventKind,
     /// For each of [`Running`], true if nobody knows whether it runs.
     open: [bool; 2],
 }
@@ -21,25 +21,25 @@ pub struct Runs {
 impl Runs {
     /// What runs before a program says anything.
     pub fn new() -> Self {
-        let spindle = Happening::Spindle { direction: Spindle::Stopped, speed: 0.0, surface: false };
+        let spindle = EventKind::Spindle { direction: Spindle::Stopped, speed: 0.0, surface: false };
         Self {
             last: spindle.clone(),
             spindle,
-            coolant: Happening::Coolant { state: Op::CoolantOff },
+            coolant: EventKind::Coolant { state: Op::CoolantOff },
             open: [false; 2],
         }
     }
 
     /// Takes an act.
     pub fn take(&mut self, act: &Act<'_>) {
-        if matches!(*act.what, Happening::Spindle { .. }) {
+        if matches!(*act.what, EventKind::Spindle { .. }) {
             self.last = (*act.what).clone();
         }
         match &*act.what {
             // What a cycle does to the spindle is said by no word.
-            Happening::Spindle { .. } if act.told == Told::Cycle => {}
-            what @ Happening::Spindle { .. } => self.spindle = what.clone(),
-            what @ Happening::Coolant { .. } => self.coolant = what.clone(),
+            EventKind::Spindle { .. } if act.told == Told::Cycle => {}
+            what @ EventKind::Spindle { .. } => self.spindle = what.clone(),
+            what @ EventKind::Coolant { .. } => self.coolant = what.clone(),
             _ => {}
         }
         // Another act of the block may stand before what the block says of it.
@@ -51,9 +51,9 @@ impl Runs {
     }
 
     /// True for a new speed of a spindle that goes on as it was.
-    pub fn goes_on(&self, what: &Happening) -> bool {
-        let turns = |what: &Happening| match what {
-            Happening::Spindle { direction, .. } => Some(*direction),
+    pub fn goes_on(&self, what: &EventKind) -> bool {
+        let turns = |what: &EventKind| match what {
+            EventKind::Spindle { direction, .. } => Some(*direction),
             _ => None,
         };
         // A cycle that stops the spindle lets it turn again as it was.
@@ -63,7 +63,7 @@ impl Runs {
     /// The coolant.
     pub fn coolant(&self) -> Op {
         match self.coolant {
-            Happening::Coolant { state } => state,
+            EventKind::Coolant { state } => state,
             _ => Op::CoolantOff,
         }
     }
@@ -88,7 +88,7 @@ impl Runs {
         let both = found.told == Told::Found && end.told == Told::Implied && runs(&end.what) == Some(running);
         let stands = match running {
             Running::Spindle => {
-                matches!(self.spindle, Happening::Spindle { direction: Spindle::Stopped, .. })
+                matches!(self.spindle, EventKind::Spindle { direction: Spindle::Stopped, .. })
             }
             Running::Coolant => self.coolant() == Op::CoolantOff,
         };
@@ -106,9 +106,9 @@ impl Runs {
     /// True if the next act lets go of a spindle that is held at an angle, before a stop or the end: it stands either way,
     /// and before the tool moves again the program says of the spindle what it does.
     pub fn lets_go(&self, acts: &[Act<'_>]) -> bool {
-        let is_held = matches!(self.spindle, Happening::Spindle { direction: Spindle::Oriented, .. });
+        let is_held = matches!(self.spindle, EventKind::Spindle { direction: Spindle::Oriented, .. });
         let stops =
-            |act: &Act<'_>| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. });
+            |act: &Act<'_>| matches!(*act.what, EventKind::Spindle { direction: Spindle::Stopped, .. });
         let Some((act, rest)) = acts.split_first() else { return false };
         let before = rest.iter().take_while(|act| setting(&act.what).is_some() || is_pause(&act.what));
         let pauses = before.clone().any(|act| is_pause(&act.what));
@@ -120,10 +120,10 @@ impl Runs {
     /// True for what lets go of a spindle that is held before a stop, of which nobody knows whether it does that by itself
     /// on the other side.
     pub fn may_be_let_go(&self, acts: &[Act<'_>], others: &[Act<'_>]) -> bool {
-        let is_held = matches!(self.spindle, Happening::Spindle { direction: Spindle::Oriented, .. });
+        let is_held = matches!(self.spindle, EventKind::Spindle { direction: Spindle::Oriented, .. });
         let stops = acts
             .first()
-            .is_some_and(|act| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. }));
+            .is_some_and(|act| matches!(*act.what, EventKind::Spindle { direction: Spindle::Stopped, .. }));
         let next = others.iter().find(|other| is_pause(&other.what));
         let open = next.is_some_and(|next| next.event.open[Running::Spindle as usize]);
         is_held && stops && open
@@ -143,7 +143,7 @@ impl Runs {
 /// True for the same new speed on both sides, if nobody knows whether one of the spindles turns, and the other stands
 /// or is known to turn.
 pub fn may_turn(source: &Act<'_>, target: &Act<'_>) -> bool {
-    use Happening::Spindle;
+    use EventKind::Spindle;
     let (
         Spindle { direction, speed, surface },
         Spindle { direction: other, speed: there, surface: surface_there },
@@ -158,7 +158,7 @@ pub fn may_turn(source: &Act<'_>, target: &Act<'_>) -> bool {
 
 /// True if cycles leave the spindle as they found it on both sides, on one of which it stands.
 pub fn ends_cycle(source: &Act<'_>, target: &Act<'_>) -> bool {
-    let stands = |act: &Act<'_>| matches!(*act.what, Happening::Spindle { direction: Spindle::Stopped, .. });
+    let stands = |act: &Act<'_>| matches!(*act.what, EventKind::Spindle { direction: Spindle::Stopped, .. });
     let both = [source, target];
     both.iter().all(|act| act.told == Told::Cycle) && both.into_iter().any(stands)
 }
@@ -169,7 +169,7 @@ pub fn may_do_so(act: &Act<'_>, others: &[Act<'_>], target: bool) -> bool {
     let Some(running) = runs(&act.what).filter(|_| act.told == Told::Implied) else { return false };
     let next = others.iter().find(|other| is_pause(&other.what));
     next.is_some_and(|next| {
-        let excused = target || matches!(*next.what, Happening::OptionalStop | Happening::ToolChange { .. });
+        let excused = target || matches!(*next.what, EventKind::OptionalStop | EventKind::ToolChange { .. });
         excused && next.event.open[running as usize]
     })
 }

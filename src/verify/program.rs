@@ -15,15 +15,15 @@ use super::callers::{Shown, implicate, look_at_callers, through};
 use super::certificate::{Edit, Moment, ProgramCertificate, Reason, Why, Witness};
 use super::clock::{Clock, Spent};
 use super::compare::{Difference, Tolerance, compare, is_cut};
-use super::given::{Given, given};
-use super::names::Names;
+use super::entry_state::{EntryState, given};
 use super::questions::unconfirmed;
 use super::scenarios::{asked, on_target};
 use super::side::Side;
+use super::symbol_map::SymbolMap;
 use super::variables::writes_elsewhere;
 use super::{Certificate, Effort, Outcome};
 use crate::canon::Op;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, ProgramRef, Run, Scenario};
 pub(super) use explore::of_target;
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ pub struct Job<'j> {
     /// The target.
     pub target: &'j Side<'j>,
     /// What is called what.
-    pub names: &'j Names,
+    pub names: &'j SymbolMap,
     /// What the conversion supposes: a person looks at that whatever is found here.
     pub assumptions: &'j Assumptions,
     /// How much may be done.
@@ -72,9 +72,9 @@ struct Verifier<'v, 'j> {
     /// True where other programs of the library call it.
     called: bool,
     /// What all its callers give it.
-    given: Given,
+    given: EntryState,
     /// What is in force at the start on the target, where that is not the same as on the source.
-    target_given: Option<Given>,
+    target_given: Option<EntryState>,
     coverage: Coverage,
     /// The branches of the conversion, those of programs that the source has not among them.
     target_coverage: Coverage,
@@ -208,7 +208,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
                 End::Ended | End::Alarm { .. } => {}
             }
             for event in &library_run.events {
-                if let Happening::Unsure { fact } = &event.what {
+                if let EventKind::Unsure { fact } = &event.what {
                     let is_new = !assumed.contains(fact.as_str());
                     let kept = self.unconfirmed.entry(fact.clone()).or_default();
                     if is_new && kept.is_none() {

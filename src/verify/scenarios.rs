@@ -1,12 +1,12 @@
 //! The circumstances that a program is tried in.
 
 use super::inputs::{Input, Inputs};
-use super::names::class_of;
 use super::random::Random;
-use super::{Effort, Names, Side};
+use super::symbol_map::class_of;
+use super::{Effort, Side, SymbolMap};
 use crate::canon::Sys;
 use crate::control::scenario::{Axes, Probe, StateValue, Tool};
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{Run, Scenario};
 use crate::dialect::{Control, Units};
 use std::collections::BTreeMap;
@@ -339,7 +339,7 @@ pub fn unit(side: &Side<'_>, other: &Side<'_>) -> Option<bool> {
 /// is `called` finds what its callers left.
 pub fn on_target(
     scenario: &Scenario,
-    names: &Names,
+    names: &SymbolMap,
     (source, target): (&Side<'_>, &Side<'_>),
     (called, theirs): (bool, &BTreeMap<String, f64>),
 ) -> Scenario {
@@ -373,7 +373,7 @@ pub fn on_target(
 }
 
 /// The variables that computed numbers may reach, which are named all at once.
-fn banked<'n>(names: &'n Names, control: &'n Control) -> impl Iterator<Item = String> + 'n {
+fn banked<'n>(names: &'n SymbolMap, control: &'n Control) -> impl Iterator<Item = String> + 'n {
     let letters = names.variables.keys().filter_map(|name| name.strip_suffix("(..)"));
     letters.flat_map(|letter| {
         let rows = control.classes().iter().filter(move |row| row.name == letter);
@@ -383,5 +383,5 @@ fn banked<'n>(names: &'n Names, control: &'n Control) -> impl Iterator<Item = St
 
 /// How many answers a run took: behind the last one of the scenario they were 0.
 pub fn asked(run: &Run) -> usize {
-    run.events.iter().filter(|event| matches!(event.what, Happening::Asked { .. })).count()
+    run.events.iter().filter(|event| matches!(event.what, EventKind::Asked { .. })).count()
 }

@@ -2,7 +2,7 @@
 
 use super::certificate::sha256;
 use super::edits::EditedText;
-use super::given::Given;
+use super::entry_state::EntryState;
 use super::links::Links;
 use crate::control::{Execute, Library, LoadedFile, ProgramRef};
 use crate::dialect::Control;
@@ -22,7 +22,7 @@ pub struct Side<'a> {
     /// Their programs.
     pub library: Library<'a>,
     /// What callers give its programs, where anybody asked.
-    pub(super) given: OnceLock<BTreeMap<ProgramRef, Given>>,
+    pub(super) given: OnceLock<BTreeMap<ProgramRef, EntryState>>,
     /// The programs that runs of other programs came through, where anybody asked.
     pub(super) entered: OnceLock<BTreeSet<ProgramRef>>,
     /// How its programs stand to each other, where anybody asked.

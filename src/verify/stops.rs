@@ -1,7 +1,7 @@
 //! Where the source's control stops a program, or an arc is none: the program says nothing of what the target should do.
 
 use super::compare::Difference;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Run};
 
 /// How far the end of an arc may lie off its circle, millimetres, to be an arc at all.
@@ -20,7 +20,7 @@ pub fn stops_by_itself(run: &Run, difference: &Difference<'_>) -> bool {
 /// How far an arc ends off its circle, where that is more than words round.
 pub fn off_its_circle(difference: &Difference<'_>) -> Option<f64> {
     match difference.source?.what {
-        Happening::Arc { off, .. } => Some(off.abs()).filter(|off| *off > MOST_OFF),
+        EventKind::Arc { off, .. } => Some(off.abs()).filter(|off| *off > MOST_OFF),
         _ => None,
     }
 }

@@ -7,12 +7,12 @@
 use super::observe::is_mode;
 use super::side::Side;
 use crate::canon::Op;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use std::collections::BTreeMap;
 
 /// One coolant for the other, where the target has no such coolant.
-pub fn stands_for(target: &Side<'_>, source: &Happening, there: &Happening) -> Option<String> {
-    let (Happening::Coolant { state }, Happening::Coolant { state: other }) = (source, there) else {
+pub fn stands_for(target: &Side<'_>, source: &EventKind, there: &EventKind) -> Option<String> {
+    let (EventKind::Coolant { state }, EventKind::Coolant { state: other }) = (source, there) else {
         return None;
     };
     let both = matches!((state, other), (Op::Mist, Op::Flood) | (Op::Flood, Op::Mist));
@@ -20,8 +20,8 @@ pub fn stands_for(target: &Side<'_>, source: &Happening, there: &Happening) -> O
 }
 
 /// The other coolant coming on where the target has one kind only, which is on already.
-pub fn goes_on(target: &Side<'_>, source: &Happening, there: Op) -> Option<String> {
-    let Happening::Coolant { state } = *source else { return None };
+pub fn goes_on(target: &Side<'_>, source: &EventKind, there: Op) -> Option<String> {
+    let EventKind::Coolant { state } = *source else { return None };
     let other = match state {
         Op::Mist => Op::Flood,
         Op::Flood => Op::Mist,
@@ -33,45 +33,45 @@ pub fn goes_on(target: &Side<'_>, source: &Happening, there: Op) -> Option<Strin
 }
 
 /// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
-pub fn is_left_out(target: &Side<'_>, source: &Happening) -> Option<String> {
-    let Happening::Other { operation, .. } = source else { return None };
+pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<String> {
+    let EventKind::Other { operation, .. } = source else { return None };
     (is_mode(source) && lacks(target, *operation))
         .then(|| format!("the target has no {operation}: it is left out"))
 }
 
 /// A return with no work offset in force, where the target always has one. The conversion marks the moves of the
 /// callers that it knows, and each of them is compared.
-pub fn cannot_cancel(target: &Side<'_>, source: &Happening) -> Option<String> {
-    let none = matches!(source, Happening::WorkOffset { number: 0 }) && lacks(target, Op::ShiftCancel);
+pub fn cannot_cancel(target: &Side<'_>, source: &EventKind) -> Option<String> {
+    let none = matches!(source, EventKind::WorkOffset { number: 0 }) && lacks(target, Op::ShiftCancel);
     none.then(|| "it returns with all zero shifts cancelled, which the target cannot do".to_owned())
 }
 
 /// A return to a block of whoever called the program, where it runs by itself: the target says where by a variable
 /// that callers look at, and each of those that the library has is compared.
-pub fn returns_to_caller(source: &Happening) -> Option<String> {
-    let Happening::Other { operation: Op::Return, code: Some(code) } = source else { return None };
+pub fn returns_to_caller(source: &EventKind) -> Option<String> {
+    let EventKind::Other { operation: Op::Return, code: Some(code) } = source else { return None };
     Some(format!("it returns to block {code} of its caller, which only callers show"))
 }
 
 /// A move at feed of a source that was given no feed: what its control does then no source says.
-pub fn has_no_feed(source: &Happening) -> Option<String> {
-    let none = matches!(source, Happening::Feed { feed: 0.0, .. } | Happening::Arc { feed: 0.0, .. });
+pub fn has_no_feed(source: &EventKind) -> Option<String> {
+    let none = matches!(source, EventKind::Feed { feed: 0.0, .. } | EventKind::Arc { feed: 0.0, .. });
     none.then(|| {
         "the source moves at feed where no feed was given: what comes of it no source says".to_owned()
     })
 }
 
 /// What the target does and nobody could tell: it reads ahead less far.
-pub fn is_idle(target: &Happening) -> bool {
-    matches!(target, Happening::Other { operation: Op::LimitLookahead, .. })
+pub fn is_idle(target: &EventKind) -> bool {
+    matches!(target, EventKind::Other { operation: Op::LimitLookahead, .. })
 }
 
 /// A code that the source's tables do not know, written alike on both sides: nothing says what either does.
-pub fn is_builders(source: &Happening, target: &Happening) -> Option<String> {
+pub fn is_builders(source: &EventKind, target: &EventKind) -> Option<String> {
     match (source, target) {
         (
-            Happening::Other { operation: Op::Builder, code: Some(code) },
-            Happening::Other { code: Some(other), .. },
+            EventKind::Other { operation: Op::Builder, code: Some(code) },
+            EventKind::Other { code: Some(other), .. },
         ) if code == other => Some(format!("what {code} does is the machine builder's matter")),
         _ => None,
     }

@@ -13,7 +13,7 @@ mod running;
 mod skips;
 mod started;
 
-use super::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Spent, Why, verify};
+use super::{Assumptions, Effort, Job, Outcome, ProgramCertificate, Side, Spent, SymbolMap, Why, verify};
 use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
 use crate::dialect::{Control, registry};
@@ -33,11 +33,11 @@ fn programs(
     variables: &[(&str, u32)],
 ) -> Vec<ProgramCertificate> {
     let variables = variables.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
-    named((from, source), (to, target), Names { variables, ..Names::default() })
+    named((from, source), (to, target), SymbolMap { variables, ..SymbolMap::default() })
 }
 
 /// Verifies a pair of files, with what a conversion tells of its names.
-fn named(source: (&str, &str), target: (&str, &str), names: Names) -> Vec<ProgramCertificate> {
+fn named(source: (&str, &str), target: (&str, &str), names: SymbolMap) -> Vec<ProgramCertificate> {
     supposing(source, target, names, &[])
 }
 
@@ -45,7 +45,7 @@ fn named(source: (&str, &str), target: (&str, &str), names: Names) -> Vec<Progra
 fn supposing(
     (from, source): (&str, &str),
     (to, target): (&str, &str),
-    names: Names,
+    names: SymbolMap,
     supposed: &[(usize, Assumption)],
 ) -> Vec<ProgramCertificate> {
     let controls = [from, to].map(|name| Control::plain(name).unwrap());

@@ -1,8 +1,8 @@
 //! What two runs leave in variables.
 
 use super::compare::{Difference, is_cut};
-use super::names::{Names, class_of};
 use super::side::Side;
+use super::symbol_map::{SymbolMap, class_of};
 use crate::control::{End, Run};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ const HAIR: f64 = 1e-6;
 pub(super) fn variables_differ<'r>(
     source: (&Side<'_>, &Run),
     target: (&Side<'_>, &Run),
-    names: &Names,
+    names: &SymbolMap,
 ) -> Option<Difference<'r>> {
     let [ours, theirs] = [source.1, target.1].map(|run| run.left.as_ref().map_or(0.0, |left| left.read));
     let reads = [ours, theirs, ours + theirs];
@@ -64,7 +64,7 @@ pub fn writes_elsewhere(
     source: &Side<'_>,
     (target, run): (&Side<'_>, &Run),
     began: &BTreeMap<String, f64>,
-    names: &Names,
+    names: &SymbolMap,
 ) -> Option<String> {
     if is_cut(run) {
         return None;

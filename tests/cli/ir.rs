@@ -46,7 +46,7 @@ fn the_passes_show_what_they_do() {
     assert!(!after.out.contains("; local.33 is"), "{}", after.out);
     assert!(all.out.contains("; local.33 is #33"), "{}", all.out);
     // A bare 1 counts increments until the pass of that name has seen it.
-    let plain = shop.run("ir b.nc --dialect fanuc --to haas --after tidy/dead-temps");
+    let plain = shop.run("ir b.nc --dialect fanuc --to haas --after tidy/dead-stores");
     assert!(plain.out.contains("increments"), "{}", plain.out);
 }
 

@@ -1,14 +1,14 @@
 //! The last part of a case: what a run must have come to.
 
 use crate::circumstances::numbers;
-use macroglot::control::trace::{Happening, Position, Spindle};
+use macroglot::control::trace::{EventKind, Position, Spindle};
 use macroglot::control::{End, Run};
 
 /// How far a value may lie from the manual's, unless it says `about`.
 const NEAR: f64 = 5e-7;
 
 /// What of the events the wanted kind has, in order.
-fn pick<T>(run: &Run, wanted: impl Fn(&Happening) -> Option<T>) -> Vec<T> {
+fn pick<T>(run: &Run, wanted: impl Fn(&EventKind) -> Option<T>) -> Vec<T> {
     run.events.iter().filter_map(|event| wanted(&event.what)).collect()
 }
 
@@ -18,22 +18,22 @@ fn xyz(at: &Position) -> Vec<f64> {
 
 fn moves(run: &Run) -> Vec<Vec<f64>> {
     pick(run, |what| match what {
-        Happening::Rapid { to, .. } | Happening::Feed { to, .. } | Happening::Arc { to, .. } => Some(xyz(to)),
-        Happening::Probe { to, .. } => Some(xyz(to)),
+        EventKind::Rapid { to, .. } | EventKind::Feed { to, .. } | EventKind::Arc { to, .. } => Some(xyz(to)),
+        EventKind::Probe { to, .. } => Some(xyz(to)),
         _ => None,
     })
 }
 
 fn holes(run: &Run) -> Vec<Vec<f64>> {
     pick(run, |what| match what {
-        Happening::Hole { at, bottom, .. } => Some(vec![at.0[0], at.0[1], *bottom]),
+        EventKind::Hole { at, bottom, .. } => Some(vec![at.0[0], at.0[1], *bottom]),
         _ => None,
     })
 }
 
 fn output(run: &Run) -> Vec<String> {
     pick(run, |what| match what {
-        Happening::Output { text } => Some(text.clone()),
+        EventKind::Output { text } => Some(text.clone()),
         _ => None,
     })
 }
@@ -59,10 +59,10 @@ pub fn check(run: &Run, check: &str) -> Result<(), String> {
     let count = |kind: &str| {
         pick(run, |what| {
             let is = match what {
-                Happening::Rapid { .. } => kind == "rapids",
-                Happening::Feed { .. } => kind == "feeds",
-                Happening::Arc { .. } => kind == "arcs",
-                Happening::Hole { .. } => kind == "holes",
+                EventKind::Rapid { .. } => kind == "rapids",
+                EventKind::Feed { .. } => kind == "feeds",
+                EventKind::Arc { .. } => kind == "arcs",
+                EventKind::Hole { .. } => kind == "holes",
                 _ => false,
             };
             is.then_some(())
@@ -78,14 +78,14 @@ pub fn check(run: &Run, check: &str) -> Result<(), String> {
         }
         "message" => {
             let messages = pick(run, |what| match what {
-                Happening::Message { text } => Some(text.clone()),
+                EventKind::Message { text } => Some(text.clone()),
                 _ => None,
             });
             test(messages.iter().any(|text| text == rest), &messages)
         }
         "speed" | "still" => {
             let speeds = pick(run, |what| match what {
-                Happening::Spindle { speed, direction: Spindle::Clockwise, .. } => Some(*speed),
+                EventKind::Spindle { speed, direction: Spindle::Clockwise, .. } => Some(*speed),
                 _ => None,
             });
             let wanted: Option<f64> = (word == "speed").then(|| rest.parse().expect("a speed"));
@@ -110,31 +110,31 @@ pub fn check(run: &Run, check: &str) -> Result<(), String> {
         "lasthole" => test(holes(run).last().is_some_and(|at| is_near(at, &numbers(rest))), &holes(run)),
         "centre" | "sweep" => {
             let arcs = pick(run, |what| match what {
-                Happening::Arc { centre, sweep, .. } if word == "centre" => {
+                EventKind::Arc { centre, sweep, .. } if word == "centre" => {
                     Some(if rest.is_empty() { vec![*sweep] } else { centre.0[..2].to_vec() })
                 }
-                Happening::Arc { sweep, .. } => Some(vec![*sweep]),
+                EventKind::Arc { sweep, .. } => Some(vec![*sweep]),
                 _ => None,
             });
             test(arcs.iter().any(|arc| is_near(arc, &numbers(rest))), &arcs)
         }
         "feed" => {
             let feeds = pick(run, |what| match what {
-                Happening::Feed { feed, .. } => Some(*feed),
+                EventKind::Feed { feed, .. } => Some(*feed),
                 _ => None,
             });
             test(feeds.last().is_some_and(|feed| is_near(&[*feed], &numbers(rest))), &feeds)
         }
         "dwell" => {
             let waits = pick(run, |what| match what {
-                Happening::Dwell { seconds } => Some(*seconds),
+                EventKind::Dwell { seconds } => Some(*seconds),
                 _ => None,
             });
             test(is_near(&waits, &numbers(rest)), &waits)
         }
         "tools" => {
             let tools = pick(run, |what| match what {
-                Happening::ToolChange { tool } => Some(*tool),
+                EventKind::ToolChange { tool } => Some(*tool),
                 _ => None,
             });
             let wanted = if rest.is_empty() { Vec::new() } else { numbers(rest) };
@@ -146,7 +146,7 @@ pub fn check(run: &Run, check: &str) -> Result<(), String> {
             let (name, value) = rest.split_once('=').unwrap_or((rest, "nan"));
             let wanted: f64 = value.parse().expect("a value");
             let writes = pick(run, |what| match what {
-                Happening::Write { state, subscripts, value } => {
+                EventKind::Write { state, subscripts, value } => {
                     let subscripts: Vec<String> = subscripts.iter().map(u32::to_string).collect();
                     Some((format!("{}[{}]", state.name(), subscripts.join(",")), *value))
                 }
@@ -159,35 +159,35 @@ pub fn check(run: &Run, check: &str) -> Result<(), String> {
         }
         "offset" => {
             let offsets = pick(run, |what| match what {
-                Happening::WorkOffset { number } => Some(f64::from(*number)),
+                EventKind::WorkOffset { number } => Some(f64::from(*number)),
                 _ => None,
             });
             test(offsets.last().is_some_and(|number| is_near(&[*number], &numbers(rest))), &offsets)
         }
         "asked" => {
             let answers = pick(run, |what| match what {
-                Happening::Asked { answer } => Some(*answer),
+                EventKind::Asked { answer } => Some(*answer),
                 _ => None,
             });
             test(is_near(&answers, &numbers(rest)), &answers)
         }
         "stops" => {
             let stops = pick(run, |what| match what {
-                Happening::Stop | Happening::Message { .. } => Some(()),
+                EventKind::Stop | EventKind::Message { .. } => Some(()),
                 _ => None,
             });
             test(Ok(stops.len()) == rest.parse(), &stops.len())
         }
         "end" => {
             let ends = pick(run, |what| match what {
-                Happening::End { by } => Some(by.name()),
+                EventKind::End { by } => Some(by.name()),
                 _ => None,
             });
             test(ends.last() == Some(&rest), &ends)
         }
         "unsure" => {
             let facts = pick(run, |what| match what {
-                Happening::Unsure { fact } => Some(fact.clone()),
+                EventKind::Unsure { fact } => Some(fact.clone()),
                 _ => None,
             });
             test(facts.iter().any(|fact| fact == rest), &facts)
@@ -212,7 +212,7 @@ pub fn check(run: &Run, check: &str) -> Result<(), String> {
             // The values that a variable took, in order.
             let (name, values) = rest.split_once('=').expect("a variable and values");
             let found = pick(run, |what| match what {
-                Happening::Variable { name: found, value: Some(value) } if found == name => Some(*value),
+                EventKind::Variable { name: found, value: Some(value) } if found == name => Some(*value),
                 _ => None,
             });
             let wanted = numbers(values);

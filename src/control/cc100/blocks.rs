@@ -5,7 +5,7 @@ use super::{Interpreter, Next};
 use crate::canon::{Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::words::{self, Read, Spoken};
 use crate::dialect::Question;
 use crate::syntax::{Block, ExprKind, ItemKind};
@@ -71,7 +71,7 @@ impl<'r> Interpreter<'r, '_> {
             session.machine.run(command, &mut session.trace)?;
         }
         if let Some(text) = message {
-            session.pause(Pause::Stop, Happening::Message { text });
+            session.pause(Pause::Stop, EventKind::Message { text });
         }
         self.flow(&read, words)
     }

@@ -5,7 +5,7 @@ use crate::control::ProgramRef;
 use crate::control::library::cycle_number;
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::dialect::Question;
 use crate::syntax::{ItemKind, Label};
 
@@ -85,7 +85,7 @@ impl Interpreter<'_, '_> {
             let program = self.session.program_number(to.section);
             self.session.enter(program, false);
             while self.step()? == Next::On {}
-            self.session.trace.push(Happening::Leave);
+            self.session.trace.push(EventKind::Leave);
             self.session.trace.at = place;
         }
         self.depth -= 1;

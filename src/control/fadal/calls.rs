@@ -4,7 +4,7 @@ use super::{At, Interpreter, Level, Next};
 use crate::canon::Op;
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::dialect::Question;
 
 /// How deep calls nest before the emulation gives up; no source states a limit.
@@ -67,7 +67,7 @@ impl Interpreter<'_, '_> {
             let program = self.session.program_number(to.section);
             self.session.enter(program, false);
             while self.step()? == Next::On {}
-            self.session.trace.push(Happening::Leave);
+            self.session.trace.push(EventKind::Leave);
             self.session.trace.at = place;
         }
         self.depth -= 1;

@@ -4,7 +4,7 @@ use super::registers::Register;
 use super::{At, Interpreter};
 use crate::canon::{Op, Pause};
 use crate::control::session::{Flow, Halt};
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::dialect::Question;
 use crate::syntax::{Item, ItemKind, SetOption, Target, VarRef};
 
@@ -41,7 +41,7 @@ impl Interpreter<'_, '_> {
             ItemKind::Start(program) => self.start(program)?,
             ItemKind::Index(text) => {
                 let code = Some(format!("INDEX {text}"));
-                self.session.trace.push(Happening::Other { operation: Op::MachineSpecific, code });
+                self.session.trace.push(EventKind::Other { operation: Op::MachineSpecific, code });
             }
             ItemKind::Word(_) => return Err(Halt::Error("words cannot stand on a macro line".into())),
             _ => {}
@@ -139,7 +139,7 @@ impl Interpreter<'_, '_> {
         if self.depth > 0 {
             self.session.trace.doubt("machine:start.in.subprogram");
         }
-        self.session.pause(Pause::Stop, Happening::Stop);
+        self.session.pause(Pause::Stop, EventKind::Stop);
         self.at = At { section, index: 0 };
         self.level = super::Level::Main;
         self.modal.clear();

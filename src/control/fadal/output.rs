@@ -2,7 +2,7 @@
 
 use super::Interpreter;
 use crate::control::session::Flow;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::dialect::Question;
 use crate::syntax::PrintPart;
 use crate::text::decode;
@@ -29,7 +29,7 @@ impl Interpreter<'_, '_> {
         }
         if !stay || self.line.len() > LONGEST {
             let text = std::mem::take(&mut self.line);
-            self.session.trace.push(Happening::Output { text });
+            self.session.trace.push(EventKind::Output { text });
         }
         Ok(())
     }
@@ -38,7 +38,7 @@ impl Interpreter<'_, '_> {
     pub(super) fn flush(&mut self) {
         if !self.line.is_empty() {
             let text = std::mem::take(&mut self.line);
-            self.session.trace.push(Happening::Output { text });
+            self.session.trace.push(EventKind::Output { text });
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Command, Machine};
 use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::Axes;
-use crate::control::trace::{Happening, Position, Trace};
+use crate::control::trace::{EventKind, Position, Trace};
 
 /// How far, in millimetres, the ends of an arc may lie apart beyond twice its radius: what
 /// rounding to least increments can cause.
@@ -67,7 +67,7 @@ fn record(machine: &mut Machine, flat: &Flat, centre: (f64, f64), ends: (Axes, A
     let flips = machine.frame.flips((first, second));
     let sweep = flat.sweep(centre) * if flips { -1.0 } else { 1.0 };
     machine.pass(radius * sweep.abs().to_radians());
-    trace.push(Happening::Arc {
+    trace.push(EventKind::Arc {
         from: Position(start),
         to: Position(end),
         centre: Position(middle),

@@ -2,7 +2,7 @@
 
 use super::{Command, Machine, tooling};
 use crate::canon::{Auxiliary, Op, Role, Running};
-use crate::control::trace::{Event, Happening, Spindle, Told, Trace};
+use crate::control::trace::{Event, EventKind, Spindle, Told, Trace};
 
 /// What counts of the machine before a block, to see whether the time at which something acts matters.
 pub(super) struct Before {
@@ -95,7 +95,7 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
         coolant => {
             machine.coolant = coolant;
             machine.says_running(Running::Coolant, trace);
-            return trace.push(Happening::Coolant { state: coolant });
+            return trace.push(EventKind::Coolant { state: coolant });
         }
     };
     machine.says_running(Running::Spindle, trace);
@@ -105,7 +105,7 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
 fn others(command: &Command, trace: &mut Trace) {
     for &op in &command.ops {
         if op.auxiliary() == Some(Auxiliary::Other) || (is_builders(command) && is_own(op)) {
-            trace.push(Happening::Other { operation: op, code: command.own_code.clone() });
+            trace.push(EventKind::Other { operation: op, code: command.own_code.clone() });
         }
     }
 }
@@ -123,7 +123,7 @@ fn turn(machine: &mut Machine, command: &Command, direction: Spindle, trace: &mu
         machine.speed = if machine.surface_speed { speed * unit } else { speed };
     }
     machine.spindle = direction;
-    trace.push(Happening::Spindle { direction, speed: machine.speed, surface: machine.surface_speed });
+    trace.push(EventKind::Spindle { direction, speed: machine.speed, surface: machine.surface_speed });
 }
 
 fn turns(machine: &Machine) -> (Spindle, f64, bool) {
@@ -155,17 +155,17 @@ fn doubt(machine: &mut Machine, command: &Command, before: &Before, trace: &mut 
 /// Marks what nobody could tell the time of: spindle and coolant beside a rapid move or a wait, where no source says it.
 fn loosen(machine: &Machine, before: &Before, trace: &mut Trace) {
     let events = trace.events.get_mut(before.events..).unwrap_or_default();
-    let idle = |event: &Event| matches!(event.what, Happening::Rapid { .. } | Happening::Dwell { .. });
+    let idle = |event: &Event| matches!(event.what, EventKind::Rapid { .. } | EventKind::Dwell { .. });
     if !events.iter().any(idle) || events.iter().any(is_cut) {
         return;
     }
     for event in events {
         let kind = match event.what {
-            Happening::Spindle { direction: Spindle::Clockwise, .. } => Auxiliary::Forward,
-            Happening::Spindle { direction: Spindle::CounterClockwise, .. } => Auxiliary::Start,
-            Happening::Spindle { .. } => Auxiliary::Stop,
-            Happening::Coolant { state: Op::CoolantOff | Op::ThroughSpindleOff } => Auxiliary::Stop,
-            Happening::Coolant { .. } => Auxiliary::Start,
+            EventKind::Spindle { direction: Spindle::Clockwise, .. } => Auxiliary::Forward,
+            EventKind::Spindle { direction: Spindle::CounterClockwise, .. } => Auxiliary::Start,
+            EventKind::Spindle { .. } => Auxiliary::Stop,
+            EventKind::Coolant { state: Op::CoolantOff | Op::ThroughSpindleOff } => Auxiliary::Stop,
+            EventKind::Coolant { .. } => Auxiliary::Start,
             _ => continue,
         };
         if machine.rules.acts_late(kind).is_unsure() && event.told == Told::Plain {
@@ -175,10 +175,10 @@ fn loosen(machine: &Machine, before: &Before, trace: &mut Trace) {
 }
 
 fn is_move(event: &Event) -> bool {
-    is_cut(event) || matches!(&event.what, Happening::Rapid { from, to } if from != to)
+    is_cut(event) || matches!(&event.what, EventKind::Rapid { from, to } if from != to)
 }
 
 fn is_cut(event: &Event) -> bool {
-    use Happening::{Arc, Feed, Hole, Probe, Thread};
+    use EventKind::{Arc, Feed, Hole, Probe, Thread};
     matches!(event.what, Feed { .. } | Arc { .. } | Thread { .. } | Probe { .. } | Hole { .. })
 }

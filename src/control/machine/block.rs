@@ -6,7 +6,7 @@
 use super::{Command, Machine, auxiliary, motion, offsets, state, tooling};
 use crate::canon::{Group, Op, Pause, Role};
 use crate::control::outcome::Stop;
-use crate::control::trace::{Happening, Trace};
+use crate::control::trace::{EventKind, Trace};
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     if machine.frame.is_shaped() && command.ops.iter().any(|op| is_of_frame(*op)) {
@@ -31,8 +31,8 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     auxiliary::behind(machine, command, &before, trace);
     for &op in &command.ops {
         match op {
-            Op::Stop => machine.pause(Pause::Stop, Happening::Stop, trace),
-            Op::OptionalStop => machine.pause(Pause::Stop, Happening::OptionalStop, trace),
+            Op::Stop => machine.pause(Pause::Stop, EventKind::Stop, trace),
+            Op::OptionalStop => machine.pause(Pause::Stop, EventKind::OptionalStop, trace),
             _ => {}
         }
     }
@@ -68,7 +68,7 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         | Op::WriteOffset => offsets::write_by_code(machine, op, command, trace)?,
         Op::LimitSpeed => {
             if let Some(speed) = command.word(Role::SpeedLimit) {
-                trace.push(Happening::SpeedLimit { speed });
+                trace.push(EventKind::SpeedLimit { speed });
             }
         }
         Op::CheckInch if !machine.inch => return Err(Stop::unnamed("the control is set to metric")),
@@ -78,7 +78,7 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         // An M code of its own, which has its time.
         op if auxiliary::is_own(op)
             && command.own_code.as_ref().is_some_and(|code| code.starts_with('M')) => {}
-        _ => trace.push(Happening::Other { operation: op, code: command.own_code.clone() }),
+        _ => trace.push(EventKind::Other { operation: op, code: command.own_code.clone() }),
     }
     Ok(())
 }
@@ -117,5 +117,5 @@ fn dwell(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         .unwrap_or(0.0)
         .max(0.0);
     machine.clock += seconds * 1000.0;
-    trace.push(Happening::Dwell { seconds });
+    trace.push(EventKind::Dwell { seconds });
 }

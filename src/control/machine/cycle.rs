@@ -6,7 +6,7 @@ use super::{Command, Machine, expand};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
 use crate::control::outcome::Stop;
-use crate::control::trace::{Happening, Trace};
+use crate::control::trace::{EventKind, Trace};
 
 /// A cycle in force. Depths are program coordinates along the drilling axis, millimetres.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +140,7 @@ fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
     let planes = cycle.planes(mode).ok_or_else(|| Stop::unnamed("a drilling cycle without its depth"))?;
     if cycle.op == Op::CycleOther {
         trace.doubt("machine:cycle.other");
-        trace.push(Happening::Other { operation: cycle.op, code: None });
+        trace.push(EventKind::Other { operation: cycle.op, code: None });
         return Ok(());
     }
     expand::hole(machine, &cycle, planes, trace);

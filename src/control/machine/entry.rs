@@ -7,7 +7,7 @@ use super::{Machine, Op};
 use crate::canon::Running;
 use crate::control::entry::Entry;
 use crate::control::scenario::AXES;
-use crate::control::trace::{FeedMode, Happening, Plane, Side, Spindle, Told, Trace};
+use crate::control::trace::{EventKind, FeedMode, Plane, Side, Spindle, Told, Trace};
 
 impl Machine {
     /// Starts in a mode that a caller, or an earlier program, left.
@@ -51,7 +51,7 @@ impl Machine {
             }
         }
         if let Some(number) = entry.cutter {
-            self.side = if entry.cutter_right { Side::Right } else { Side::Left };
+            self.side = if entry.cutter_right { Side::Right } else { Side::ExitState };
             self.radius_offset = number;
         }
         self.shape(entry);
@@ -76,18 +76,18 @@ impl Machine {
 
     /// Tells what of it an observer of the machine sees from the start.
     pub fn tell_entry(&self, entry: &Entry, trace: &mut Trace) {
-        let cutter = || Happening::CutterRadius {
+        let cutter = || EventKind::CutterRadius {
             side: self.side,
             offset: self.radius_offset,
             value: self.radius_value(self.radius_offset),
         };
         let (direction, speed, surface) = (self.spindle, self.speed, self.surface_speed);
         let told = [
-            entry.work.map(|_| Happening::WorkOffset { number: self.frame.number }),
-            entry.length.map(|offset| Happening::ToolLength { offset, value: self.length_value() }),
+            entry.work.map(|_| EventKind::WorkOffset { number: self.frame.number }),
+            entry.length.map(|offset| EventKind::ToolLength { offset, value: self.length_value() }),
             entry.cutter.map(|_| cutter()),
-            entry.spindle.map(|_| Happening::Spindle { direction, speed, surface }),
-            entry.coolant.then_some(Happening::Coolant { state: self.coolant }),
+            entry.spindle.map(|_| EventKind::Spindle { direction, speed, surface }),
+            entry.coolant.then_some(EventKind::Coolant { state: self.coolant }),
         ];
         for what in told.into_iter().flatten() {
             trace.push(what);

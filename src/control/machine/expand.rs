@@ -5,7 +5,7 @@ use super::cycle::{Cycle, Planes};
 use super::state::axes_of;
 use crate::canon::Op;
 use crate::control::scenario::Axes;
-use crate::control::trace::{FeedMode, Happening, Position, Spindle, Told, Trace};
+use crate::control::trace::{EventKind, FeedMode, Position, Spindle, Told, Trace};
 
 /// Drills where the machine stands over the hole, and leaves it as the return plane says.
 pub(super) fn hole(machine: &mut Machine, cycle: &Cycle, planes: Planes, trace: &mut Trace) {
@@ -37,7 +37,7 @@ impl<'a> Driver<'a> {
     fn tell(&mut self, cycle: &Cycle) {
         let at = Position(self.machine.position);
         let bottom = self.place(self.planes.bottom)[self.along];
-        self.trace.push(Happening::Hole { cycle: cycle.op, at, bottom });
+        self.trace.push(EventKind::Hole { cycle: cycle.op, at, bottom });
     }
 
     /// From the retract plane into the hole, out of it, and on to the initial plane where that is asked for.
@@ -61,7 +61,7 @@ impl<'a> Driver<'a> {
                 self.feed(bottom);
                 self.dwell(cycle.dwell);
                 self.turn(Spindle::Stopped);
-                self.trace.push(Happening::Stop);
+                self.trace.push(EventKind::Stop);
                 self.rapid(r);
                 self.turn(before);
             }
@@ -201,7 +201,7 @@ impl<'a> Driver<'a> {
     fn dwell(&mut self, seconds: f64) {
         if seconds > 0.0 {
             self.machine.clock += seconds * 1000.0;
-            self.trace.push(Happening::Dwell { seconds });
+            self.trace.push(EventKind::Dwell { seconds });
         }
     }
 
@@ -209,7 +209,7 @@ impl<'a> Driver<'a> {
         if self.machine.spindle != direction {
             self.machine.spindle = direction;
             let (speed, surface) = (self.machine.speed, self.machine.surface_speed);
-            self.trace.push(Happening::Spindle { direction, speed, surface });
+            self.trace.push(EventKind::Spindle { direction, speed, surface });
             self.trace.tell(Told::Cycle);
         }
     }

@@ -11,9 +11,9 @@ mod block;
 mod command;
 mod cycle;
 mod entry;
+mod exit_state;
 mod expand;
 mod frame;
-mod left;
 mod motion;
 mod offsets;
 mod pauses;
@@ -26,8 +26,8 @@ mod tests;
 mod tooling;
 
 pub use command::Command;
+pub use exit_state::ExitState;
 pub use frame::{Frame, Rotation};
-pub use left::Left;
 pub(super) use rules::Rules;
 
 use super::outcome::Stop;

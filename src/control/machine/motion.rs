@@ -7,7 +7,7 @@ use super::{Command, Machine, arc, cycle};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
-use crate::control::trace::{Happening, Position, Trace};
+use crate::control::trace::{EventKind, Position, Trace};
 
 /// The axis that tool lengths lie along.
 const LENGTH_AXIS: usize = 2;
@@ -24,7 +24,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
             trace.doubt("machine:corner.elsewhere");
         }
         for (size, chamfer) in [Some(corner), second].into_iter().flatten().filter(|_| cuts) {
-            trace.push(Happening::Corner { chamfer, size: size * machine.unit() });
+            trace.push(EventKind::Corner { chamfer, size: size * machine.unit() });
         }
     }
     Ok(())
@@ -102,7 +102,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             let (from, to) = (machine.position, machine.target(command));
             machine.position = to;
             let lead = command.word(Role::Lead).map_or(machine.feed, |lead| lead * machine.unit());
-            trace.push(Happening::Thread { from: Position(from), to: Position(to), lead });
+            trace.push(EventKind::Thread { from: Position(from), to: Position(to), lead });
         }
         other => {
             if other == Op::ArcTangent {
@@ -180,7 +180,7 @@ fn probe(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     if let Some(point) = command.word(Role::ProbePoint) {
         machine.keep_touch_point(point.round().max(0.0) as u32);
     }
-    trace.push(Happening::Probe {
+    trace.push(EventKind::Probe {
         from: Position(from),
         aim: Position(aim),
         to: Position(to),
@@ -194,7 +194,7 @@ impl Machine {
     pub(super) fn rapid_to(&mut self, to: Axes, trace: &mut Trace) {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {
-            trace.push(Happening::Rapid { from: Position(from), to: Position(to) });
+            trace.push(EventKind::Rapid { from: Position(from), to: Position(to) });
         }
     }
 
@@ -204,7 +204,7 @@ impl Machine {
         if from != to {
             self.doubt_feed_mode(trace);
             self.pass(distance(&from, &to));
-            trace.push(Happening::Feed {
+            trace.push(EventKind::Feed {
                 from: Position(from),
                 to: Position(to),
                 feed: self.feed,

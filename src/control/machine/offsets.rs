@@ -5,7 +5,7 @@ use super::command::{Command, is_rotary};
 use crate::canon::{Op, Role, Sys};
 use crate::control::outcome::Stop;
 use crate::control::scenario::AXES;
-use crate::control::trace::{Happening, Trace};
+use crate::control::trace::{EventKind, Trace};
 
 /// The code that writes offsets, with its words.
 pub(super) fn write_by_code(
@@ -43,7 +43,7 @@ impl Machine {
     pub(super) fn keep_work(&mut self, number: Option<u32>, axis: usize, value: f64, trace: &mut Trace) {
         let state = if number.is_some() { Sys::WorkOffset } else { Sys::ExternalShift };
         let subscripts = number.into_iter().chain([axis as u32 + 1]).collect();
-        trace.push(Happening::Write { state, subscripts, value });
+        trace.push(EventKind::Write { state, subscripts, value });
         let Some(number) = number else {
             self.frame.external[axis] = value;
             if self.rules.local_is_external.peek() {
@@ -78,7 +78,7 @@ impl Machine {
             // Where length and radius share a table, the one value is kept as a length.
             _ => tool.length = value,
         }
-        trace.push(Happening::Write { state, subscripts: vec![number], value });
+        trace.push(EventKind::Write { state, subscripts: vec![number], value });
         let changes = number == self.length_offset && self.length_value() != self.frame.length;
         if changes && self.rules.offset_acts_at_once.ask(trace) {
             self.frame.length = self.length_value();

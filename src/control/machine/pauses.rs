@@ -2,12 +2,12 @@
 
 use super::Machine;
 use crate::canon::{Op, Pause, Running};
-use crate::control::trace::{Happening, Spindle, Told, Trace};
+use crate::control::trace::{EventKind, Spindle, Told, Trace};
 use crate::dialect::Question;
 
 impl Machine {
     /// Stops for a person, for a tool, or for good: what the control is known to end is ended, then it stops.
-    pub fn pause(&mut self, pause: Pause, what: Happening, trace: &mut Trace) {
+    pub fn pause(&mut self, pause: Pause, what: EventKind, trace: &mut Trace) {
         self.stop_running(pause, trace);
         trace.push(what);
     }
@@ -50,11 +50,11 @@ impl Machine {
             Running::Spindle => {
                 self.spindle = Spindle::Stopped;
                 let (speed, surface) = (self.speed, self.surface_speed);
-                trace.push(Happening::Spindle { direction: Spindle::Stopped, speed, surface });
+                trace.push(EventKind::Spindle { direction: Spindle::Stopped, speed, surface });
             }
             Running::Coolant => {
                 self.coolant = Op::CoolantOff;
-                trace.push(Happening::Coolant { state: Op::CoolantOff });
+                trace.push(EventKind::Coolant { state: Op::CoolantOff });
             }
         }
     }

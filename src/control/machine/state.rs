@@ -4,7 +4,7 @@ use super::frame::Rotation;
 use super::{Command, INCH, Machine};
 use crate::canon::{Group, Op, Role};
 use crate::control::scenario::AXES;
-use crate::control::trace::{FeedMode, Happening, Plane, Trace};
+use crate::control::trace::{EventKind, FeedMode, Plane, Trace};
 
 /// Modes that the rest of the block is read by.
 pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace) {
@@ -28,7 +28,7 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
             Op::PolarOff => machine.polar = false,
             _ if op.group() == Group::PathMode && machine.path_mode != op => {
                 machine.path_mode = op;
-                trace.push(Happening::Other { operation: op, code: None });
+                trace.push(EventKind::Other { operation: op, code: None });
             }
             Op::PlaneOther | Op::Wrap => trace.doubt("machine:plane"),
             Op::Thread if command.word(Role::Lead).is_some() => {}
@@ -49,13 +49,13 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
             Op::SelectWork => {
                 let number = command.number(Role::WorkOffset).unwrap_or(machine.frame.number);
                 machine.select(number);
-                trace.push(Happening::WorkOffset { number });
+                trace.push(EventKind::WorkOffset { number });
             }
             Op::ShiftCancel => {
                 machine.select(0);
                 machine.frame.local = [0.0; AXES];
                 machine.frame.datum = [0.0; AXES];
-                trace.push(Happening::WorkOffset { number: 0 });
+                trace.push(EventKind::WorkOffset { number: 0 });
             }
             Op::LocalShift => {
                 for (axis, value) in machine.named_axes(command) {

@@ -8,7 +8,7 @@ use super::rules::RadiusTable;
 use crate::canon::{Op, Sys};
 use crate::control::outcome::Stop;
 use crate::control::scenario::AXES;
-use crate::control::trace::{Happening, Spindle, Trace};
+use crate::control::trace::{EventKind, Spindle, Trace};
 use crate::dialect::Question;
 
 /// The key of a cell; states have two subscripts at the most.
@@ -188,13 +188,13 @@ impl Machine {
             Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius => {
                 self.cells.insert(cell(state, subscripts), value);
                 let value = value * unit;
-                trace.push(Happening::Write { state, subscripts: subscripts.to_vec(), value });
+                trace.push(EventKind::Write { state, subscripts: subscripts.to_vec(), value });
             }
             Sys::TimerMs => self.timer_ms_from = self.clock - value,
             Sys::TimerHours => self.timer_hours_from = self.clock - value * 3_600_000.0,
             _ => {
                 self.cells.insert(cell(state, subscripts), value);
-                trace.push(Happening::Write { state, subscripts: subscripts.to_vec(), value });
+                trace.push(EventKind::Write { state, subscripts: subscripts.to_vec(), value });
             }
         }
         Ok(())
@@ -232,7 +232,7 @@ impl Machine {
             }
             Group::RadiusComp => match self.side {
                 super::Side::Off => Op::RadiusOff,
-                super::Side::Left => Op::RadiusLeft,
+                super::Side::ExitState => Op::RadiusLeft,
                 super::Side::Right => Op::RadiusRight,
             },
             Group::LengthComp => self.length_op,

@@ -2,23 +2,23 @@
 
 use super::*;
 use crate::canon::Role;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 
 fn machine(scenario: &Scenario) -> Machine {
     let control = Control::plain("fanuc").expect("the shipped table loads");
     Machine::new(Arc::new(Rules::new(&control)), &control, scenario)
 }
 
-fn run(machine: &mut Machine, ops: &[Op], words: &[(Role, f64)]) -> Vec<Happening> {
+fn run(machine: &mut Machine, ops: &[Op], words: &[(Role, f64)]) -> Vec<EventKind> {
     let command = Command { ops: ops.into(), words: words.iter().copied().collect(), ..Command::default() };
     let mut trace = Trace::new(1000, &[]);
     machine.run(&command, &mut trace).expect("no alarm");
     trace.events.into_iter().map(|event| event.what).collect()
 }
 
-fn feeds(happened: &[Happening]) -> Vec<[f64; 3]> {
+fn feeds(happened: &[EventKind]) -> Vec<[f64; 3]> {
     let ends = happened.iter().filter_map(|what| match what {
-        Happening::Feed { to, .. } => Some([to.0[0], to.0[1], to.0[2]]),
+        EventKind::Feed { to, .. } => Some([to.0[0], to.0[1], to.0[2]]),
         _ => None,
     });
     ends.collect()
@@ -68,7 +68,7 @@ fn arcs_by_centre_and_by_radius_find_the_same_circle() {
         for words in [&by_radius[..], &by_centre[..]] {
             let happened = run(&mut machine(&Scenario::default()), &[op], words);
             let found = happened.iter().find_map(|what| match what {
-                Happening::Arc { centre, sweep, .. } => Some((centre.0[0], centre.0[1], *sweep)),
+                EventKind::Arc { centre, sweep, .. } => Some((centre.0[0], centre.0[1], *sweep)),
                 _ => None,
             });
             let (x, y, turned) = found.expect("an arc");

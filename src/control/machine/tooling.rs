@@ -4,7 +4,7 @@ use super::rules::{LengthAfter, RadiusTable};
 use super::{Command, Machine};
 use crate::canon::{Op, Pause, Role};
 use crate::control::scenario::AXES;
-use crate::control::trace::{Happening, Side, Trace};
+use crate::control::trace::{EventKind, Side, Trace};
 
 /// Takes the codes and words of compensation.
 pub(super) fn compensation(machine: &mut Machine, command: &Command, trace: &mut Trace) {
@@ -21,7 +21,7 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
     machine.tool_ready = tool;
     if !machine.rules.tool_word_changes.peek() {
         if !command.has(Op::ToolChange) {
-            trace.push(Happening::ToolReady { tool });
+            trace.push(EventKind::ToolReady { tool });
         }
         return;
     }
@@ -47,7 +47,7 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
 /// Puts the tool that is ready into the spindle.
 pub(super) fn change(machine: &mut Machine, trace: &mut Trace) {
     machine.tool = machine.tool_ready;
-    machine.pause(Pause::Change, Happening::ToolChange { tool: machine.tool }, trace);
+    machine.pause(Pause::Change, EventKind::ToolChange { tool: machine.tool }, trace);
 }
 
 fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
@@ -96,13 +96,13 @@ fn apply_length(machine: &mut Machine, trace: &mut Trace) {
     let value = machine.length_value();
     machine.frame.length = value;
     let offset = if machine.length_op == Op::LengthOff { 0 } else { machine.length_offset };
-    trace.push(Happening::ToolLength { offset, value });
+    trace.push(EventKind::ToolLength { offset, value });
 }
 
 fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let side = command.ops.iter().rev().find_map(|op| match op {
         Op::RadiusOff => Some(Side::Off),
-        Op::RadiusLeft => Some(Side::Left),
+        Op::RadiusLeft => Some(Side::ExitState),
         Op::RadiusRight => Some(Side::Right),
         _ => None,
     });
@@ -126,7 +126,7 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         }
         let offset = if off { 0 } else { machine.radius_offset };
         let value = if off { 0.0 } else { machine.radius_value(offset) };
-        trace.push(Happening::CutterRadius { side: machine.side, offset, value });
+        trace.push(EventKind::CutterRadius { side: machine.side, offset, value });
     }
 }
 
@@ -160,7 +160,7 @@ impl Machine {
         };
         if lost.gone {
             self.length_op = Op::LengthOff;
-            trace.push(Happening::ToolLength { offset: 0, value: 0.0 });
+            trace.push(EventKind::ToolLength { offset: 0, value: 0.0 });
         }
     }
 
@@ -208,8 +208,8 @@ impl Machine {
             self.frame.external = [0.0; AXES];
         }
         if matches!(by, Op::Return | Op::SubEnd) {
-            return trace.push(Happening::End { by });
+            return trace.push(EventKind::End { by });
         }
-        self.pause(Pause::End, Happening::End { by }, trace);
+        self.pause(Pause::End, EventKind::End { by }, trace);
     }
 }

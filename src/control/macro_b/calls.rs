@@ -6,7 +6,7 @@ use super::run::{Loaded, Next, Runner};
 use crate::canon::Op;
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 
 /// Calls nest no deeper than this on any control, where the table knows no limit.
 const DEEPEST: usize = 100;
@@ -228,7 +228,7 @@ impl<'c> Runner<'c> {
             // Where the caller goes on is seen, though no caller is there.
             if let Some(number) = whole {
                 let code = Some(format!("P{number}"));
-                self.session.trace.push(Happening::Other { operation: Op::Return, code });
+                self.session.trace.push(EventKind::Other { operation: Op::Return, code });
             }
             return Err(Halt::Ended(Op::Return));
         }
@@ -285,7 +285,7 @@ impl<'c> Runner<'c> {
                 call.locals = locals;
             }
         }
-        self.session.trace.push(Happening::Leave);
+        self.session.trace.push(EventKind::Leave);
     }
 
     /// True where a modal call in force calls after every block.

@@ -5,7 +5,7 @@ use super::meaning::is_code;
 use super::run::{Next, Runner};
 use crate::canon::{Group, Op, Pause, Role};
 use crate::control::session::Halt;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use smallvec::SmallVec;
 
 impl<'c> Runner<'c> {
@@ -75,7 +75,7 @@ impl<'c> Runner<'c> {
         self.command = command;
         done?;
         if let Some(text) = shown {
-            let what = Happening::Message { text: text.clone() };
+            let what = EventKind::Message { text: text.clone() };
             self.session.pause(Pause::Stop, what);
         }
         match call {

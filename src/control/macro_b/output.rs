@@ -3,7 +3,7 @@
 use super::code::Part;
 use super::run::Runner;
 use crate::control::session::Halt;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use std::fmt::Write;
 
 impl Runner<'_> {
@@ -32,7 +32,7 @@ impl Runner<'_> {
                 }
             }
         }
-        self.session.trace.push(Happening::Output { text });
+        self.session.trace.push(EventKind::Output { text });
         Ok(())
     }
 }

@@ -15,7 +15,7 @@ use crate::control::machine::Command;
 use crate::control::outcome::{Run, Stop};
 use crate::control::scenario::Scenario;
 use crate::control::session::{Halt, Session};
-use crate::control::trace::{Happening, Place};
+use crate::control::trace::{EventKind, Place};
 use crate::dialect::{CodeMeaning, CodePlace, Control};
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -275,7 +275,7 @@ impl<'c> Runner<'c> {
 
     fn signal(&mut self, alarm: bool, value: f64, text: &str) -> Result<(), Halt> {
         if !alarm {
-            self.session.pause(Pause::Message, Happening::Message { text: text.into() });
+            self.session.pause(Pause::Message, EventKind::Message { text: text.into() });
             self.answer_in(text);
             return Ok(());
         }

@@ -7,7 +7,7 @@ use super::run::Runner;
 use crate::canon::{Group, Pause, Sys};
 use crate::control::outcome::Stop;
 use crate::control::session::Halt;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 
 impl Runner<'_> {
     /// The value of a variable.
@@ -148,7 +148,7 @@ impl Runner<'_> {
             // Reached by a computed number, so that no text is known.
             let number = format!("{}", self.rules.alarm_offset + value);
             if system.state == Sys::StopMessage {
-                self.session.pause(Pause::Message, Happening::Message { text: String::new() });
+                self.session.pause(Pause::Message, EventKind::Message { text: String::new() });
                 return Ok(());
             }
             return Err(Halt::Alarm(Stop { program_number: Some(value), ..Stop::alarm(&number, "") }));

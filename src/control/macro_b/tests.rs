@@ -6,7 +6,7 @@ mod flow;
 mod programs;
 mod values;
 
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::dialect::Control;
 use crate::syntax::parse_file;
@@ -50,7 +50,7 @@ fn alarm(run: &Run) -> &str {
 /// The ends of all moves.
 fn moves(run: &Run) -> Vec<[f64; 3]> {
     let ends = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Rapid { to, .. } | Happening::Feed { to, .. } | Happening::Arc { to, .. } => {
+        EventKind::Rapid { to, .. } | EventKind::Feed { to, .. } | EventKind::Arc { to, .. } => {
             Some([to.0[0], to.0[1], to.0[2]])
         }
         _ => None,
@@ -60,7 +60,7 @@ fn moves(run: &Run) -> Vec<[f64; 3]> {
 
 /// True where a fact was in doubt.
 fn doubts(run: &Run, fact: &str) -> bool {
-    run.events.iter().any(|event| matches!(&event.what, Happening::Unsure { fact: found } if found == fact))
+    run.events.iter().any(|event| matches!(&event.what, EventKind::Unsure { fact: found } if found == fact))
 }
 
 fn corpus(path: &str) -> String {

@@ -10,11 +10,11 @@ use crate::control::words::to_increment;
 use crate::dialect::{BareLength, CodeMeaning};
 
 /// A word's role, and the code that gives it where one does.
-pub type Known<'c> = Option<(Role, Option<&'c CodeMeaning>)>;
+pub type RoleOf<'c> = Option<(Role, Option<&'c CodeMeaning>)>;
 
 impl<'c> Runner<'c> {
     /// The role of a word: beside a code of the block, beside the drilling cycle in force, or by itself.
-    pub fn role_of(&self, meaning: &Meaning, at: usize, word: &Word) -> Known<'c> {
+    pub fn role_of(&self, meaning: &Meaning, at: usize, word: &Word) -> RoleOf<'c> {
         if let Some(Some((role, row))) = meaning.beside.get(at) {
             return Some((*role, self.row(Some(*row))));
         }
@@ -36,7 +36,7 @@ impl<'c> Runner<'c> {
     }
 
     /// The value of a word in the units of the program; none where the word is dropped.
-    pub fn word_value(&mut self, word: &Word, known: Known<'_>) -> Result<Option<f64>, Halt> {
+    pub fn word_value(&mut self, word: &Word, known: RoleOf<'_>) -> Result<Option<f64>, Halt> {
         let role = known.map(|(role, _)| role);
         if word.form.is_literal() {
             let value = self.eval(&word.value)?.unwrap_or(0.0);

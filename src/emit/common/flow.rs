@@ -116,7 +116,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         match &block.term.kind {
             TermKind::Jump(to) if *to == next && self.is_written(at) => Form::Goto(*to),
             TermKind::Jump(to) => far(*to).map_or(Form::Fall, Form::Goto),
-            TermKind::Branch { cond, yes, no } => self.branch(at, cond, *yes, *no),
+            TermKind::Branch { cond, then, otherwise } => self.branch(at, cond, *then, *otherwise),
             TermKind::Call { next: to, .. } => Form::Own(far(*to)),
             TermKind::Stray if next.index() == self.program.blocks.len() => Form::Fall,
             // The text ends here, which only its end can do.
@@ -134,24 +134,26 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         !block.term.site.span.is_empty() && !next.labels.is_empty()
     }
 
-    fn branch(&self, at: usize, cond: &Cond, yes: BlockId, no: BlockId) -> Form {
+    fn branch(&self, at: usize, cond: &Cond, then: BlockId, otherwise: BlockId) -> Form {
         let next = BlockId(at as u32 + 1);
         match cond {
-            Cond::Switch(level) => self.switch(at, *level, yes, no),
+            Cond::Switch(level) => self.switch(at, *level, then, otherwise),
             Cond::Not(inner) if matches!(**inner, Cond::Switch(_)) => {
                 let Cond::Switch(level) = **inner else { return Form::Fall };
-                self.switch(at, level, no, yes)
+                self.switch(at, level, otherwise, then)
             }
-            _ if self.is_then(at, cond, yes, no) => Form::Then,
-            _ if yes == next && no != next => Form::If { negated: true, to: no, otherwise: None },
-            _ => Form::If { negated: false, to: yes, otherwise: (no != next).then_some(no) },
+            _ if self.is_then(at, cond, then, otherwise) => Form::Then,
+            _ if then == next && otherwise != next => {
+                Form::If { negated: true, to: otherwise, otherwise: None }
+            }
+            _ => Form::If { negated: false, to: then, otherwise: (otherwise != next).then_some(otherwise) },
         }
     }
 
     /// One statement that runs where the condition holds, and then, either way, what is behind it.
-    fn is_then(&self, at: usize, cond: &Cond, yes: BlockId, no: BlockId) -> bool {
+    fn is_then(&self, at: usize, cond: &Cond, then: BlockId, otherwise: BlockId) -> bool {
         let body = at + 1;
-        if yes.index() != body || !self.arrivals.is_only_from(body, at) {
+        if then.index() != body || !self.arrivals.is_only_from(body, at) {
             return false;
         }
         let (Some(header), Some(block)) = (self.program.blocks.get(at), self.program.blocks.get(body)) else {
@@ -168,7 +170,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                     StmtKind::Assign { .. } | StmtKind::Alarm { .. } | StmtKind::StopMessage { .. }
                 );
                 let words = matches!(stmt.kind, StmtKind::Nc(_));
-                *join == no
+                *join == otherwise
                     && join.index() == body + 1
                     && is_silent(block)
                     && shares_line(self.abilities.control, cond, &stmt.kind)
@@ -181,7 +183,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                 if to.is_some() && self.abilities.guarded {
                     return false;
                 }
-                no.index() == body + 1 && self.abilities.then_words && one_block(block.term.site.span)
+                otherwise.index() == body + 1 && self.abilities.then_words && one_block(block.term.site.span)
             }
             _ => false,
         }

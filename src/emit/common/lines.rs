@@ -6,7 +6,7 @@ use super::remarks::{spelled, wrap, write_remark, write_spelled};
 use super::sheet::Sheet;
 use crate::diag::Code;
 use crate::dialect::Question;
-use crate::ir::{Cond, Remark, Site};
+use crate::ir::{Cond, Remark, SourceInfo};
 use crate::text::Span;
 
 /// What a line holds, as far as its comments and its length go.
@@ -44,13 +44,13 @@ pub(in crate::emit) struct Line<'p> {
     flushed: Option<u32>,
     sequence: Option<u32>,
     waiting: Vec<&'p Remark>,
-    last: Option<&'p Site>,
+    last: Option<&'p SourceInfo>,
 }
 
 impl<'p> Sheet<'p> {
     /// Keeps the sequence number and the comments of a site for the next line, but for
     /// those that the line before had already, coming from the same block.
-    pub fn carry(&mut self, site: &'p Site) {
+    pub fn carry(&mut self, site: &'p SourceInfo) {
         if self.line.last.is_some_and(|last| std::ptr::eq(last, site)) {
             return;
         }
@@ -80,7 +80,7 @@ impl<'p> Sheet<'p> {
     }
 
     /// Starts a line; `message` is the text that its statement shows, if it shows any.
-    pub fn begin(&mut self, site: &'p Site, kind: Kind, message: Option<&str>) {
+    pub fn begin(&mut self, site: &'p SourceInfo, kind: Kind, message: Option<&str>) {
         self.span = site.span;
         self.carry(site);
         let skip = self.line.skip.take().or(site.skip);
@@ -169,7 +169,7 @@ impl<'p> Sheet<'p> {
 
     /// Writes `O0001 (COMMENT)`: the name is the first on its line, so comments that find no room there
     /// follow on lines of their own. A sequence number beside it is left out: nothing goes there by it.
-    pub fn program_line(&mut self, site: &'p Site, number: u32) {
+    pub fn program_line(&mut self, site: &'p SourceInfo, number: u32) {
         self.carry(site);
         self.line.sequence = None;
         self.span = site.span;

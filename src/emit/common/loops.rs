@@ -46,11 +46,11 @@ pub(super) fn find(program: &Program, arrivals: &Arrivals, deepest: u32) -> Vec<
 
 fn loop_at(program: &Program, arrivals: &Arrivals, header: usize) -> Option<(usize, bool)> {
     let block = program.blocks.get(header)?;
-    let TermKind::Branch { cond, yes, no } = &block.term.kind else { return None };
+    let TermKind::Branch { cond, then, otherwise } = &block.term.kind else { return None };
     if !only_remarks(block) || has_switch(cond) {
         return None;
     }
-    let (exit, negated) = match (yes.index(), no.index()) {
+    let (exit, negated) = match (then.index(), otherwise.index()) {
         (body, exit) if body == header + 1 => (exit, false),
         (exit, body) if body == header + 1 => (exit, true),
         _ => return None,

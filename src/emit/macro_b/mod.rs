@@ -22,7 +22,7 @@ use super::{Naming, Writer};
 use crate::dialect::Control;
 use crate::emit::common::lines::Kind;
 use crate::emit::common::sheet::{Forms, Sheet};
-use crate::ir::{Program, Site};
+use crate::ir::{Program, SourceInfo};
 use spellings::Spellings;
 
 /// `O0001`, `N10`.
@@ -75,7 +75,7 @@ struct Emitter<'p> {
 
 impl<'p> Emitter<'p> {
     /// Starts a line; `message` is the text that its statement shows, if it shows any.
-    fn begin(&mut self, site: &'p Site, kind: Kind, message: Option<&str>) {
+    fn begin(&mut self, site: &'p SourceInfo, kind: Kind, message: Option<&str>) {
         self.out.begin(site, kind, message);
         if let Some(condition) = self.out.line.condition.take() {
             self.out.space();

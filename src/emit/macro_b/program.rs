@@ -8,7 +8,7 @@ use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::labels::{self, Labels, Standing};
 use crate::emit::common::lines::Kind;
 use crate::emit::common::reach::Reach;
-use crate::ir::{Block, BlockId, Cond, Site, TermKind};
+use crate::ir::{Block, BlockId, Cond, SourceInfo, TermKind};
 use crate::syntax::Label;
 
 /// Bytes that most lines do not reach.
@@ -197,7 +197,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Writes what stood beside an end that is not written itself.
-    fn bare(&mut self, site: &'p Site) {
+    fn bare(&mut self, site: &'p SourceInfo) {
         self.out.carry(site);
         if self.out.has_carried() {
             self.begin(site, Kind::Words, None);
@@ -221,7 +221,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Writes a jump on a line of its own.
-    fn goto(&mut self, site: &'p Site, to: BlockId) {
+    fn goto(&mut self, site: &'p SourceInfo, to: BlockId) {
         self.begin(site, Kind::Macro, None);
         self.jump(to);
         self.out.finish();

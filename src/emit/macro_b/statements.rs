@@ -8,7 +8,7 @@ use crate::emit::common::lines::Kind;
 use crate::emit::common::reach::is_steady;
 use crate::emit::common::remarks::{is_writable, write_remark};
 use crate::ir::{
-    Block, Cond, Expr, Nc, NcItem, OutputPart, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
+    Block, Cond, Expr, Nc, NcItem, OutputPart, Place, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
 use thin_vec::ThinVec;
 
@@ -66,7 +66,7 @@ impl<'p> Emitter<'p> {
 
     /// Writes a comment, or an empty block: one for a block of the source, and all that hold back a control that
     /// reads ahead.
-    fn remark(&mut self, site: &'p Site, held: bool) {
+    fn remark(&mut self, site: &'p SourceInfo, held: bool) {
         let repeated = self.out.is_last_span(site.span);
         self.out.carry(site);
         if self.out.is_waiting() {
@@ -98,7 +98,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// `#3000=1 (TEXT)`.
-    fn message(&mut self, site: &'p Site, state: Sys, number: &Expr, text: &str) {
+    fn message(&mut self, site: &'p SourceInfo, state: Sys, number: &Expr, text: &str) {
         self.begin(site, Kind::Alone, Some(text));
         self.assign(&Place::System(state, ThinVec::new()), number);
         let text = text.trim();
@@ -260,7 +260,7 @@ impl<'p> Emitter<'p> {
     }
 
     /// Stops before a jump to a number that the source has no block of: `IF [#1 GT 8999] THEN #3000=1 (..)`.
-    fn guard(&mut self, site: &'p Site, value: &Expr, floor: Option<u32>) {
+    fn guard(&mut self, site: &'p SourceInfo, value: &Expr, floor: Option<u32>) {
         let Some(floor) = floor else { return };
         if !is_steady(value) || !self.out.has_statement("if.then") {
             let what =

@@ -13,7 +13,7 @@ pub struct Universe {
 
 /// A subset of a [`Universe`].
 #[derive(Debug, Default, PartialEq, Eq)]
-pub struct Row {
+pub struct BitRow {
     /// Two words are as large as what points to more.
     bits: SmallVec<[u64; 2]>,
 }
@@ -44,13 +44,13 @@ impl Universe {
     }
 
     /// The empty subset.
-    pub fn none(&self) -> Row {
-        Row { bits: smallvec![0; self.vars.len().div_ceil(64)] }
+    pub fn none(&self) -> BitRow {
+        BitRow { bits: smallvec![0; self.vars.len().div_ceil(64)] }
     }
 
     /// All of it.
-    pub fn all(&self) -> Row {
-        let mut row = Row { bits: smallvec![u64::MAX; self.vars.len().div_ceil(64)] };
+    pub fn all(&self) -> BitRow {
+        let mut row = BitRow { bits: smallvec![u64::MAX; self.vars.len().div_ceil(64)] };
         if let (Some(word), over @ 1..) = (row.bits.last_mut(), self.vars.len() % 64) {
             *word = (1 << over) - 1;
         }
@@ -58,14 +58,14 @@ impl Universe {
     }
 
     /// The variables of these classes.
-    pub fn classes(&self, test: impl Fn(Class) -> bool) -> Row {
+    pub fn classes(&self, test: impl Fn(Class) -> bool) -> BitRow {
         let mut row = self.none();
         self.vars.iter().enumerate().filter(|(_, v)| test(v.class)).for_each(|(at, _)| row.insert(at));
         row
     }
 
     /// The variables of a subset.
-    pub fn members<'r>(&'r self, row: &'r Row) -> impl Iterator<Item = Var> + 'r {
+    pub fn members<'r>(&'r self, row: &'r BitRow) -> impl Iterator<Item = Var> + 'r {
         self.vars.iter().enumerate().filter(|(at, _)| row.has(*at)).map(|(_, var)| *var)
     }
 
@@ -85,14 +85,14 @@ fn find<T>(entries: &[T], key: (Class, u32), of: impl Fn(&T) -> (Class, u32)) ->
     if entries.get(before).is_some_and(|entry| of(entry) == key) { Ok(before) } else { Err(before) }
 }
 
-impl Clone for Row {
+impl Clone for BitRow {
     // The derived one copies word by word.
     fn clone(&self) -> Self {
         Self { bits: SmallVec::from_slice(&self.bits) }
     }
 }
 
-impl Row {
+impl BitRow {
     /// Adds the variable at a place.
     pub fn insert(&mut self, at: usize) {
         if let Some(word) = self.bits.get_mut(at / 64) {
@@ -113,7 +113,7 @@ impl Row {
     }
 
     /// Adds all of another; true where that changed it.
-    pub fn join(&mut self, other: &Row) -> bool {
+    pub fn join(&mut self, other: &BitRow) -> bool {
         let mut changed = false;
         for (word, more) in self.bits.iter_mut().zip(&other.bits) {
             changed |= *more & !*word != 0;
@@ -123,12 +123,12 @@ impl Row {
     }
 
     /// Keeps what is in another too.
-    pub fn intersect(&mut self, other: &Row) {
+    pub fn intersect(&mut self, other: &BitRow) {
         self.bits.iter_mut().zip(&other.bits).for_each(|(word, keep)| *word &= keep);
     }
 
     /// Takes out all of another.
-    pub fn subtract(&mut self, other: &Row) {
+    pub fn subtract(&mut self, other: &BitRow) {
         self.bits.iter_mut().zip(&other.bits).for_each(|(word, less)| *word &= !less);
     }
 }

@@ -6,7 +6,7 @@
 
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve};
 use super::effects::{Seen, Summaries};
-use super::{Cfg, Row, Universe, VarSet};
+use super::{BitRow, Cfg, Universe, VarSet};
 use crate::canon::Sys;
 use crate::ir::{
     Bank, Block, BlockId, Call, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind,
@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 #[derive(Debug)]
 pub struct Vacancy<'p> {
     rules: Rules<'p>,
-    states: States<Row>,
+    states: States<BitRow>,
 }
 
 /// What statements, and ways between blocks, do to what may be vacant.
@@ -29,20 +29,20 @@ struct Rules<'p> {
     summaries: &'p Summaries,
     universe: Universe,
     /// What may be vacant at the entry.
-    entry: Row,
+    entry: BitRow,
 }
 
-impl Lattice for Row {
+impl Lattice for BitRow {
     fn join(&mut self, other: &Self) -> bool {
-        Row::join(self, other)
+        BitRow::join(self, other)
     }
 }
 
 impl Analysis for Rules<'_> {
-    type State = Row;
+    type State = BitRow;
     const DIRECTION: Direction = Direction::Forward;
 
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Row)> {
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, BitRow)> {
         // A body that a modal call enters is entered with anything.
         let called = |root: BlockId| cfg.preds(root).is_empty() || self.is_modal(root);
         let roots = cfg.roots().iter().copied();
@@ -51,12 +51,12 @@ impl Analysis for Rules<'_> {
         entered.map(|root| (root, state(root))).collect()
     }
 
-    fn block(&self, id: BlockId, block: &Block, row: &mut Row) {
+    fn block(&self, id: BlockId, block: &Block, row: &mut BitRow) {
         self.stmts(id, block, row);
     }
 
     /// What the terminator of `from` does on the way to `to`.
-    fn edge<'s>(&self, from: BlockId, to: BlockId, row: &'s Row) -> Option<Cow<'s, Row>> {
+    fn edge<'s>(&self, from: BlockId, to: BlockId, row: &'s BitRow) -> Option<Cow<'s, BitRow>> {
         let Some(block) = self.program.block(from) else {
             // After returns: the locals of a level that ended are not those of its caller.
             return self.changed(row, |row| {
@@ -64,8 +64,8 @@ impl Analysis for Rules<'_> {
             });
         };
         match &block.term.kind {
-            TermKind::Branch { cond, yes, no } if yes != no => {
-                self.changed(row, |row| self.refine(cond, to == *yes, row))
+            TermKind::Branch { cond, then, otherwise } if then != otherwise => {
+                self.changed(row, |row| self.refine(cond, to == *then, row))
             }
             TermKind::Call { call, next } => match call.callee {
                 Callee::Block(entry) if to == entry && to != *next => {
@@ -84,7 +84,7 @@ impl Analysis for Rules<'_> {
 }
 
 impl Steps for Rules<'_> {
-    fn stmt(&self, _: (BlockId, usize), stmt: &Stmt, row: &mut Row) {
+    fn stmt(&self, _: (BlockId, usize), stmt: &Stmt, row: &mut BitRow) {
         let sure = stmt.site.skip.is_none();
         match &stmt.kind {
             StmtKind::Assign { target, value } => {
@@ -152,18 +152,18 @@ fn universe(program: &Program) -> Universe {
 }
 
 impl Rules<'_> {
-    fn changed<'s>(&self, row: &Row, change: impl FnOnce(&mut Row)) -> Option<Cow<'s, Row>> {
+    fn changed<'s>(&self, row: &BitRow, change: impl FnOnce(&mut BitRow)) -> Option<Cow<'s, BitRow>> {
         let mut row = row.clone();
         change(&mut row);
         Some(Cow::Owned(row))
     }
 
-    fn locals(&self) -> Row {
+    fn locals(&self) -> BitRow {
         self.universe.classes(|class| class == Class::Local)
     }
 
     /// A level of locals begins.
-    fn enter(&self, call: &Call, row: &mut Row) {
+    fn enter(&self, call: &Call, row: &mut BitRow) {
         let outer = row.clone();
         row.join(&self.locals());
         for argument in &call.arguments {
@@ -180,7 +180,7 @@ impl Rules<'_> {
             .any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if call.callee == Callee::Block(id)))
     }
 
-    fn write(&self, target: &Place, vacant: bool, sure: bool, row: &mut Row) {
+    fn write(&self, target: &Place, vacant: bool, sure: bool, row: &mut BitRow) {
         match target {
             Place::Var(var) => {
                 let Some(at) = self.universe.place(*var) else { return };
@@ -198,7 +198,7 @@ impl Rules<'_> {
     }
 
     /// What is written out of sight may be vacant.
-    fn disturb(&self, written: Seen<'_>, row: &mut Row) {
+    fn disturb(&self, written: Seen<'_>, row: &mut BitRow) {
         if written.is_empty() {
             return;
         }
@@ -210,7 +210,7 @@ impl Rules<'_> {
             .for_each(|(at, _)| row.insert(at));
     }
 
-    fn refine(&self, cond: &Cond, holds: bool, row: &mut Row) {
+    fn refine(&self, cond: &Cond, holds: bool, row: &mut BitRow) {
         match (cond, holds) {
             (Cond::Not(inner), _) => self.refine(inner, !holds, row),
             (Cond::And(all), true) | (Cond::Or(all), false) => {
@@ -236,7 +236,7 @@ impl Rules<'_> {
         }
     }
 
-    fn yields_vacant(&self, e: &Expr, row: &Row) -> bool {
+    fn yields_vacant(&self, e: &Expr, row: &BitRow) -> bool {
         match e {
             Expr::Var(var) if var.class.nullable() => self.universe.place(*var).is_none_or(|at| row.has(at)),
             e => e.may_be_vacant(),

@@ -5,8 +5,8 @@
 
 use super::{Alarm, Env, Memory, Value, eval, holds, number, whole};
 use crate::ir::{
-    BlockId, Call, Callee, Class, Module, Nc, NcItem, OutputPart, Place, PrintPart, Program, Site, Stmt,
-    StmtKind, TermKind, Var,
+    BlockId, Call, Callee, Class, Module, Nc, NcItem, OutputPart, Place, PrintPart, Program, SourceInfo,
+    Stmt, StmtKind, TermKind, Var,
 };
 use crate::syntax::{Label, ProgramName};
 use std::collections::{BTreeMap, VecDeque};
@@ -93,8 +93,8 @@ impl Runner<'_> {
         }
         match &block.term.kind {
             TermKind::Jump(to) => self.at.1 = *to,
-            TermKind::Branch { cond, yes, no } => {
-                self.at.1 = if holds(cond, &*self.memory)? { *yes } else { *no };
+            TermKind::Branch { cond, then, otherwise } => {
+                self.at.1 = if holds(cond, &*self.memory)? { *then } else { *otherwise };
             }
             TermKind::Computed { value, targets } => {
                 let label = whole(number(value, &*self.memory)?);
@@ -112,7 +112,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    fn is_skipped(&self, site: &Site) -> bool {
+    fn is_skipped(&self, site: &SourceInfo) -> bool {
         site.skip.is_some_and(|level| self.memory.switch(level))
     }
 

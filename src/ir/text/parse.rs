@@ -2,7 +2,7 @@
 
 use super::TextError;
 use super::lex::{At, Tok, error, lex};
-use crate::ir::{Block, BlockId, Module, Program, Remark, Site, Stmt};
+use crate::ir::{Block, BlockId, Module, Program, Remark, SourceInfo, Stmt};
 use crate::syntax::{Label, ProgramName};
 use crate::text::Span;
 
@@ -91,8 +91,8 @@ impl<'t> Parser<'t> {
         }
     }
 
-    fn site(&mut self) -> Parsed<Site> {
-        let mut site = Site::default();
+    fn site(&mut self) -> Parsed<SourceInfo> {
+        let mut site = SourceInfo::default();
         if self.eat_mark("@") {
             let start = self.integer()?;
             self.mark("..")?;

@@ -127,9 +127,9 @@ impl Parser<'_> {
             "branch" => {
                 let cond = self.cond()?;
                 self.mark("?")?;
-                let yes = self.block_id()?;
+                let then = self.block_id()?;
                 self.mark(":")?;
-                TermKind::Branch { cond, yes, no: self.block_id()? }
+                TermKind::Branch { cond, then, otherwise: self.block_id()? }
             }
             "computed" => {
                 let value = self.expr()?;

@@ -3,8 +3,8 @@
 use super::lex::quote;
 use super::print_expr::class_name;
 use crate::ir::{
-    Call, Callee, Expr, Module, Nc, NcItem, OutputPart, PrintPart, Program, Site, Stmt, StmtKind, TermKind,
-    Terminator,
+    Call, Callee, Expr, Module, Nc, NcItem, OutputPart, PrintPart, Program, SourceInfo, Stmt, StmtKind,
+    TermKind, Terminator,
 };
 use crate::syntax::{Label, ProgramName};
 use crate::text::Span;
@@ -116,7 +116,7 @@ impl Display for TermKind {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             TermKind::Jump(to) => write!(f, "jump {to}"),
-            TermKind::Branch { cond, yes, no } => write!(f, "branch {cond} ? {yes} : {no}"),
+            TermKind::Branch { cond, then, otherwise } => write!(f, "branch {cond} ? {then} : {otherwise}"),
             TermKind::Computed { value, targets } => {
                 let targets: Vec<String> =
                     targets.iter().map(|(number, to)| format!("{number}: {to}")).collect();
@@ -151,7 +151,7 @@ impl Display for Call {
     }
 }
 
-fn site(f: &mut Formatter<'_>, site: &Site) -> Result {
+fn site(f: &mut Formatter<'_>, site: &SourceInfo) -> Result {
     if site.span != Span::default() {
         write!(f, " @{}..{}", site.span.start, site.span.end)?;
     }

@@ -144,7 +144,7 @@ fn exprs() -> impl Strategy<Value = Expr> {
 fn module(stmts: Vec<Stmt>) -> Module {
     let mut builder = Builder::new();
     stmts.into_iter().for_each(|stmt| builder.push(stmt.kind, stmt.site));
-    Module { programs: vec![builder.finish(None, 0, Site::default())], ..Module::default() }
+    Module { programs: vec![builder.finish(None, 0, SourceInfo::default())], ..Module::default() }
 }
 
 proptest! {
@@ -152,7 +152,7 @@ proptest! {
 
     #[test]
     fn every_value_reads_back_bit_for_bit(value in exprs(), text in ".*", role in prop::sample::select(Role::ALL)) {
-        let site = Site { remarks: [Remark { text, leading: true }].into(), sequence: Some(7), ..Site::default() };
+        let site = SourceInfo { remarks: [Remark { text, leading: true }].into(), sequence: Some(7), ..SourceInfo::default() };
         let nc = Nc { items: vec![NcItem::Word(role, value.clone()), NcItem::Code('é', value.clone()), NcItem::Op(Op::End)] };
         let target = value.place().unwrap_or(Place::Indirect(Bank::Numbered, Box::new(value.clone())));
         let stmts = [StmtKind::Nc(nc), StmtKind::Assign { target, value }];

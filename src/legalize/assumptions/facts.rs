@@ -13,7 +13,7 @@ use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
 use crate::legalize::Context;
-use crate::legalize::census::Thing;
+use crate::legalize::features::Feature;
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
 use smallvec::SmallVec;
@@ -23,9 +23,16 @@ use vacant::VACANCY;
 /// Reports the unconfirmed facts of the target that programs rest on.
 pub fn of_target(module: &Module, context: &mut Context<'_>) {
     // All values are constants if nothing of these stood there: what was put in since was put in for one of them.
-    let source = [Thing::Computed, Thing::Variable, Thing::Temp, Thing::Clear, Thing::Call, Thing::LocalCall];
-    let asked = [Thing::Input, Thing::Print, Thing::Message];
-    let computes = source.into_iter().chain(asked).any(|thing| context.census.has(thing));
+    let source = [
+        Feature::Computed,
+        Feature::Variable,
+        Feature::Temp,
+        Feature::Clear,
+        Feature::Call,
+        Feature::LocalCall,
+    ];
+    let asked = [Feature::Input, Feature::Print, Feature::Message];
+    let computes = source.into_iter().chain(asked).any(|thing| context.features.has(thing));
     look(module, computes, context, context.target, Side::Target);
 }
 

@@ -1,4 +1,4 @@
 //! What a conversion takes for granted of the controls and of a run.
 
 pub(in crate::legalize) mod facts;
-pub(in crate::legalize) mod matters;
+pub(in crate::legalize) mod runtime;

@@ -7,7 +7,8 @@ use crate::ir::analysis::calls_of;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Every, reached, solve};
 use crate::ir::{
-    Bank, Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var,
+    Bank, Block, BlockId, Call, Callee, Class, Expr, Module, Place, Program, SourceInfo, StmtKind, TermKind,
+    Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::legalize::variables::computed_numbers::constant_part;
@@ -134,7 +135,7 @@ pub fn hold_arguments(program: &mut Program) {
                 temp += 1;
                 let var = Var { class: Class::Temp, number: temp };
                 let value = std::mem::replace(value, Expr::Var(var));
-                let site = Site { skip: stmt.site.skip, ..Site::default() };
+                let site = SourceInfo { skip: stmt.site.skip, ..SourceInfo::default() };
                 builder.push(StmtKind::Assign { target: Place::Var(var), value }, site);
             }
         }

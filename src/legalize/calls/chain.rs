@@ -5,8 +5,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::computed_calls::computed_calls;
 use crate::ir::{
-    BlockId, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind,
-    TermKind, Terminator, Var,
+    BlockId, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo,
+    StmtKind, TermKind, Terminator, Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::legalize::{Context, calls_of, reachable};
@@ -40,8 +40,8 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
                 builder.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Stop)] }), site);
                 let callee = Callee::Program(name);
                 let call = Call { callee, level: false, arguments: Vec::new(), count: None };
-                builder.end_then(Site::default(), |next| TermKind::Call { call: Box::new(call), next });
-                builder.end(TermKind::End { rewind: true }, Site { span, ..Site::default() });
+                builder.end_then(SourceInfo::default(), |next| TermKind::Call { call: Box::new(call), next });
+                builder.end(TermKind::End { rewind: true }, SourceInfo { span, ..SourceInfo::default() });
             }
             other => other.keep(builder),
         });
@@ -95,7 +95,7 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 (Some(number), Some(name)) => {
                     numbers.entry(name.clone()).or_default().push(number as u32);
                     let kind = StmtKind::Assign { target: Place::Var(register), value: wanted };
-                    let site = Site { span, ..Site::default() };
+                    let site = SourceInfo { span, ..SourceInfo::default() };
                     block.stmts.push(crate::ir::Stmt { kind, site });
                     let why = "returns to a block of the caller by way of a register that callers in the library look at";
                     context.add(index, Diagnostic::new(Code::Conditional, span, why));
@@ -133,7 +133,7 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 if wanted(&call).is_some() =>
             {
                 let span = whole.span;
-                let site = || Site { span, ..Site::default() };
+                let site = || SourceInfo { span, ..SourceInfo::default() };
                 let targets: Vec<(u32, BlockId)> =
                     wanted(&call).into_iter().flatten().filter_map(|n| Some((*n, *place.get(n)?))).collect();
                 if call.count.as_ref().is_some_and(|count| count.constant() != Some(1.0)) {
@@ -151,16 +151,16 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 if targets.len() > FEW && computed {
                     let here = Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(0.0));
                     let jump = builder.fresh();
-                    builder.end(TermKind::Branch { cond: here, yes: next, no: jump }, site());
+                    builder.end(TermKind::Branch { cond: here, then: next, otherwise: jump }, site());
                     builder.start(jump);
                     return builder.end(TermKind::Computed { value: Expr::Var(temp), targets }, site());
                 }
                 for (number, to) in targets {
                     let cond =
                         Cond::Compare(Relation::Equal, Expr::Var(temp), Expr::Number(f64::from(number)));
-                    builder.end_then(site(), |no| TermKind::Branch { cond, yes: to, no });
+                    builder.end_then(site(), |otherwise| TermKind::Branch { cond, then: to, otherwise });
                 }
-                builder.end(TermKind::Jump(next), Site::default());
+                builder.end(TermKind::Jump(next), SourceInfo::default());
             }
             other => other.keep(builder),
         });

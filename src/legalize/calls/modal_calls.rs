@@ -17,8 +17,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{
-    BlockId, Builder, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind,
-    TermKind, Var,
+    BlockId, Builder, Call, Callee, Class, Cond, Expr, Module, Nc, NcItem, Program, Relation, SourceInfo,
+    StmtKind, TermKind, Var,
 };
 use crate::legalize::moves::increments;
 use crate::legalize::rewrite::unless_skipped;
@@ -219,7 +219,7 @@ impl Expansion {
                             site
                         } else {
                             builder.push(StmtKind::Nc(nc), site);
-                            Site { span, ..Site::default() }
+                            SourceInfo { span, ..SourceInfo::default() }
                         };
                         match before {
                             None if runs => {
@@ -235,7 +235,7 @@ impl Expansion {
                                 if let Some(call) = calls.pop() {
                                     let again = call.clone();
                                     builder.push(StmtKind::ModalCallOff, site);
-                                    let site = Site { span, ..Site::default() };
+                                    let site = SourceInfo { span, ..SourceInfo::default() };
                                     builder.end_then(site.clone(), |next| TermKind::Call {
                                         call: Box::new(call),
                                         next,
@@ -260,11 +260,11 @@ impl Expansion {
                                         all if all.len() > 1 => Cond::And(all),
                                         one => one.into_iter().next().unwrap_or(Cond::And(Vec::new())),
                                     };
-                                    let yes = behind;
-                                    builder.end_then(Site::default(), |no| TermKind::Branch {
+                                    let then = behind;
+                                    builder.end_then(SourceInfo::default(), |otherwise| TermKind::Branch {
                                         cond,
-                                        yes,
-                                        no,
+                                        then,
+                                        otherwise,
                                     });
                                 }
                                 builder.end(TermKind::Call { call: Box::new(call), next: behind }, site);
@@ -385,7 +385,7 @@ fn changes(var: Var, module: &Module, context: &Context<'_>) -> String {
 }
 
 /// Leaves of a block what people wrote in it.
-fn leave(builder: &mut Builder, site: Site) {
+fn leave(builder: &mut Builder, site: SourceInfo) {
     if !site.remarks.is_empty() {
         builder.push(StmtKind::Remark, site);
     }

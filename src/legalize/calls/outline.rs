@@ -9,7 +9,9 @@
 //! Side condition: blocks that the main part reaches as well are copied, so an
 //! operator who edits one must edit both; the copies carry the same comments.
 
-use crate::ir::{Block, BlockId, Callee, Module, Program, Remark, Site, StmtKind, TermKind, Terminator};
+use crate::ir::{
+    Block, BlockId, Callee, Module, Program, Remark, SourceInfo, StmtKind, TermKind, Terminator,
+};
 use crate::legalize::{Context, calls_of, reachable};
 use crate::syntax::{Label, ProgramName};
 use smallvec::SmallVec;
@@ -84,7 +86,7 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
     for (&entry, name) in &names {
         let body = reachable(&program, entry);
         outlined.extend(body.iter().copied());
-        let site = Site { remarks: called(&program, entry), ..Site::default() };
+        let site = SourceInfo { remarks: called(&program, entry), ..SourceInfo::default() };
         subs.push(extract(&program, entry, &body, Some(name.clone()), site));
     }
     let main = reachable(&program, BlockId(0));
@@ -132,7 +134,7 @@ fn extract(
     entry: BlockId,
     body: &BTreeSet<BlockId>,
     name: Option<ProgramName>,
-    site: Site,
+    site: SourceInfo,
 ) -> Program {
     let leads = body.first() == Some(&entry);
     let shift = u32::from(!leads);
@@ -141,7 +143,7 @@ fn extract(
     let mut blocks = Vec::with_capacity(body.len() + 1);
     if !leads {
         let jump = TermKind::Jump(place.get(&entry).copied().unwrap_or(BlockId(0)));
-        let term = Terminator { kind: jump, site: Site::default() };
+        let term = Terminator { kind: jump, site: SourceInfo::default() };
         blocks.push(Block { labels: SmallVec::new(), stmts: Vec::new(), term });
     }
     for block in body.iter().filter_map(|&id| program.block(id)) {

@@ -11,7 +11,8 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{
-    BinOp, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, StmtKind, TermKind, Var,
+    BinOp, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo, StmtKind, TermKind,
+    Var,
 };
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 use crate::legalize::{Context, Modal, ModalFacts};
@@ -104,16 +105,16 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         temps += 1;
         let left = Var { class: Class::Temp, number: temps };
         let set = |value| StmtKind::Assign { target: Place::Var(left), value };
-        builder.push(set(count), Site { span: stmt.site.span, ..Site::default() });
+        builder.push(set(count), SourceInfo { span: stmt.site.span, ..SourceInfo::default() });
         let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
         builder.start(head);
         let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));
-        builder.end(TermKind::Branch { cond, yes: body, no: behind }, Site::default());
+        builder.end(TermKind::Branch { cond, then: body, otherwise: behind }, SourceInfo::default());
         builder.start(body);
         builder.push(StmtKind::Nc(nc), stmt.site);
         let one_less = Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0));
-        builder.push(set(one_less), Site::default());
-        builder.end(TermKind::Jump(head), Site::default());
+        builder.push(set(one_less), SourceInfo::default());
+        builder.end(TermKind::Jump(head), SourceInfo::default());
         builder.start(behind);
     });
 }

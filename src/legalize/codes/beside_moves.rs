@@ -10,17 +10,17 @@ use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::modal_facts::ModalFacts;
-use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
-use crate::legalize::census::Census;
+use crate::ir::{Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::codes::pauses::pause_of;
+use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, replace_statements};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
 pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force: what this block does when its move is done would come after the call, in a block of its own. Put it into a block before the move, or after the end of the modal call";
 
 /// True where anything stands that may stand beside a move.
-pub fn concerns(census: &Census) -> bool {
-    census.any_op(|op| op.auxiliary().is_some()) || census.role(Role::Speed)
+pub fn concerns(features: &Features) -> bool {
+    features.any_op(|op| op.auxiliary().is_some()) || features.role(Role::Speed)
 }
 
 /// Puts what acts before or behind the move of its block into blocks of its own.
@@ -47,11 +47,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         if !late.is_empty() && before.may_call() {
             context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
         }
-        let site = |first: bool, stmt: &mut Stmt| Site {
+        let site = |first: bool, stmt: &mut Stmt| SourceInfo {
             span: stmt.site.span,
             sequence: if first { stmt.site.sequence.take() } else { None },
             skip: stmt.site.skip,
-            ..Site::default()
+            ..SourceInfo::default()
         };
         for (at, items) in early.into_iter().enumerate() {
             let site = site(at == 0, &mut stmt);

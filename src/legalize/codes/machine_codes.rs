@@ -8,15 +8,15 @@
 
 use crate::canon::{Auxiliary, Op};
 use crate::dialect::{Control, Question};
-use crate::ir::{Nc, NcItem, Program, Site, Stmt, StmtKind};
+use crate::ir::{Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// True where there are M codes, or what is left out.
-pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let here = |op: Op| op == Op::TurnsPerMinute || is_m_code(op, context.target);
-    census.has(Thing::Emptied) || census.has(Thing::Code) || census.any_op(here)
+    features.has(Feature::Emptied) || features.has(Feature::Code) || features.any_op(here)
 }
 
 /// Gives each M code a block of its own, past those that the target takes together.
@@ -39,7 +39,7 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
             if always_turns {
                 nc.items.retain(|item| *item != NcItem::Op(Op::TurnsPerMinute));
             }
-            let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+            let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
             let rest = split(nc, most, m_codes).into_iter().map(|item| {
                 let kind = StmtKind::Nc(Nc { items: vec![item] });
                 (at, Stmt { kind, site: site.clone() })

@@ -8,7 +8,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Program, StmtKind};
 use crate::legalize::Context;
-use crate::legalize::census::Census;
+use crate::legalize::features::Features;
 use std::collections::BTreeSet;
 
 /// The operations that a control has.
@@ -23,9 +23,9 @@ fn has(control: &Control) -> BTreeSet<Op> {
 }
 
 /// True where an operation stands that the target has not.
-pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let had = had(context);
-    census.any_op(|op| !had.contains(&op))
+    features.any_op(|op| !had.contains(&op))
 }
 
 /// Refuses what the target cannot do.

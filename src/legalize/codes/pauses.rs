@@ -14,27 +14,27 @@ use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::modal_facts::ModalFacts;
-use crate::ir::{BlockId, Module, Nc, NcItem, Site, Stmt, StmtKind, TermKind};
-use crate::legalize::census::Census;
+use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::codes::beside_moves::AFTER_CALL;
+use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
 use std::collections::BTreeSet;
 
 /// True where something that may be running is started, or runs from the start: in a piece of a program.
-pub fn concerns(census: &Census, entry: &Modal) -> bool {
+pub fn concerns(features: &Features, entry: &Modal) -> bool {
     let runs = |running: Running| entry.op(ends(running).0);
     let may = |running: Running| {
-        starts_in(census, running) || starts(running).iter().any(|op| runs(running) == Some(*op))
+        starts_in(features, running) || starts(running).iter().any(|op| runs(running) == Some(*op))
     };
     Running::ALL.into_iter().any(may)
 }
 
 /// True where something starts it: its codes, or a tap the spindle.
-fn starts_in(census: &Census, running: Running) -> bool {
-    let taps = running == Running::Spindle && census.any_op(Op::is_tap);
-    taps || starts(running).iter().any(|op| census.op(*op))
+fn starts_in(features: &Features, running: Running) -> bool {
+    let taps = running == Running::Spindle && features.any_op(Op::is_tap);
+    taps || starts(running).iter().any(|op| features.op(*op))
 }
 
 /// What starts it.
@@ -60,7 +60,7 @@ const LETS_GO: &str = "the M5 before this stop lets go of a spindle that an M19 
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
     let (after, started) = (After::of(module, &facts), started(module));
-    let holds = Census::of(&module.programs).op(Op::SpindleOrient);
+    let holds = Features::of(&module.programs).op(Op::SpindleOrient);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
@@ -97,7 +97,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let span = block.term.site.span;
                 for op in place.stop(Pause::End, false, usize::MAX, span, context) {
                     let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
-                    out.push(Stmt { kind, site: Site { span, ..Site::default() } });
+                    out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
                 }
             }
             block.stmts = out;
@@ -109,8 +109,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 fn started(module: &Module) -> Vec<[bool; 2]> {
     let mut found: Vec<[bool; 2]> = (module.programs.iter())
         .map(|program| {
-            let census = Census::of(std::slice::from_ref(program));
-            Running::ALL.map(|running| starts_in(&census, running))
+            let features = Features::of(std::slice::from_ref(program));
+            Running::ALL.map(|running| starts_in(&features, running))
         })
         .collect();
     let mut callees = vec![BTreeSet::new(); found.len()];
@@ -129,7 +129,7 @@ fn started(module: &Module) -> Vec<[bool; 2]> {
 
 /// Lays down a stop, and before it what ends what is running; the words beside the stop come first.
 fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
-    let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+    let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
     let nc = |items: Vec<NcItem>| StmtKind::Nc(Nc { items });
     if let (StmtKind::Nc(block), false) = (&mut stmt.kind, before.is_empty()) {
         let (stop, words) = std::mem::take(&mut block.items)
@@ -139,13 +139,13 @@ fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         if !words.is_empty() {
             out.push(Stmt {
                 kind: nc(words),
-                site: Site { sequence: stmt.site.sequence.take(), ..site.clone() },
+                site: SourceInfo { sequence: stmt.site.sequence.take(), ..site.clone() },
             });
         }
     }
     for op in before {
         let sequence = stmt.site.sequence.take();
-        out.push(Stmt { kind: nc(vec![NcItem::Op(op)]), site: Site { sequence, ..site.clone() } });
+        out.push(Stmt { kind: nc(vec![NcItem::Op(op)]), site: SourceInfo { sequence, ..site.clone() } });
     }
     out.push(stmt);
 }

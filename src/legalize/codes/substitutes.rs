@@ -7,7 +7,7 @@ use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{NcItem, Program, StmtKind};
 use crate::legalize::Context;
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::emptied::drop_emptied;
 use std::collections::BTreeMap;
 
@@ -28,8 +28,8 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
 ];
 
 /// True where an operation with a row stands, or a block that it may have left empty.
-pub fn concerns(census: &Census) -> bool {
-    census.has(Thing::Emptied) || ROWS.iter().any(|(op, ..)| census.op(*op))
+pub fn concerns(features: &Features) -> bool {
+    features.has(Feature::Emptied) || ROWS.iter().any(|(op, ..)| features.op(*op))
 }
 
 /// Puts substitutes in the place of operations that the target lacks.

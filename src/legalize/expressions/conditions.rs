@@ -8,15 +8,15 @@
 //! temporaries first. A temporary is never vacant: where an operand of EQ or NE may be, the truth of
 //! the comparison is kept instead.
 
-use super::oversize;
+use super::split;
 use crate::canon::Func;
 use crate::dialect::Question;
 use crate::ir::{
-    BinOp, BlockId, Builder, Class, Cond, Expr, Place, Program, Relation, Site, StmtKind, TermKind,
+    BinOp, BlockId, Builder, Class, Cond, Expr, Place, Program, Relation, SourceInfo, StmtKind, TermKind,
     Terminator, Var,
 };
 use crate::legalize::Context;
-use crate::legalize::expressions::measure::Measure;
+use crate::legalize::expressions::cost::Measure;
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 
 /// Splits compound conditions where the target takes one comparison only, or has no room for so many.
@@ -24,7 +24,7 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let joined = context.target.is(Question::ConditionAndOr);
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
-    let room = oversize::room(context.target).saturating_sub("WHILE [] DO1".len());
+    let room = split::room(context.target).saturating_sub("WHILE [] DO1".len());
     let fits = |cond: &Cond| {
         let size = measure.cond(cond).bracketed();
         size.depth <= depth && size.length <= room
@@ -45,38 +45,46 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
 fn split_program(program: &mut Program, compound: &dyn Fn(&Cond) -> bool) {
     let mut temps = Temps(highest_temp(program));
     rebuild(program, &mut |builder, part| match part {
-        Part::Term(Terminator { kind: TermKind::Branch { cond, yes, no }, site }) if compound(&cond) => {
+        Part::Term(Terminator { kind: TermKind::Branch { cond, then, otherwise }, site })
+            if compound(&cond) =>
+        {
             let cond = temps.hold_alarming(builder, cond, &site);
-            split(builder, cond, yes, no, &site, true);
+            split(builder, cond, then, otherwise, &site, true);
         }
         other => other.keep(builder),
     });
 }
 
 /// Ends the present block with a chain of branches. Comments and number stay with the first.
-fn split(builder: &mut Builder, cond: Cond, yes: BlockId, no: BlockId, site: &Site, first: bool) {
-    let here = || if first { site.clone() } else { Site { span: site.span, ..Site::default() } };
+fn split(
+    builder: &mut Builder,
+    cond: Cond,
+    then: BlockId,
+    otherwise: BlockId,
+    site: &SourceInfo,
+    first: bool,
+) {
+    let here = || if first { site.clone() } else { SourceInfo { span: site.span, ..SourceInfo::default() } };
     match cond {
         Cond::And(parts) => chain(builder, parts, site, first, |b, part, next, last, first| {
-            split(b, part, if last { yes } else { next }, no, site, first);
+            split(b, part, if last { then } else { next }, otherwise, site, first);
         }),
         Cond::Or(parts) => chain(builder, parts, site, first, |b, part, next, last, first| {
-            split(b, part, yes, if last { no } else { next }, site, first);
+            split(b, part, then, if last { otherwise } else { next }, site, first);
         }),
         Cond::Not(inner) => match *inner {
-            Cond::Switch(n) => {
-                builder.end(TermKind::Branch { cond: Cond::Switch(n), yes: no, no: yes }, here())
-            }
-            other => split(builder, other.negated(), yes, no, site, first),
+            Cond::Switch(n) => builder
+                .end(TermKind::Branch { cond: Cond::Switch(n), then: otherwise, otherwise: then }, here()),
+            other => split(builder, other.negated(), then, otherwise, site, first),
         },
-        simple => builder.end(TermKind::Branch { cond: simple, yes, no }, here()),
+        simple => builder.end(TermKind::Branch { cond: simple, then, otherwise }, here()),
     }
 }
 
 fn chain(
     builder: &mut Builder,
     parts: Vec<Cond>,
-    site: &Site,
+    site: &SourceInfo,
     first: bool,
     mut link: impl FnMut(&mut Builder, Cond, BlockId, bool, bool),
 ) {
@@ -95,7 +103,7 @@ fn chain(
 struct Temps(u32);
 
 impl Temps {
-    fn hold_alarming(&mut self, builder: &mut Builder, cond: Cond, site: &Site) -> Cond {
+    fn hold_alarming(&mut self, builder: &mut Builder, cond: Cond, site: &SourceInfo) -> Cond {
         let mut first = true;
         let mut later_can_alarm = false;
         each_simple(&cond, &mut |part| {
@@ -103,12 +111,12 @@ impl Temps {
                 !first && matches!(part, Cond::Compare(_, a, b) if can_alarm(a) || can_alarm(b));
             first = false;
         });
-        if later_can_alarm { self.hold(builder, cond, site) } else { cond }
+        if later_can_alarm { self.materialize(builder, cond, site) } else { cond }
     }
 
-    fn hold(&mut self, builder: &mut Builder, cond: Cond, site: &Site) -> Cond {
+    fn materialize(&mut self, builder: &mut Builder, cond: Cond, site: &SourceInfo) -> Cond {
         let parts = |this: &mut Self, builder: &mut Builder, parts: Vec<Cond>| {
-            parts.into_iter().map(|part| this.hold(builder, part, site)).collect()
+            parts.into_iter().map(|part| this.materialize(builder, part, site)).collect()
         };
         match cond {
             Cond::Compare(Relation::Equal | Relation::NotEqual, ref a, ref b)
@@ -122,17 +130,17 @@ impl Temps {
             }
             Cond::And(all) => Cond::And(parts(self, builder, all)),
             Cond::Or(any) => Cond::Or(parts(self, builder, any)),
-            Cond::Not(inner) => Cond::Not(Box::new(self.hold(builder, *inner, site))),
+            Cond::Not(inner) => Cond::Not(Box::new(self.materialize(builder, *inner, site))),
             switch @ Cond::Switch(_) => switch,
         }
     }
 
-    fn hold_value(&mut self, builder: &mut Builder, e: Expr, site: &Site) -> Expr {
+    fn hold_value(&mut self, builder: &mut Builder, e: Expr, site: &SourceInfo) -> Expr {
         if !can_alarm(&e) {
             return e;
         }
         let temp = self.fresh();
-        let site = Site { span: site.span, ..Site::default() };
+        let site = SourceInfo { span: site.span, ..SourceInfo::default() };
         // A sum makes a number of what may be vacant, on targets whose registers may be too.
         let value = if e.may_be_vacant() { add_zero(e) } else { e };
         builder.push(StmtKind::Assign { target: Place::Var(temp), value }, site);
@@ -140,16 +148,16 @@ impl Temps {
     }
 
     /// Keeps whether a comparison holds, and compares that.
-    fn hold_truth(&mut self, builder: &mut Builder, cond: Cond, site: &Site) -> Cond {
+    fn hold_truth(&mut self, builder: &mut Builder, cond: Cond, site: &SourceInfo) -> Cond {
         let temp = self.fresh();
-        let site = || Site { span: site.span, ..Site::default() };
+        let site = || SourceInfo { span: site.span, ..SourceInfo::default() };
         let set = |value| StmtKind::Assign { target: Place::Var(temp), value: Expr::Number(value) };
         builder.push(set(0.0), site());
-        let (yes, no) = (builder.fresh(), builder.fresh());
-        builder.end(TermKind::Branch { cond, yes, no }, site());
-        builder.start(yes);
+        let (then, otherwise) = (builder.fresh(), builder.fresh());
+        builder.end(TermKind::Branch { cond, then, otherwise }, site());
+        builder.start(then);
         builder.push(set(1.0), site());
-        builder.start(no);
+        builder.start(otherwise);
         Cond::Compare(Relation::NotEqual, Expr::Var(temp), Expr::Number(0.0))
     }
 

@@ -5,7 +5,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, Expr, Program};
-use crate::legalize::census::is_long;
+use crate::legalize::features::is_long;
 use crate::legalize::{Context, Position, rewrite_program};
 
 /// Splits constants that are too long.
@@ -23,7 +23,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
                 found.push((rewriter.span, value, made));
             }
             // A word takes an expression only in brackets; a temporary reads better.
-            if matches!(position, Position::Word(_)) { Expr::Var(rewriter.hold(split)) } else { split }
+            if matches!(position, Position::Word(_)) { Expr::Var(rewriter.materialize(split)) } else { split }
         }
         other => other,
     });

@@ -2,7 +2,7 @@
 
 pub(in crate::legalize) mod conditions;
 pub(in crate::legalize) mod constants;
+pub(in crate::legalize) mod cost;
 pub(in crate::legalize) mod functions;
-pub(in crate::legalize) mod measure;
-pub(in crate::legalize) mod oversize;
+pub(in crate::legalize) mod split;
 pub(in crate::legalize) mod truth;

@@ -6,12 +6,12 @@
 
 use crate::dialect::Question;
 use crate::ir::{Expr, Program};
-use crate::legalize::census::{Census, Thing};
-use crate::legalize::{Context, Position, Prelude, Rewriter, rewrite_program};
+use crate::legalize::features::{Feature, Features};
+use crate::legalize::{Context, Position, PreStatement, Rewriter, rewrite_program};
 
 /// True where a comparison is a value, and the target takes none.
-pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
-    census.has(Thing::Truth) && !context.target.is(Question::ComparisonIsValue)
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.has(Feature::Truth) && !context.target.is(Question::ComparisonIsValue)
 }
 
 /// Replaces truth values by temporaries that an IF sets.
@@ -21,8 +21,8 @@ pub fn run(program: &mut Program, _: usize, _: &mut Context<'_>) -> bool {
         |e| matches!(e, Expr::Truth(_)),
         &mut |e, _: Position, rewriter: &mut Rewriter<'_>| match e {
             Expr::Truth(cond) => {
-                let truth = rewriter.hold(Expr::Number(0.0));
-                rewriter.first(Prelude::When(*cond, truth, Expr::Number(1.0)));
+                let truth = rewriter.materialize(Expr::Number(0.0));
+                rewriter.first(PreStatement::When(*cond, truth, Expr::Number(1.0)));
                 Expr::Var(truth)
             }
             other => other,

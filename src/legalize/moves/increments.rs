@@ -9,7 +9,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, Control, Units};
 use crate::ir::{Block, BlockId, Call, Expr, Module, NcItem, Program, StmtKind, TermKind};
-use crate::legalize::moves::units::left::Left;
+use crate::legalize::moves::units::exit::ExitUnit;
 use crate::legalize::{Context, Modal, ModalFacts, Setting};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -66,8 +66,8 @@ fn each(
     if !module.programs.iter().flat_map(|program| &program.blocks).any(&chosen) {
         return false;
     }
-    let left = Left::of(module, context.source);
-    let all = left.iter().copied().fold(Left::default(), Left::join);
+    let left = ExitUnit::of(module, context.source);
+    let all = left.iter().copied().fold(ExitUnit::default(), ExitUnit::join);
     let facts = facts(module, context, all);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let units = UnitsIn::of(program, index, &facts, &chosen);
@@ -114,20 +114,20 @@ fn report(index: usize, unknown: Option<Span>, guessed: Option<Span>, context: &
 }
 
 /// What is in force in the library, as far as that is known for sure.
-fn facts(module: &Module, context: &Context<'_>, all: Left) -> ModalFacts {
+fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> ModalFacts {
     let mut entry = context.entry.clone();
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), context.source.units()) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
     }
     entry.one_unit = all.is_one();
     // Where no program names a unit, it is the machine's all through.
-    let known = context.entry.op(Group::Units).is_some() || all != Left::default();
+    let known = context.entry.op(Group::Units).is_some() || all != ExitUnit::default();
     if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() }
 }
 
 /// What a program that names one unit has in force where every way to a place names it, and nothing in the library that
 /// it runs names another.
-fn guesses(program: &Program, left: Left, chosen: &dyn Fn(&Block) -> bool) -> UnitsIn {
+fn guesses(program: &Program, left: ExitUnit, chosen: &dyn Fn(&Block) -> bool) -> UnitsIn {
     if left.named().is_none_or(|units| !left.keeps(units)) {
         return UnitsIn::default();
     }

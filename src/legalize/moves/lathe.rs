@@ -7,10 +7,10 @@
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, NcItem, StmtKind};
 use crate::legalize::Context;
-use crate::legalize::census::Census;
+use crate::legalize::features::Features;
 
 /// True where the two machines are of different kinds.
-pub fn concerns(_: &Census, context: &Context<'_>) -> bool {
+pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
     context.source.machine() != context.target.machine()
 }
 

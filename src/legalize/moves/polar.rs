@@ -7,7 +7,7 @@
 
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{BinOp, Class, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind, Var};
+use crate::ir::{BinOp, Class, Expr, Module, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind, Var};
 use crate::legalize::{Context, ModalFacts, replace_statements};
 
 /// The registers of the pole, X and Y, by their numbers in [`Class::Register`].
@@ -43,7 +43,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 }
 
 /// Takes the pole out of a block, and yields the assignments that keep it.
-fn set_pole(nc: &mut Nc, site: &Site) -> Vec<Stmt> {
+fn set_pole(nc: &mut Nc, site: &SourceInfo) -> Vec<Stmt> {
     let mut out = Vec::new();
     let mut site = site.clone();
     nc.items.retain_mut(|item| match item {
@@ -52,7 +52,7 @@ fn set_pole(nc: &mut Nc, site: &Site) -> Vec<Stmt> {
             Some((_, var)) => {
                 let value = std::mem::replace(value, Expr::Vacant);
                 let kind = StmtKind::Assign { target: Place::Var(*var), value };
-                let rest = Site { span: site.span, skip: site.skip, ..Site::default() };
+                let rest = SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() };
                 out.push(Stmt { kind, site: std::mem::replace(&mut site, rest) });
                 false
             }

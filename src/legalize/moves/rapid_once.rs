@@ -6,7 +6,7 @@
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::ir::{Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::{Context, ModalFacts, replace_statements};
 
 /// Replaces rapid moves of one block.
@@ -19,7 +19,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let motion = state.op(Group::Motion).filter(|motion| matches!(motion, Op::Rapid | Op::Linear));
         let drills = state.op(Group::Cycle) != Some(Op::CycleOff);
         state.step(&stmt);
-        let site = Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+        let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
         let StmtKind::Nc(nc) = &mut stmt.kind else {
             out.push(stmt);
             return;

@@ -7,7 +7,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Expr, Module, Nc, NcItem, Site, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::{Context, ModalFacts, replace_statements};
 
 /// Names the axes of returns that name none.
@@ -62,7 +62,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         out.push(stmt);
         if let Some(distance) = restore {
             let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(distance)] });
-            out.push(Stmt { kind, site: Site { span, ..Site::default() } });
+            out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
         }
     });
 }

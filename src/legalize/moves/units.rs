@@ -6,7 +6,7 @@
 //! as the source was; where the target is set to the other unit, its tables must be kept for this one. Both are a
 //! review diagnostic. Two controls of one family that are set alike need nothing.
 
-pub(in crate::legalize) mod left;
+pub(in crate::legalize) mod exit;
 
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
@@ -15,27 +15,27 @@ use crate::dialect::Units;
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Lattice, reached};
-use crate::ir::analysis::exposed::roots;
+use crate::ir::analysis::upward_exposed::roots;
 use crate::ir::{
-    BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind,
+    BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
 };
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::moves::increments::units_named;
 use crate::legalize::{Context, ModalFacts, calls_of, reachable};
 use crate::text::Span;
-use left::Left;
+use exit::ExitUnit;
 use std::collections::BTreeSet;
 
 /// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
-pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let check = |op| matches!(op, Op::CheckInch | Op::CheckMetric);
-    let others = [Thing::Emptied, Thing::Code, Thing::Modal, Thing::Call, Thing::LocalCall];
+    let others = [Feature::Emptied, Feature::Code, Feature::Modal, Feature::Call, Feature::LocalCall];
     let entry = &context.entry;
     entry.op(Group::Units).is_none()
         || entry.may_call()
-        || census.any_op(|op| op.group() == Group::Units || check(op))
-        || others.into_iter().any(|thing| census.has(thing))
+        || features.any_op(|op| op.group() == Group::Units || check(op))
+        || others.into_iter().any(|thing| features.has(thing))
 }
 
 /// Tells the target the unit of each main program.
@@ -49,7 +49,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         return changed;
     }
     let mut entry = context.entry.clone();
-    entry.one_unit = Left::of_library(module, context.source).is_one();
+    entry.one_unit = ExitUnit::of_library(module, context.source).is_one();
     let known =
         entry.op(Group::Units).is_some() || module.programs.iter().flat_map(units_named).next().is_some();
     let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
@@ -272,6 +272,6 @@ fn head(program: &mut Program, op: Op) {
             .iter()
             .take_while(|stmt| matches!(stmt.kind, StmtKind::Remark | StmtKind::ClearAll(Class::Global)))
             .count();
-        block.stmts.insert(at, Stmt { kind, site: Site::default() });
+        block.stmts.insert(at, Stmt { kind, site: SourceInfo::default() });
     }
 }

@@ -15,7 +15,7 @@ use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::modal::Ways;
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
-use crate::legalize::census::Census;
+use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, ModalFacts, Setting};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,7 +56,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let facts = ModalFacts::of(module, &context.entry);
     let absent = absent(module);
-    let drills = Census::of(&module.programs).any_op(Op::is_cycle);
+    let drills = Features::of(&module.programs).any_op(Op::is_cycle);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let mut state = facts.at(index, id);

@@ -7,9 +7,9 @@
 use crate::canon::{Func, Sys};
 use crate::dialect::Control;
 use crate::ir::{
-    Bank, BinOp, Class, Cond, Expr, Module, Place, Program, Relation, Site, StmtKind, TermKind, Var,
+    Bank, BinOp, Class, Cond, Expr, Module, Place, Program, Relation, SourceInfo, StmtKind, TermKind, Var,
 };
-use crate::legalize::rewrite::{Part, Prelude, highest_temp, rebuild, rewrite_program};
+use crate::legalize::rewrite::{Part, PreStatement, highest_temp, rebuild, rewrite_program};
 use crate::legalize::{Context, Rewriter};
 
 /// Where a run begins, the number of its first variable, and the distance of two rows.
@@ -74,9 +74,9 @@ fn read(row: Expr, runs: &[Run], rewriter: &mut Rewriter<'_>) -> Expr {
         return place(&row, *run);
     }
     let row = rewriter.held(row);
-    let value = rewriter.hold(Expr::Number(0.0));
+    let value = rewriter.materialize(Expr::Number(0.0));
     for (at, run) in runs.iter().enumerate() {
-        rewriter.first(Prelude::When(inside(&row, runs, at), value, place(&row, *run)));
+        rewriter.first(PreStatement::When(inside(&row, runs, at), value, place(&row, *run)));
     }
     Expr::Var(value)
 }
@@ -125,8 +125,8 @@ fn write(program: &mut Program, source: &Control, target: &Control) {
             let kind = StmtKind::Assign { target: there, value: value.clone() };
             return builder.push(kind, stmt.site.clone());
         }
-        let skip = Site { skip: stmt.site.skip, ..Site::default() };
-        let mut hold = |builder: &mut crate::ir::Builder, value: Expr, site: Site| {
+        let skip = SourceInfo { skip: stmt.site.skip, ..SourceInfo::default() };
+        let mut hold = |builder: &mut crate::ir::Builder, value: Expr, site: SourceInfo| {
             highest += 1;
             let temp = Var { class: Class::Temp, number: highest };
             builder.push(StmtKind::Assign { target: Place::Var(temp), value }, site);
@@ -135,13 +135,13 @@ fn write(program: &mut Program, source: &Control, target: &Control) {
         let value = hold(builder, value.clone(), stmt.site.clone());
         let row = hold(builder, row.clone(), skip.clone());
         for (at, run) in runs.iter().enumerate() {
-            let (yes, no) = (builder.fresh(), builder.fresh());
+            let (then, otherwise) = (builder.fresh(), builder.fresh());
             let cond = inside(&row, &runs, at);
-            builder.end(TermKind::Branch { cond, yes, no }, Site::default());
-            builder.start(yes);
+            builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+            builder.start(then);
             let there = Place::Indirect(Bank::Numbered, Box::new(number(&row, *run)));
             builder.push(StmtKind::Assign { target: there, value: value.clone() }, skip.clone());
-            builder.start(no);
+            builder.start(otherwise);
         }
     });
 }

@@ -7,7 +7,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Module, Program, Site, Stmt, StmtKind};
+use crate::ir::{Module, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
 
@@ -56,7 +56,7 @@ fn shut(program: &Program) -> Option<Span> {
 fn open(program: &mut Program) {
     for block in &mut program.blocks {
         let mut out = Vec::with_capacity(block.stmts.len());
-        let port = |kind, span| Stmt { kind, site: Site { span, ..Site::default() } };
+        let port = |kind, span| Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } };
         let mut open = None;
         for stmt in std::mem::take(&mut block.stmts) {
             match stmt.kind {

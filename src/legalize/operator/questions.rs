@@ -8,7 +8,9 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Class, Expr, Module, OutputPart, Place, PrintPart, Program, Site, Stmt, StmtKind, Var};
+use crate::ir::{
+    Class, Expr, Module, OutputPart, Place, PrintPart, Program, SourceInfo, Stmt, StmtKind, Var,
+};
 use crate::legalize::{Context, Registers};
 
 /// Digits of a printed value before and behind the point: eight together is what the targets take.
@@ -77,7 +79,7 @@ fn ask(
     target: Place,
     serial: bool,
     question: Option<String>,
-    site: Site,
+    site: SourceInfo,
     index: usize,
     registers: &Registers,
     out: &mut Vec<Stmt>,
@@ -113,7 +115,7 @@ fn ask(
     let skip = site.skip;
     out.push(Stmt {
         kind: StmtKind::Assign { target, value: Expr::Number(0.0) },
-        site: Site { span, skip, ..Site::default() },
+        site: SourceInfo { span, skip, ..SourceInfo::default() },
     });
     out.push(Stmt { kind: StmtKind::StopMessage { number: Expr::Number(1.0), text }, site });
 }
@@ -130,7 +132,7 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
             let mut pending: Vec<OutputPart> = Vec::new();
             let mut open = false;
             // What ends a run of prints belongs to the last of them.
-            let mut site = Site::default();
+            let mut site = SourceInfo::default();
             for stmt in std::mem::take(&mut block.stmts) {
                 match stmt.kind {
                     StmtKind::Print { parts, serial, stay } => {
@@ -183,7 +185,8 @@ pub fn hold_values(program: &mut Program, _: usize, context: &mut Context<'_>) -
         let mut out = Vec::with_capacity(block.stmts.len());
         for mut stmt in std::mem::take(&mut block.stmts) {
             if let StmtKind::Print { parts, .. } = &mut stmt.kind {
-                let site = || Site { span: stmt.site.span, skip: stmt.site.skip, ..Site::default() };
+                let site =
+                    || SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
                 for part in parts {
                     let PrintPart::Value(value) = part else { continue };
                     if matches!(value, Expr::Var(_)) {
@@ -205,7 +208,7 @@ pub fn hold_values(program: &mut Program, _: usize, context: &mut Context<'_>) -
     true
 }
 
-fn finish(out: &mut Vec<Stmt>, pending: &mut Vec<OutputPart>, open: &mut bool, site: &Site) {
+fn finish(out: &mut Vec<Stmt>, pending: &mut Vec<OutputPart>, open: &mut bool, site: &SourceInfo) {
     if !pending.is_empty() {
         out.push(Stmt { kind: StmtKind::Output(std::mem::take(pending)), site: site.clone() });
     }

@@ -2,15 +2,15 @@
 
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
-use crate::legalize::assumptions::{facts, matters};
+use crate::legalize::assumptions::{facts, runtime};
 use crate::legalize::calls::{chain, link, modal_calls, modal_off, nesting, outline, repeats};
-use crate::legalize::census::Thing;
 use crate::legalize::codes::{
     beside_moves, by_number, lookahead, machine_codes, missing, pauses, substitutes,
 };
 use crate::legalize::cycles::{cycle_here, cycle_words, dwell, tapping};
-use crate::legalize::expressions::{conditions, constants, functions, oversize, truth};
-use crate::legalize::layout::{blanks, heads, program_numbers};
+use crate::legalize::expressions::{conditions, constants, functions, split, truth};
+use crate::legalize::features::Feature;
+use crate::legalize::layout::{blanks, program_numbers, sequence_numbers};
 use crate::legalize::moves::{
     bare_arcs, increments, lathe, polar, rapid_once, reference, shaped, shift, units,
 };
@@ -23,7 +23,7 @@ use crate::legalize::variables::{
     banks, clear, computed_numbers, probe_points, registers, retention, state, temporaries, vacancy,
     vacant_writes,
 };
-use crate::opt::{Branches, Copies, DeadTemps, Fold, Retarget, Unreachable};
+use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
 /// The passes from lowering to emission.
 pub const GROUPS: &[Group] = &[
@@ -50,8 +50,8 @@ pub const GROUPS: &[Group] = &[
 
 const TIDY: &[Pass] = &[
     Pass::tidies(
-        &Copies,
-        "copies",
+        &CopyPropagation,
+        "copy-propagation",
         "reads of a temporary that only holds another value become reads of that value",
     ),
     Pass::tidies(&Fold, "fold", "values that can be computed here are"),
@@ -62,7 +62,7 @@ const TIDY: &[Pass] = &[
     ),
     Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps"),
     Pass::tidies(&Unreachable, "unreachable", "blocks that nothing comes to go"),
-    Pass::tidies(&DeadTemps, "dead-temps", "temporaries that nothing reads go"),
+    Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads go"),
 ];
 
 const SOURCE: &[Pass] = &[
@@ -71,26 +71,26 @@ const SOURCE: &[Pass] = &[
         "tells unconfirmed facts of the source that vacant variables rest on",
         facts::of_source,
     )
-    .when(|c, _| c.has(Thing::Computed)),
+    .when(|c, _| c.has(Feature::Computed)),
     Pass::reports("lathe", "refuses programs of the other kind of machine", lathe::run).when(lathe::concerns),
-    Pass::reports("matters", "notes what holds only for some values of a run", matters::run)
-        .when(|c, _| matters::concerns(c)),
+    Pass::reports("runtime-assumptions", "notes what holds only for some values of a run", runtime::run)
+        .when(|c, _| runtime::concerns(c)),
 ];
 
 const STRUCTURE: &[Pass] = &[
     Pass::rewrites("blanks", "empty blocks of another family go", blanks::run)
         .when(|_, context| !context.same_family()),
     Pass::edits("link", "tells calls that leave the library", link::run)
-        .when(|c, _| c.has(Thing::Call) || c.has(Thing::Chain)),
+        .when(|c, _| c.has(Feature::Call) || c.has(Feature::Chain)),
     Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)
-        .when(|c, _| c.has(Thing::LocalCall))
+        .when(|c, _| c.has(Feature::LocalCall))
         .needs(&["link"])
         .adds_programs(),
 ];
 
 const BLOCKS: &[Pass] = &[
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
-        .when(|c, _| c.has(Thing::Code)),
+        .when(|c, _| c.has(Feature::Code)),
     Pass::rewrites(
         "beside-moves",
         "spindle, coolant and tool change get blocks of their own",
@@ -105,17 +105,17 @@ const BLOCKS: &[Pass] = &[
 
 const CALLS: &[Pass] = &[
     Pass::rewrites("chain", "going on in another program becomes a call and an end", chain::chain)
-        .when(|c, _| c.has(Thing::Chain))
+        .when(|c, _| c.has(Feature::Chain))
         .needs(&["link"])
         .changes_flow(),
     Pass::rewrites("repeats", "repeated moves become loops", repeats::run)
         .when(|c, _| c.role(Role::Repeat))
         .changes_flow(),
     Pass::rewrites("modal-off", "ends of modal calls where none is open go", modal_off::run)
-        .when(|c, context| c.has(Thing::Modal) && !context.same_family())
+        .when(|c, context| c.has(Feature::Modal) && !context.same_family())
         .needs(&["chain"]),
     Pass::rewrites("modal-calls", "modal calls become a call after each move", modal_calls::run)
-        .when(|c, _| c.has(Thing::Modal))
+        .when(|c, _| c.has(Feature::Modal))
         .adds_programs()
         .needs(&["outline", "repeats", "modal-off"]),
     // The calls that modal calls become must look at the register too.
@@ -124,11 +124,11 @@ const CALLS: &[Pass] = &[
         "returns to a sequence number go by a register that the caller looks at",
         chain::return_to,
     )
-    .when(|c, _| c.has(Thing::ReturnTo))
+    .when(|c, _| c.has(Feature::ReturnTo))
     .needs(&["modal-calls"])
     .changes_flow(),
     Pass::reports("nesting", "tells calls that nest deeper than the target takes", nesting::run)
-        .when(|c, _| c.has(Thing::Call) || c.has(Thing::LocalCall))
+        .when(|c, _| c.has(Feature::Call) || c.has(Feature::LocalCall))
         .needs(&["outline", "chain", "modal-calls"]),
 ];
 
@@ -142,15 +142,15 @@ const MOVES: &[Pass] = &[
         "looks at work offsets that are written while selected",
         active_offsets::run,
     )
-    .when(|c, _| c.has(Thing::System)),
+    .when(|c, _| c.has(Feature::System)),
     Pass::reports("set-position", "looks at work offsets selected after a set position", set_position::run)
         .when(|c, context| c.op(Op::SetPosition) && c.op(Op::SelectWork) && !context.same_family()),
     Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
-        .when(|c, _| c.has(Thing::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
+        .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
-        .when(|c, _| c.has(Thing::Increments)),
+        .when(|c, _| c.has(Feature::Increments)),
     Pass::edits("units", "programs that name no unit are told it", units::run)
         .when(units::concerns)
         .needs(&["increments", "modal-calls"]),
@@ -186,47 +186,47 @@ const MOVES: &[Pass] = &[
 
 const VARIABLES: &[Pass] = &[
     Pass::reports("banks", "looks up computed numbers of a space of their own", banks::run)
-        .when(|c, _| c.has(Thing::Indirect)),
+        .when(|c, _| c.has(Feature::Indirect)),
     Pass::edits(
         "computed-numbers",
         "computed numbers of variables reach what they reached",
         computed_numbers::run,
     )
-    .when(|c, _| c.has(Thing::Indirect)),
+    .when(|c, _| c.has(Feature::Indirect)),
     Pass::rewrites(
         "vacant-writes",
         "words that may be vacant stay away from tables in diameters",
         vacant_writes::run,
     )
-    .when(|c, _| (c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear)) && c.has(Thing::Variable))
+    .when(|c, _| (c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear)) && c.has(Feature::Variable))
     .changes_flow(),
     Pass::rewrites("probe-points", "touch points by number are kept in registers", probe_points::run)
         .changes_flow()
         .when(|c, _| c.role(Role::ProbePoint)),
     Pass::rewrites("position-length", "positions hold the tool length as they did", position_length::run)
-        .when(|c, _| c.has(Thing::System) || c.has(Thing::Indirect))
+        .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
     Pass::reports("tool-word", "looks whether the last tool word is the tool in the spindle", tool_word::run)
-        .when(|c, _| c.has(Thing::System)),
+        .when(|c, _| c.has(Feature::System)),
     Pass::rewrites(
         "offset-rows",
         "work offsets by a computed number are found in the target's runs",
         offset_rows::run,
     )
-    .when(|c, _| c.has(Thing::System))
+    .when(|c, _| c.has(Feature::System))
     .changes_flow(),
     Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
-        .when(|c, _| c.has(Thing::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
+        .when(|c, _| c.has(Feature::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
         .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows"]),
 ];
 
 const CYCLES: &[Pass] = &[
     Pass::reports("alarms", "looks at alarm numbers that the target does not take", alarms::run)
-        .when(|c, _| c.has(Thing::Message)),
+        .when(|c, _| c.has(Feature::Message)),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
     Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)
-        .when(|c, _| c.has(Thing::Wait) || c.has(Thing::Emptied)),
+        .when(|c, _| c.has(Feature::Wait) || c.has(Feature::Emptied)),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
         .when(|c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere)),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
@@ -257,29 +257,29 @@ const CODES: &[Pass] = &[
 
 const EXPRESSIONS: &[Pass] = &[
     Pass::each("functions", "functions and operators become those of the target", functions::run)
-        .when(|c, _| c.has(Thing::Function))
+        .when(|c, _| c.has(Feature::Function))
         .changes_flow(),
     Pass::each("truth", "comparisons as values become branches", truth::run)
         .when(truth::concerns)
         .needs(&["functions"])
         .changes_flow(),
     Pass::each("conditions", "AND, OR and NOT of conditions become branches", conditions::run)
-        .when(|c, _| c.has(Thing::Compound))
+        .when(|c, _| c.has(Feature::Compound))
         .needs(&["truth"])
         .changes_flow(),
     Pass::each("constants", "constants of many digits become sums", constants::run)
-        .when(|c, _| c.has(Thing::Long))
+        .when(|c, _| c.has(Feature::Long))
         .needs(&["functions"]),
     Pass::each("printed-values", "values to be printed go to temporaries", questions::hold_values)
-        .when(|c, _| c.has(Thing::Print)),
-    Pass::each("oversize", "expressions are cut to the target's brackets and line", oversize::run)
-        .when(|c, _| c.has(Thing::Computed))
+        .when(|c, _| c.has(Feature::Print)),
+    Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
+        .when(|c, _| c.has(Feature::Computed))
         .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
 ];
 
 const ENTRY: &[Pass] = &[
     Pass::rewrites("ports", "output ports are opened and closed", ports::run)
-        .when(|c, _| c.has(Thing::Output)),
+        .when(|c, _| c.has(Feature::Output)),
     Pass::rewrites("vacancy", "variables that are never vacant are set to 0 if they are", vacancy::run)
         .when(vacancy::concerns)
         .changes_flow(),
@@ -295,13 +295,13 @@ const TIDY_LEGAL: &[Pass] = &[
     ),
     Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps"),
     Pass::tidies(&Unreachable, "unreachable", "blocks that nothing comes to go"),
-    Pass::tidies(&DeadTemps, "dead-temps", "temporaries that nothing reads go"),
+    Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads go"),
 ];
 
 // What these put in, they put in for something that stood there before.
 const REGISTERS: &[Pass] = &[
     Pass::rewrites("temporaries", "temporaries that are never alive together share one", temporaries::run)
-        .when(|c, _| c.has(Thing::Temp))
+        .when(|c, _| c.has(Feature::Temp))
         .brings_nothing(),
     Pass::rewrites("registers", "every variable gets its register", registers::run)
         .needs(&["temporaries", "computed-numbers"])
@@ -334,28 +334,32 @@ const OPERATOR: &[Pass] = &[
         "questions become stops at which the operator sets the register",
         questions::questions,
     )
-    .when(|c, _| c.has(Thing::Input))
+    .when(|c, _| c.has(Feature::Input))
     .needs(&["registers", "letters"])
     .brings_nothing(),
     Pass::rewrites("prints", "prints become formatted output", questions::prints)
-        .when(|c, _| c.has(Thing::Print))
+        .when(|c, _| c.has(Feature::Print))
         .needs(&["questions", "letters"])
         .brings_nothing(),
     Pass::rewrites("messages", "messages are cut to what the target shows", messages::run)
-        .when(|c, _| c.has(Thing::Message) || c.has(Thing::Input))
+        .when(|c, _| c.has(Feature::Message) || c.has(Feature::Input))
         .needs(&["questions"])
         .brings_nothing(),
 ];
 
 const LAYOUT: &[Pass] = &[
-    Pass::rewrites("heads", "sequence numbers stand at the head of what became of their blocks", heads::run)
-        .brings_nothing(),
+    Pass::rewrites(
+        "sequence-numbers",
+        "sequence numbers stand at the head of what became of their blocks",
+        sequence_numbers::run,
+    )
+    .brings_nothing(),
     Pass::reports(
         "target-facts",
         "tells unconfirmed facts of the target that programs rest on",
         facts::of_target,
     )
-    .needs(&["missing", "oversize", "registers", "prints", "messages"]),
+    .needs(&["missing", "split-expressions", "registers", "prints", "messages"]),
     Pass::reports("program-numbers", "every program gets a number of the target", program_numbers::run)
         .needs(&["outline", "chain"]),
 ];

@@ -11,7 +11,7 @@ pub use list::GROUPS;
 pub use pass::{Changes, Pass};
 
 use super::Context;
-use super::census::Census;
+use super::features::Features;
 use crate::ir::validate::Invalid;
 use crate::ir::{Module, validate};
 use crate::opt;
@@ -90,7 +90,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Result<(), Broken>
 /// As [`run`].
 pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -> Result<(), Broken> {
     let passes: Vec<&Pass> = passes().map(|(_, pass)| pass).take(count).collect();
-    context.census = Census::default();
+    context.features = Features::default();
     let mut fresh = false;
     for passes in passes.chunk_by(|a, b| goes_on(a, b)) {
         let [pass] = passes else {
@@ -98,10 +98,10 @@ pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -
             continue;
         };
         // What stood there before may be gone: then the pass finds nothing to do.
-        if !fresh && !(pass.concerns)(&context.census, context) {
-            (context.census, fresh) = (Census::of(&module.programs), true);
+        if !fresh && !(pass.concerns)(&context.features, context) {
+            (context.features, fresh) = (Features::of(&module.programs), true);
         }
-        if !(pass.concerns)(&context.census, context) {
+        if !(pass.concerns)(&context.features, context) {
             continue;
         }
         let before = cfg!(debug_assertions).then(|| module.clone());
@@ -145,7 +145,7 @@ fn run_together(
     if !tidies.is_empty() {
         return opt::run(module, &tidies, context.level).map_err(|(pass, first)| Broken { pass, first });
     }
-    if !*fresh || passes.iter().any(|pass| (pass.concerns)(&context.census, context)) {
+    if !*fresh || passes.iter().any(|pass| (pass.concerns)(&context.features, context)) {
         each(passes, module, context);
         *fresh = true;
     }
@@ -155,18 +155,18 @@ fn run_together(
 /// Takes each program through passes that look at one alone, and counts anew what stands in the library; true
 /// if they changed anything.
 fn each(passes: &[&Pass], module: &mut Module, context: &mut Context<'_>) -> bool {
-    let (mut all, mut any) = (Census::default(), false);
+    let (mut all, mut any) = (Features::default(), false);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut census = Census::of(std::slice::from_ref(program));
+        let mut features = Features::of(std::slice::from_ref(program));
         for pass in passes {
             let Run::Each(run) = pass.run else { continue };
-            if (pass.concerns)(&census, context) && run(program, index, context) {
-                (census, any) = (Census::of(std::slice::from_ref(program)), true);
+            if (pass.concerns)(&features, context) && run(program, index, context) {
+                (features, any) = (Features::of(std::slice::from_ref(program)), true);
             }
         }
-        all.add_all(&census);
+        all.add_all(&features);
     }
-    context.census = all;
+    context.features = all;
     any
 }
 

@@ -2,7 +2,7 @@
 
 use crate::ir::{Module, Program};
 use crate::legalize::Context;
-use crate::legalize::census::Census;
+use crate::legalize::features::Features;
 use crate::opt;
 
 /// One step between lowering and emission.
@@ -18,7 +18,7 @@ pub struct Pass {
     /// False if it puts nothing into a library that stood nowhere in it: what was counted before still holds.
     pub(super) brings: bool,
     /// Whether anything in a library concerns it. If not, it would change nothing and say nothing.
-    pub(super) concerns: fn(&Census, &Context<'_>) -> bool,
+    pub(super) concerns: fn(&Features, &Context<'_>) -> bool,
     pub(super) run: Run,
 }
 
@@ -118,7 +118,7 @@ impl Pass {
     }
 
     /// Runs it only if this says that something concerns it.
-    pub(super) const fn when(mut self, concerns: fn(&Census, &Context<'_>) -> bool) -> Self {
+    pub(super) const fn when(mut self, concerns: fn(&Features, &Context<'_>) -> bool) -> Self {
         self.concerns = concerns;
         self
     }
@@ -145,8 +145,8 @@ impl Pass {
 
     /// Runs it alone, if anything concerns it.
     pub fn apply(&self, module: &mut Module, context: &mut Context<'_>) {
-        context.census = Census::of(&module.programs);
-        if (self.concerns)(&context.census, context) {
+        context.features = Features::of(&module.programs);
+        if (self.concerns)(&context.features, context) {
             self.run_on(module, context);
         }
     }

@@ -7,10 +7,11 @@
 
 use crate::dialect::Question;
 use crate::ir::{
-    Bank, BinOp, Builder, Class, Cond, Expr, Module, Place, Relation, Site, Stmt, StmtKind, TermKind, Var,
+    Bank, BinOp, Builder, Class, Cond, Expr, Module, Place, Relation, SourceInfo, Stmt, StmtKind, TermKind,
+    Var,
 };
 use crate::legalize::Context;
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, rebuild};
 use crate::legalize::variables::registers::{Register, Registers};
 
@@ -21,8 +22,8 @@ pub const COUNTER: Var = Var { class: Class::Register, number: 9 };
 const ROW: usize = 6;
 
 /// True where a library clears classes that the target cannot.
-pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
-    census.has(Thing::Clear) && !context.target.is(Question::ClearAll)
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.has(Feature::Clear) && !context.target.is(Question::ClearAll)
 }
 
 /// Expands the clearing of a class; needs the registers, so it runs behind their allocation.
@@ -38,14 +39,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
-fn clear(class: Class, registers: &Registers, site: Site, builder: &mut Builder) {
+fn clear(class: Class, registers: &Registers, site: SourceInfo, builder: &mut Builder) {
     let mut all: Vec<(&Register, Var)> =
         registers.of.iter().filter(|(var, _)| var.class == class).map(|(var, r)| (r, *var)).collect();
     all.sort();
     let span = site.span;
     let mut site = Some(site);
     // The block's number and comments stay with the first of what it becomes.
-    let mut next_site = move || site.take().unwrap_or_else(|| Site { span, ..Site::default() });
+    let mut next_site = move || site.take().unwrap_or_else(|| SourceInfo { span, ..SourceInfo::default() });
     let zero = |var| StmtKind::Assign { target: Place::Var(var), value: Expr::Number(0.0) };
     let follows =
         |a: &(&Register, Var), b: &(&Register, Var)| a.0.name == b.0.name && a.0.number + 1 == b.0.number;
@@ -63,19 +64,19 @@ fn clear(class: Class, registers: &Registers, site: Site, builder: &mut Builder)
 }
 
 /// A loop that sets the registers from `first` to `last` to 0.
-fn sweep(first: u32, last: u32, site: &mut dyn FnMut() -> Site, builder: &mut Builder) {
+fn sweep(first: u32, last: u32, site: &mut dyn FnMut() -> SourceInfo, builder: &mut Builder) {
     let counter = || Expr::Var(COUNTER);
     let set = |target, value| StmtKind::Assign { target, value };
     builder.push(set(Place::Var(COUNTER), Expr::Number(f64::from(first))), site());
     let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
     builder.start(head);
     let more = Cond::Compare(Relation::LessEqual, counter(), Expr::Number(f64::from(last)));
-    builder.end(TermKind::Branch { cond: more, yes: body, no: behind }, site());
+    builder.end(TermKind::Branch { cond: more, then: body, otherwise: behind }, site());
     builder.start(body);
     let cell = Place::Indirect(Bank::Numbered, Box::new(counter()));
     builder.push(set(cell, Expr::Number(0.0)), site());
     let next = Expr::binary(BinOp::Add, counter(), Expr::Number(1.0));
     builder.push(set(Place::Var(COUNTER), next), site());
-    builder.end(TermKind::Jump(head), Site::default());
+    builder.end(TermKind::Jump(head), SourceInfo::default());
     builder.start(behind);
 }

@@ -8,12 +8,12 @@
 
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::analysis::exposed::{Exposed, roots};
+use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::analysis::{Constant, Summaries, values_at};
 use crate::ir::{
-    BlockId, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, Site, Stmt, StmtKind, Var,
+    BlockId, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo, Stmt, StmtKind, Var,
 };
-use crate::legalize::rewrite::{Prelude, rewrite_program};
+use crate::legalize::rewrite::{PreStatement, rewrite_program};
 use crate::legalize::{Context, Rewriter};
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -60,9 +60,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
     }
     // What is not known to be kept is not known to be missing.
-    let exposed = Exposed::of(module);
+    let upward_exposed = UpwardExposed::of(module);
     for index in roots(module).into_iter().filter(|_| sure) {
-        let unset = exposed.at_entry(index).into_iter().find(|var| cells.iter().any(|of| cell(*of) == *var));
+        let unset =
+            upward_exposed.at_entry(index).into_iter().find(|var| cells.iter().any(|of| cell(*of) == *var));
         if unset.is_some() {
             let what = "a touch point may be read that no program of the library has probed before";
             let span = module.programs[index].site.span;
@@ -100,10 +101,10 @@ fn look_up(subscripts: ThinVec<Expr>, points: &[u32], rewriter: &mut Rewriter<'_
         (Some(axis), Some(point)) => Expr::Var(cell((axis, point))),
         (Some(axis), None) if point.constant().is_none() => {
             let point = rewriter.held(point.clone());
-            let value = rewriter.hold(Expr::Number(0.0));
+            let value = rewriter.materialize(Expr::Number(0.0));
             for &number in points {
                 let cond = Cond::Compare(Relation::Equal, point.clone(), Expr::Number(f64::from(number)));
-                rewriter.first(Prelude::When(cond, value, Expr::Var(cell((axis, number)))));
+                rewriter.first(PreStatement::When(cond, value, Expr::Var(cell((axis, number)))));
             }
             Expr::Var(value)
         }
@@ -139,7 +140,7 @@ fn keep(program: &mut Program, cells: &BTreeSet<Cell>, summaries: &Summaries) ->
     for (block, points) in program.blocks.iter_mut().zip(points) {
         let mut out = Vec::with_capacity(block.stmts.len());
         for (mut stmt, point) in std::mem::take(&mut block.stmts).into_iter().zip(points) {
-            let site = Site { skip: stmt.site.skip, ..Site::default() };
+            let site = SourceInfo { skip: stmt.site.skip, ..SourceInfo::default() };
             let span = stmt.site.span;
             let StmtKind::Nc(nc) = &mut stmt.kind else {
                 out.push(stmt);
@@ -154,7 +155,7 @@ fn keep(program: &mut Program, cells: &BTreeSet<Cell>, summaries: &Summaries) ->
             let own: Vec<Cell> = cells.iter().copied().filter(|(_, of)| point == Some(*of)).collect();
             if !own.is_empty() {
                 // A control that reads ahead must not read the place before the move.
-                out.push(Stmt { kind: StmtKind::Sync, site: Site { span, ..site.clone() } });
+                out.push(Stmt { kind: StmtKind::Sync, site: SourceInfo { span, ..site.clone() } });
             }
             for (axis, of) in own {
                 let value = Expr::System(Sys::SkipPosition, [Expr::Number(f64::from(axis))].into());

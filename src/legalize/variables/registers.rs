@@ -9,7 +9,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, VariableClass};
 use crate::ir::analysis::{Numbers, VarSet};
 use crate::ir::{Bank, BinOp, Class, Expr, Module, Place, StmtKind, Var};
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::variables::clear;
 use crate::legalize::variables::locked::{Effective, Locked};
 use crate::legalize::{Context, Position, Rewriter, rewrite_program};
@@ -67,20 +67,20 @@ fn is_own(var: &Var, register: &Register) -> bool {
 
 /// Gives every variable its register. Nothing changes the variables of the module after this.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let (census, locked) = (context.census, context.locked.clone());
-    context.registers = allocate(module, &census, &locked, context);
+    let (features, locked) = (context.features, context.locked.clone());
+    context.registers = allocate(module, &features, &locked, context);
 }
 
 /// Chooses registers for everything in the library, after the choices of earlier runs.
 fn allocate(
     module: &mut Module,
-    census: &Census,
+    features: &Features,
     locked: &Locked<'_>,
     context: &mut Context<'_>,
 ) -> Registers {
     let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
     // Where no program names any, there is nothing to look for.
-    let named = module.programs.iter().enumerate().filter(|_| census.has(Thing::Variable));
+    let named = module.programs.iter().enumerate().filter(|_| features.has(Feature::Variable));
     let mut seen = VarSet::default();
     for (index, program) in named {
         program.variables(&mut |var| {
@@ -89,10 +89,10 @@ fn allocate(
             }
         });
     }
-    if clear::concerns(census, context) {
+    if clear::concerns(features, context) {
         users.insert(clear::COUNTER, (0, Span::default()));
     }
-    let banks = if census.has(Thing::Banked) { banks(module) } else { BTreeMap::new() };
+    let banks = if features.has(Feature::Banked) { banks(module) } else { BTreeMap::new() };
     for (bank, place) in &banks {
         for number in reached(*bank, context.source) {
             users.entry(Var { class: class_of(*bank), number }).or_insert(*place);

@@ -6,7 +6,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::Universe;
-use crate::ir::analysis::exposed::{Exposed, roots};
+use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::{Class, Module, Var};
 use crate::legalize::Context;
 use crate::legalize::variables::registers::{Register, Registers};
@@ -39,13 +39,15 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
         return;
     }
     lives.sort_by(|(.., a), (.., b)| a.cmp(b));
-    let exposed = Exposed::among(module, Universe::new(lives.iter().map(|(var, ..)| *var).collect()));
+    let upward_exposed =
+        UpwardExposed::among(module, Universe::new(lives.iter().map(|(var, ..)| *var).collect()));
     let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
     for index in roots(module) {
         let span = module.programs[index].site.span;
         for kept in [true, false] {
             let shown = lives.iter().enumerate();
-            let shown = shown.filter(|(_, (var, k, _))| *k == kept && exposed.is_at_entry(index, *var));
+            let shown =
+                shown.filter(|(_, (var, k, _))| *k == kept && upward_exposed.is_at_entry(index, *var));
             let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
             if shown.is_empty() {
                 continue;

@@ -9,7 +9,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::reached;
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Site, Stmt, StmtKind};
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind};
 use crate::legalize::offsets::tool_word;
 use crate::legalize::{Context, Position, Rewriter, rewrite_program};
 use crate::text::Span;
@@ -339,7 +339,7 @@ fn start_timer(module: &mut Module, timed: &BTreeSet<usize>, context: &mut Conte
                 target: Place::System(Sys::TimerMs, ThinVec::new()),
                 value: Expr::Number(0.0),
             };
-            block.stmts.insert(0, Stmt { kind, site: Site::default() });
+            block.stmts.insert(0, Stmt { kind, site: SourceInfo::default() });
             let what = "the seconds since cycle start are counted by the millisecond timer, which the program sets to 0";
             let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
             context.add_once(index, "cycle seconds", finding);

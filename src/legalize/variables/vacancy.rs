@@ -7,27 +7,27 @@
 //! is no X word at all on the target.
 
 use crate::dialect::Question;
-use crate::ir::analysis::exposed::{Exposed, roots};
+use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::{
-    Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, Site, Stmt, StmtKind, TermKind,
-    Terminator, Var,
+    Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, SourceInfo, Stmt, StmtKind,
+    TermKind, Terminator, Var,
 };
 use crate::legalize::Context;
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use smallvec::SmallVec;
 
 /// True where there are variables, and only the target's may be vacant.
-pub fn concerns(census: &Census, context: &Context<'_>) -> bool {
-    census.has(Thing::Variable)
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.has(Feature::Variable)
         && !context.source.is(Question::Vacancy)
         && context.target.is(Question::Vacancy)
 }
 
 /// Puts guards at the head of every program where a run may begin.
 pub fn run(module: &mut Module, _: &mut Context<'_>) {
-    let exposed = Exposed::of(module);
+    let upward_exposed = UpwardExposed::of(module);
     for index in roots(module) {
-        let vars: Vec<Var> = exposed
+        let vars: Vec<Var> = upward_exposed
             .at_entry(index)
             .iter()
             .copied()
@@ -58,13 +58,13 @@ fn guard(program: &mut Program, vars: &[Var]) {
         let (set, next) = (BlockId(2 * at + 1), BlockId(2 * at + 2));
         let cond = Cond::Compare(Relation::Equal, Expr::Var(*var), Expr::Vacant);
         let zero = StmtKind::Assign { target: Place::Var(*var), value: Expr::Number(0.0) };
-        blocks.push(block(Vec::new(), TermKind::Branch { cond, yes: set, no: next }));
-        blocks.push(block(vec![Stmt { kind: zero, site: Site::default() }], TermKind::Jump(next)));
+        blocks.push(block(Vec::new(), TermKind::Branch { cond, then: set, otherwise: next }));
+        blocks.push(block(vec![Stmt { kind: zero, site: SourceInfo::default() }], TermKind::Jump(next)));
     }
     blocks.append(&mut program.blocks);
     program.blocks = blocks;
 }
 
 fn block(stmts: Vec<Stmt>, kind: TermKind) -> Block {
-    Block { labels: SmallVec::new(), stmts, term: Terminator { kind, site: Site::default() } }
+    Block { labels: SmallVec::new(), stmts, term: Terminator { kind, site: SourceInfo::default() } }
 }

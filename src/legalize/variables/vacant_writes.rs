@@ -17,9 +17,9 @@ use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{Cfg, Summaries, Vacancy};
 use crate::ir::{
-    BlockId, Call, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, Site, StmtKind, TermKind,
+    BlockId, Call, Callee, Cond, Expr, Module, Nc, NcItem, Program, Relation, SourceInfo, StmtKind, TermKind,
 };
-use crate::legalize::census::Census;
+use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part, rebuild};
 use crate::legalize::variables::state::table_factor;
 use crate::legalize::{Context, ModalFacts, calls_of};
@@ -47,7 +47,7 @@ fn added(module: &Module, context: &mut Context<'_>) {
     let computed = |nc: &Nc| written(nc).is_some_and(|value| value.constant().is_none());
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let any = stmts().any(|stmt| stmt.kind.nc().is_some_and(computed));
-    if !any || !Census::of(&module.programs).any_op(|op| op == Op::Incremental) {
+    if !any || !Features::of(&module.programs).any_op(|op| op == Op::Incremental) {
         return;
     }
     let called: BTreeSet<usize> =
@@ -137,14 +137,16 @@ fn split(program: &mut Program, places: &BTreeSet<(BlockId, usize)>) {
                 {
                     let (empty, full, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
                     let cond = Cond::Compare(Relation::Equal, unsigned(&value).clone(), Expr::Vacant);
-                    builder.end(TermKind::Branch { cond, yes: empty, no: full }, Site::default());
+                    builder
+                        .end(TermKind::Branch { cond, then: empty, otherwise: full }, SourceInfo::default());
                     builder.start(full);
                     builder.push(stmt.kind.clone(), stmt.site.clone());
-                    builder.end(TermKind::Jump(behind), Site::default());
+                    builder.end(TermKind::Jump(behind), SourceInfo::default());
                     builder.start(empty);
                     let mut without = nc.clone();
                     without.items.retain(|item| !matches!(item, NcItem::Word(Role::OffsetValue, _)));
-                    let site = Site { skip: stmt.site.skip, span: stmt.site.span, ..Site::default() };
+                    let site =
+                        SourceInfo { skip: stmt.site.skip, span: stmt.site.span, ..SourceInfo::default() };
                     builder.push(StmtKind::Nc(without), site);
                     builder.start(behind);
                     return;

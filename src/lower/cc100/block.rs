@@ -5,7 +5,7 @@ use super::register::{self, Source};
 use super::words::{Change, Planned};
 use crate::canon::Func;
 use crate::diag::Diagnostic;
-use crate::ir::{BinOp, Cond, Expr, Place, Relation, Site, StmtKind, TermKind, Var};
+use crate::ir::{BinOp, Cond, Expr, Place, Relation, SourceInfo, StmtKind, TermKind, Var};
 use crate::syntax::{
     Block, ExprKind, Index, Item, ItemKind, Label, TestSubject, VarRef, Word, for_each_expr,
 };
@@ -17,7 +17,7 @@ const MOST_WORDS: usize = 52;
 impl Lowering<'_> {
     /// Lowers a block. Statements act from left to right; the words act together,
     /// behind the statements or before the first jump.
-    pub(super) fn block(&mut self, block: &Block, mut site: Site) {
+    pub(super) fn block(&mut self, block: &Block, mut site: SourceInfo) {
         for error in &block.errors {
             self.findings.add(Diagnostic::new(error.code, error.span, error.message.clone()));
         }
@@ -63,7 +63,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn act(&mut self, planned: Planned, site: &Site) {
+    fn act(&mut self, planned: Planned, site: &SourceInfo) {
         if let Some(change) = planned.change {
             self.change_tool(change, site);
         }
@@ -77,27 +77,27 @@ impl Lowering<'_> {
     }
 
     /// Changes the tool, unless its number turns out to be one that changes nothing.
-    fn change_tool(&mut self, change: Change, site: &Site) {
+    fn change_tool(&mut self, change: Change, site: &SourceInfo) {
         let Change { nc, tool, unless } = change;
         if unless.is_empty() {
             return self.push(StmtKind::Nc(nc), site);
         }
-        let no = self.build.fresh();
+        let otherwise = self.build.fresh();
         for number in unless {
-            let yes = self.build.fresh();
+            let then = self.build.fresh();
             // A reader looks for what may change on the left.
             let pair =
                 if tool.constant().is_some() { (number, tool.clone()) } else { (tool.clone(), number) };
             let cond = Cond::Compare(Relation::NotEqual, pair.0, pair.1);
-            self.build.end(TermKind::Branch { cond, yes, no }, site.clone());
-            self.build.start(yes);
+            self.build.end(TermKind::Branch { cond, then, otherwise }, site.clone());
+            self.build.start(then);
         }
         self.push(StmtKind::Nc(nc), site);
-        self.build.start(no);
+        self.build.start(otherwise);
     }
 
     /// Lowers a statement; false where it says nothing.
-    fn statement(&mut self, item: &Item, site: &Site) -> bool {
+    fn statement(&mut self, item: &Item, site: &SourceInfo) -> bool {
         match &item.kind {
             ItemKind::Sequence { .. } | ItemKind::Comment(_) | ItemKind::EndOfBlock => return false,
             ItemKind::Tape | ItemKind::Skip(_) | ItemKind::Word(_) => return false,
@@ -130,16 +130,16 @@ impl Lowering<'_> {
     }
 
     /// Assigns a variable.
-    pub(super) fn assign(&mut self, target: Var, value: Expr, site: &Site) {
+    pub(super) fn assign(&mut self, target: Var, value: Expr, site: &SourceInfo) {
         self.push(StmtKind::Assign { target: Place::Var(target), value }, site);
     }
 
     /// Notes what the condition register holds from here on; [`register`] drops what nobody reads.
-    pub(super) fn set_register(&mut self, source: Source, value: Expr, site: &Site) {
+    pub(super) fn set_register(&mut self, source: Source, value: Expr, site: &SourceInfo) {
         self.assign(register::marker(source), value, site);
     }
 
-    fn test(&mut self, subject: &TestSubject, site: &Site, span: Span) {
+    fn test(&mut self, subject: &TestSubject, site: &SourceInfo, span: Span) {
         match subject {
             TestSubject::Variable(variable) => {
                 if let Some(variable) = self.variable(variable) {

@@ -4,7 +4,7 @@ use super::register::REGISTER;
 use super::{Lowering, cycle_name};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BlockId, Call, Callee, Cond, Expr, Site, TermKind};
+use crate::ir::{BlockId, Call, Callee, Cond, Expr, SourceInfo, TermKind};
 use crate::lower::common::relation;
 use crate::syntax::{BinaryOp, Label, Target};
 use crate::text::Span;
@@ -63,7 +63,7 @@ impl Lowering<'_> {
     }
 
     /// Lowers a jump on the condition register.
-    pub(super) fn branch(&mut self, operator: BinaryOp, target: &Target, site: &Site, span: Span) {
+    pub(super) fn branch(&mut self, operator: BinaryOp, target: &Target, site: &SourceInfo, span: Span) {
         let Some(relation) = relation(operator) else {
             return self.findings.not_understood(span, "this control has no such jump");
         };
@@ -78,20 +78,20 @@ impl Lowering<'_> {
         let known = known.map(|label| Target::Label(Label::Number(label)));
         match known.as_ref().unwrap_or(target) {
             Target::Label(Label::Number(label)) => {
-                if let Some(yes) = self.target(*label, span) {
-                    self.build.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
+                if let Some(then) = self.target(*label, span) {
+                    self.build.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
                 }
             }
             Target::Computed(label) => {
                 let Some(value) = self.operand(label) else { return };
                 let shared = self.dispatches.iter().find(|(known, _)| *known == value).map(|(_, id)| *id);
-                let no = self.build.fresh();
-                let yes = shared.unwrap_or_else(|| self.build.fresh());
-                self.build.end(TermKind::Branch { cond, yes, no }, site.clone());
+                let otherwise = self.build.fresh();
+                let then = shared.unwrap_or_else(|| self.build.fresh());
+                self.build.end(TermKind::Branch { cond, then, otherwise }, site.clone());
                 if shared.is_none() {
-                    self.dispatch(value, yes, site);
+                    self.dispatch(value, then, site);
                 }
-                self.build.start(no);
+                self.build.start(otherwise);
             }
             _ => self.findings.not_understood(span, "this control jumps to labels only"),
         }
@@ -99,7 +99,7 @@ impl Lowering<'_> {
 
     /// Builds the block that goes to the label that a value names; one serves all
     /// jumps by the same variable, since it names every label of the program.
-    fn dispatch(&mut self, value: Expr, id: BlockId, site: &Site) {
+    fn dispatch(&mut self, value: Expr, id: BlockId, site: &SourceInfo) {
         self.build.start(id);
         let targets = self.labels.iter().map(|(number, id)| (*number, *id)).collect();
         self.build.end(TermKind::Computed { value: value.clone(), targets }, site.clone());
@@ -107,7 +107,7 @@ impl Lowering<'_> {
     }
 
     /// Leaves the present block.
-    pub(super) fn flow(&mut self, flow: Flow, site: &Site) {
+    pub(super) fn flow(&mut self, flow: Flow, site: &SourceInfo) {
         let site = site.clone();
         match flow {
             Flow::CallBlock { label, count, span } => {
@@ -136,7 +136,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn call(&mut self, callee: Callee, count: Option<Expr>, site: Site) {
+    fn call(&mut self, callee: Callee, count: Option<Expr>, site: SourceInfo) {
         let call = Call { callee, level: false, arguments: Vec::new(), count };
         self.build.end_then(site, |next| TermKind::Call { call: Box::new(call), next });
     }

@@ -27,7 +27,7 @@ use super::Lowered;
 use super::common::{Findings, site_of};
 use crate::canon::Op;
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Class, Expr, Remark, Site, StmtKind, Var};
+use crate::ir::{BlockId, Builder, Class, Expr, Remark, SourceInfo, StmtKind, Var};
 use crate::syntax::{Block, Item, ItemKind, Label, ParsedFile, ProgramName, Target};
 use crate::text::Span;
 use constants::Constants;
@@ -42,7 +42,8 @@ pub fn lower(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control
     lowering.blocks();
     let Lowering { build, names, mut findings, ends, .. } = lowering;
     let span = Span::new(0, parsed.source.len() as u32);
-    let mut program = build.finish(number.map(cycle_name), file, Site { span, ..Site::default() });
+    let mut program =
+        build.finish(number.map(cycle_name), file, SourceInfo { span, ..SourceInfo::default() });
     parts::check(&program, &ends, &mut findings);
     register::resolve(&mut program, &mut findings);
     whole::resolve(&mut program, &mut findings);
@@ -151,7 +152,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// Adds a statement.
-    fn push(&mut self, kind: StmtKind, site: &Site) {
+    fn push(&mut self, kind: StmtKind, site: &SourceInfo) {
         self.build.push(kind, site.clone());
     }
 

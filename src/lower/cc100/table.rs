@@ -3,7 +3,7 @@
 use super::Lowering;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::Units;
-use crate::ir::{BinOp, Cond, Expr, Place, Relation, Site, StmtKind};
+use crate::ir::{BinOp, Cond, Expr, Place, Relation, SourceInfo, StmtKind};
 use crate::syntax::{Cell, Row, Table, VarRef};
 use crate::text::Span;
 use thin_vec::ThinVec;
@@ -20,7 +20,7 @@ enum Store {
 
 impl Lowering<'_> {
     /// Lowers COR and TRF: the side that the variable stands on gives the direction.
-    pub(super) fn transfer(&mut self, table: &Table, cells: &[Cell], site: &Site, span: Span) {
+    pub(super) fn transfer(&mut self, table: &Table, cells: &[Cell], site: &SourceInfo, span: Span) {
         let Some(store) = self.store(table, cells, site, span) else { return };
         for cell in cells {
             let Some(variable) = self.variable(&cell.variable) else { continue };
@@ -39,7 +39,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn store(&mut self, table: &Table, cells: &[Cell], site: &Site, span: Span) -> Option<Store> {
+    fn store(&mut self, table: &Table, cells: &[Cell], site: &SourceInfo, span: Span) -> Option<Store> {
         match (table.name.as_str(), &table.row) {
             ("COR", Row::Word('T', number)) => Some(Store::Tool(Expr::Number(f64::from(*number)))),
             ("COR", Row::Variable(row)) => self.row(row, cells, site).map(Store::Tool),
@@ -57,7 +57,7 @@ impl Lowering<'_> {
     }
 
     /// The row that a variable names. It is kept aside where the transfer itself overwrites it.
-    fn row(&mut self, row: &VarRef, cells: &[Cell], site: &Site) -> Option<Expr> {
+    fn row(&mut self, row: &VarRef, cells: &[Cell], site: &SourceInfo) -> Option<Expr> {
         let variable = self.variable(row)?;
         if cells.len() < 2 || !cells.iter().any(|cell| !cell.store && cell.variable.index == row.index) {
             return Some(Expr::Var(variable));
@@ -96,7 +96,7 @@ impl Lowering<'_> {
     }
 
     /// Lowers `TIM V1`.
-    pub(super) fn timer(&mut self, target: &VarRef, site: &Site) {
+    pub(super) fn timer(&mut self, target: &VarRef, site: &SourceInfo) {
         let Some(target) = self.variable(target) else { return };
         let Some((state, _, row)) = self.control.read_system("TIM", None) else {
             return self.findings.not_understood(site.span, "this control has no timer that can be read");

@@ -1,7 +1,7 @@
 use super::lower;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::{Control, registry};
-use crate::ir::{Module, Site, text, validate};
+use crate::ir::{Module, SourceInfo, text, validate};
 use crate::lower::Lowered;
 use crate::syntax::{ProgramName, parse_file};
 use std::collections::BTreeSet;
@@ -17,7 +17,7 @@ fn readable(lowered: Lowered) -> (Module, BTreeSet<String>) {
     let mut module = Module::default();
     let mut reported = BTreeSet::new();
     for (mut program, findings) in lowered.programs {
-        program.site = Site::default();
+        program.site = SourceInfo::default();
         for block in &mut program.blocks {
             block.stmts.iter_mut().for_each(|stmt| stmt.site.span = Default::default());
             block.term.site.span = Default::default();

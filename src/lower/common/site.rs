@@ -1,13 +1,13 @@
 //! Where a statement comes from, out of the block it stood in.
 
-use crate::ir::{Remark, Site};
+use crate::ir::{Remark, SourceInfo};
 use crate::syntax::{Block, Fence, ItemKind};
 use crate::text::{Span, decode};
 
 /// The site of a block: its span, sequence number, comments and the block skip
 /// at its head (level 1 where none is written).
-pub fn site_of(block: &Block, source: &[u8]) -> Site {
-    let mut site = Site { span: block.span, ..Site::default() };
+pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
+    let mut site = SourceInfo { span: block.span, ..SourceInfo::default() };
     let mut words = false;
     for item in &block.items {
         match &item.kind {

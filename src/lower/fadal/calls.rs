@@ -9,7 +9,7 @@ use super::words::Codes;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BinOp, BlockId, Call, Callee, Cond, Expr, Place, Relation, Site, StmtKind, TermKind};
+use crate::ir::{BinOp, BlockId, Call, Callee, Cond, Expr, Place, Relation, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::otherwise;
 use crate::syntax::{self, Item, ProgramName};
 use crate::text::Span;
@@ -254,7 +254,7 @@ impl<'b> Lowering<'b> {
                 self.end(TermKind::Call { call: Box::new(call), next: after });
                 continue;
             }
-            let (yes, no) = (self.builder.fresh(), self.builder.fresh());
+            let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
             let bound = |relation, bound: u32| {
                 Cond::Compare(relation, Expr::Var(temp), Expr::Number(f64::from(bound)))
             };
@@ -262,15 +262,15 @@ impl<'b> Lowering<'b> {
                 bound(Relation::GreaterEqual, number * 100 + 1),
                 bound(Relation::Less, number * 100 + 100),
             ]);
-            self.end(TermKind::Branch { cond, yes, no });
-            self.builder.start(yes);
+            self.end(TermKind::Branch { cond, then, otherwise });
+            self.builder.start(then);
             self.end(TermKind::Call { call: Box::new(call), next: after });
-            self.builder.start(no);
+            self.builder.start(otherwise);
         }
         if others {
             let text = "NO SUCH SUBROUTINE".to_owned();
             self.push(StmtKind::Alarm { number: Expr::Number(1.0), text });
-            self.builder.end(TermKind::End { rewind: false }, Site::default());
+            self.builder.end(TermKind::End { rewind: false }, SourceInfo::default());
         }
         self.builder.start(after);
         Some(())

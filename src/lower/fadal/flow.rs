@@ -1,6 +1,6 @@
 //! Which modal state holds where: forward over the ways that control can take.
 
-use super::left::Others;
+use super::exit_modes::Others;
 use super::set::statement;
 use super::shape::{Goal, Shape, goal};
 use super::state::{MOST_MODAL, State, Values};

@@ -9,10 +9,10 @@
 mod block;
 mod calls;
 mod condition;
+mod exit_modes;
 mod expr;
 mod facts;
 mod flow;
-mod left;
 mod motion;
 mod program;
 mod set;
@@ -27,7 +27,7 @@ mod value;
 mod variable;
 mod words;
 
-use self::left::Others;
+use self::exit_modes::Others;
 use super::Lowered;
 use super::common::programs;
 use crate::dialect::Control;

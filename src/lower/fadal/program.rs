@@ -1,14 +1,14 @@
 //! One program: its blocks in source order, its subroutines, its jumps.
 
+use super::exit_modes::Others;
 use super::flow::Flow;
-use super::left::Others;
 use super::shape::Shape;
 use super::state::State;
 use super::steps::steps;
 use super::words::Codes;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Class, Cond, Place, Program, Remark, Site, StmtKind, TermKind, Var};
+use crate::ir::{BlockId, Builder, Class, Cond, Place, Program, Remark, SourceInfo, StmtKind, TermKind, Var};
 use crate::lower::common::{Findings, ProgramText, otherwise, site_of};
 use crate::syntax::{Block, ItemKind, Label};
 use crate::text::Span;
@@ -32,7 +32,7 @@ pub struct Lowering<'b> {
     /// The present block's place.
     pub at: usize,
     /// The site of the present block; its comments go with the first statement.
-    site: Site,
+    site: SourceInfo,
     placed: bool,
     /// Comments that stand where no statement can: they go with the next one.
     carried: Vec<Remark>,
@@ -65,7 +65,7 @@ pub fn lower(
         findings: Findings::new(control),
         state: State::entry(),
         at: 0,
-        site: Site::default(),
+        site: SourceInfo::default(),
         placed: false,
         carried: Vec::new(),
         entries: HashMap::new(),
@@ -75,7 +75,7 @@ pub fn lower(
         reads_motion: None,
         plane_by_word: false,
     };
-    let mut head = Site::default();
+    let mut head = SourceInfo::default();
     for (at, block) in text.blocks.iter().enumerate() {
         if let Some(state) = flow.at(at) {
             lowering.state = state;
@@ -90,7 +90,7 @@ pub fn lower(
 }
 
 impl<'b> Lowering<'b> {
-    fn block(&mut self, at: usize, block: &'b Block, head: &mut Site) {
+    fn block(&mut self, at: usize, block: &'b Block, head: &mut SourceInfo) {
         self.at = at;
         self.site = site_of(block, self.source);
         self.placed = false;
@@ -100,8 +100,8 @@ impl<'b> Lowering<'b> {
         self.enter(at);
         if let Some(item) = block.items.iter().find(|item| matches!(item.kind, ItemKind::Program(_))) {
             // The comments beside the name are the program's.
-            *head = Site { span: block.span, ..std::mem::take(&mut self.site) };
-            self.site = Site { span: block.span, ..Site::default() };
+            *head = SourceInfo { span: block.span, ..std::mem::take(&mut self.site) };
+            self.site = SourceInfo { span: block.span, ..SourceInfo::default() };
             self.placed = block
                 .items
                 .iter()
@@ -125,7 +125,7 @@ impl<'b> Lowering<'b> {
         // What changes the flow is jumped over; the rest carries its switch.
         let over = skip.filter(|_| self.flows(block, &codes)).map(|level| {
             let (body, next) = (self.builder.fresh(), self.builder.fresh());
-            self.end(TermKind::Branch { cond: Cond::Switch(level), yes: next, no: body });
+            self.end(TermKind::Branch { cond: Cond::Switch(level), then: next, otherwise: body });
             self.builder.start(body);
             self.site.skip = None;
             next
@@ -178,14 +178,14 @@ impl<'b> Lowering<'b> {
                 let message = format!("the subroutine L{}00 runs into the end of its area", sub.number);
                 self.once(Code::SubroutineLeft, "area", self.site.span, message);
             }
-            self.builder.end(TermKind::Return { to: None }, Site::default());
+            self.builder.end(TermKind::Return { to: None }, SourceInfo::default());
         }
         if shape.subs.first().is_some_and(|sub| sub.blocks.start == at) && self.builder.is_open() {
             if !self.builder.is_at_start() {
                 self.suppose(Question::SubAreaEntered, "true", self.site.span);
             }
             let main = self.entry(shape.main);
-            self.builder.end(TermKind::Jump(main), Site::default());
+            self.builder.end(TermKind::Jump(main), SourceInfo::default());
         }
         let labels = shape.labels.get(&at);
         let main = at == shape.main && !shape.subs.is_empty();
@@ -207,7 +207,7 @@ impl<'b> Lowering<'b> {
     fn finish(&mut self) {
         if !self.carried.is_empty() {
             let remarks = self.carried.drain(..).collect();
-            self.builder.push(StmtKind::Remark, Site { remarks, ..Site::default() });
+            self.builder.push(StmtKind::Remark, SourceInfo { remarks, ..SourceInfo::default() });
         }
         let shape = self.shape;
         let Some(last) = shape.subs.last() else { return self.note_modes() };
@@ -232,7 +232,7 @@ impl<'b> Lowering<'b> {
     }
 
     /// The site for the next statement of the block: its comments go with the first.
-    pub fn take_site(&mut self) -> Site {
+    pub fn take_site(&mut self) -> SourceInfo {
         self.placed = true;
         let mut site = self.site.clone();
         self.site.remarks.clear();

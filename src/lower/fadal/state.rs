@@ -1,6 +1,6 @@
 //! The modal state that the meaning of later blocks depends on.
 
-use super::left::Motion;
+use super::exit_modes::Motion;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::syntax::{Block, ItemKind, SetOption, for_each_item};
 

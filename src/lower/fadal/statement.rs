@@ -103,20 +103,20 @@ impl<'b> Lowering<'b> {
             return self.refuse(span, "NC words cannot stand behind THEN");
         }
         if let [Item { kind: ItemKind::Goto(target), .. }] = said.as_slice() {
-            let yes = self.jump_to(target, span)?;
-            let no = self.builder.fresh();
-            self.end(TermKind::Branch { cond, yes, no });
-            self.builder.start(no);
+            let then = self.jump_to(target, span)?;
+            let otherwise = self.builder.fresh();
+            self.end(TermKind::Branch { cond, then, otherwise });
+            self.builder.start(otherwise);
             return Some(());
         }
-        let (yes, no) = (self.builder.fresh(), self.builder.fresh());
-        self.end(TermKind::Branch { cond, yes, no });
-        self.builder.start(yes);
+        let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
+        self.end(TermKind::Branch { cond, then, otherwise });
+        self.builder.start(then);
         let mut whole = Some(());
         for item in said {
             whole = whole.and(self.statement(item, depth + 1));
         }
-        self.builder.start(no);
+        self.builder.start(otherwise);
         whole
     }
 

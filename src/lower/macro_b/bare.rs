@@ -12,12 +12,12 @@ use crate::syntax::Word;
 
 /// The roles that letters had under a motion code, where nothing was to be said of them.
 #[derive(Debug, Default)]
-pub(super) struct Known {
+pub(super) struct RolesUnder {
     under: Motion,
     roles: [Option<Role>; 26],
 }
 
-impl Known {
+impl RolesUnder {
     fn role(&self, word: &Word) -> Option<Role> {
         let at = (word.letter as usize).wrapping_sub('A' as usize);
         self.roles.get(at).copied().flatten().filter(|_| !word.comma && !word.equals)
@@ -35,7 +35,7 @@ impl Lowering<'_> {
             return;
         }
         if self.known.under != self.motion {
-            self.known = Known { under: self.motion, ..Known::default() };
+            self.known = RolesUnder { under: self.motion, ..RolesUnder::default() };
         }
         if let Some(slot) = self.known.roles.get_mut((word.letter as usize).wrapping_sub('A' as usize)) {
             *slot = Some(role);

@@ -5,7 +5,7 @@ use super::{Lowering, Motion};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Question;
-use crate::ir::{Cond, Remark, Site, StmtKind, TermKind};
+use crate::ir::{Cond, Remark, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::{remark_text, site_of};
 use crate::syntax::{Block, Item, ItemKind, Label, Word, for_each_item};
 use crate::text::Span;
@@ -15,7 +15,7 @@ use smallvec::SmallVec;
 pub(super) type Words<'w> = SmallVec<[(&'w Word, Span); 12]>;
 
 /// The site of a block, with the comments behind a THEN.
-pub(super) fn site(block: &Block, source: &[u8]) -> Site {
+pub(super) fn site(block: &Block, source: &[u8]) -> SourceInfo {
     let mut site = site_of(block, source);
     for item in &block.items {
         if let ItemKind::If { body, .. } = &item.kind {
@@ -94,7 +94,8 @@ impl<'a> Lowering<'a> {
             while let Some(before) = parsed.lines.get(line).filter(|l| l.end.end <= block.span.start) {
                 // A line with nothing on it has no block; the reader of the program sees it all the same.
                 if before.text.is_empty() && before.text.start >= first {
-                    self.builder.push(StmtKind::Remark, Site { span: before.text, ..Site::default() });
+                    self.builder
+                        .push(StmtKind::Remark, SourceInfo { span: before.text, ..SourceInfo::default() });
                 }
                 line += 1;
             }
@@ -142,7 +143,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A block with a block skip.
-    fn skipping(&mut self, block: &'a Block, first: usize, mut site: Site) {
+    fn skipping(&mut self, block: &'a Block, first: usize, mut site: SourceInfo) {
         let items = block.items.as_slice();
         let mut head: SmallVec<[u8; 2]> = SmallVec::new();
         let mut middle: SmallVec<[(usize, u8); 2]> = SmallVec::new();
@@ -186,12 +187,12 @@ impl<'a> Lowering<'a> {
     }
 
     /// Some items where the switch is on (none: straight on), others where it is off.
-    fn on_switch(&mut self, level: u8, site: &Site, on: Option<&'a [Item]>, off: &'a [Item]) {
-        let (no, next) = (self.builder.fresh(), self.builder.fresh());
-        let yes = if on.is_some() { self.builder.fresh() } else { next };
-        self.builder.end(TermKind::Branch { cond: Cond::Switch(level), yes, no }, site.clone());
+    fn on_switch(&mut self, level: u8, site: &SourceInfo, on: Option<&'a [Item]>, off: &'a [Item]) {
+        let (otherwise, next) = (self.builder.fresh(), self.builder.fresh());
+        let then = if on.is_some() { self.builder.fresh() } else { next };
+        self.builder.end(TermKind::Branch { cond: Cond::Switch(level), then, otherwise }, site.clone());
         let before = self.motion;
-        let mut ways = [(no, Some(off)), (yes, on)];
+        let mut ways = [(otherwise, Some(off)), (then, on)];
         // The control comes to a `/GOTO` while the switch is off, so that the shorter text has the other
         // way first, unless this one goes elsewhere at its end.
         if !self.goes_elsewhere(off) {
@@ -204,7 +205,7 @@ impl<'a> Lowering<'a> {
                 self.builder.start(start);
                 self.items(items, site);
                 if self.builder.is_open() {
-                    self.builder.end(TermKind::Jump(next), Site::default());
+                    self.builder.end(TermKind::Jump(next), SourceInfo::default());
                 }
             }
             if let Some(other) = left.replace(self.motion) {
@@ -236,7 +237,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The items of a block, or those behind a THEN, in order.
-    pub(super) fn items(&mut self, items: &'a [Item], site: &Site) {
+    pub(super) fn items(&mut self, items: &'a [Item], site: &SourceInfo) {
         let mut words = Words::new();
         let (mut groups, mut assigns) = (0u32, 0u32);
         for (index, item) in items.iter().enumerate() {

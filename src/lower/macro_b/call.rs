@@ -9,7 +9,7 @@ use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Alias, CodeMeaning, Question};
 use crate::ir::eval::whole;
-use crate::ir::{BinOp, Call, Callee, Expr, Site, StmtKind, TermKind};
+use crate::ir::{BinOp, Call, Callee, Expr, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::otherwise;
 use crate::syntax::{ProgramName, Word};
 use crate::text::Span;
@@ -30,7 +30,7 @@ pub(super) struct Parts<'a> {
 
 impl<'a> Lowering<'a> {
     /// The words of a block: a call or a jump with the words beside it, or NC words.
-    pub(super) fn words(&mut self, words: &Words<'a>, site: &Site) {
+    pub(super) fn words(&mut self, words: &Words<'a>, site: &SourceInfo) {
         let mut found =
             words.iter().enumerate().filter_map(|(at, (word, _))| Some((at, self.flow_code(word)?)));
         let (first, second) = (found.next(), found.next());
@@ -65,7 +65,7 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn flow_word(&mut self, id: CodeId, at: usize, words: &Words<'a>, site: &Site) {
+    fn flow_word(&mut self, id: CodeId, at: usize, words: &Words<'a>, site: &SourceInfo) {
         let Some(code) = self.codes.get(id) else { return };
         if let Some(alias) = code.alias {
             return self.alias_call(alias, at, words, site);
@@ -143,7 +143,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn count(&mut self, parts: &Parts<'a>, site: &Site) -> Option<Expr> {
+    fn count(&mut self, parts: &Parts<'a>, site: &SourceInfo) -> Option<Expr> {
         let count = match self.part(parts, Role::CallCount) {
             Some(count) => count,
             None => match self.part(parts, Role::CallAgain)? {
@@ -166,7 +166,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M98`, `M97`: no new level of locals; the words beside it act first.
-    fn program_call(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+    fn program_call(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let roles = [Role::Program, Role::Sequence, Role::CallCount, Role::CallAgain];
         let parts = self.parts(flow, words, &roles);
         let mut count = self.count(&parts, site);
@@ -229,7 +229,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `G65`, `G66`: a new level of locals, set by the other words of the block.
-    fn macro_call(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+    fn macro_call(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let modal = flow.row.op == Op::CallModal;
         let parts = self.parts(flow, words, &[Role::Program, Role::CallCount, Role::CallAgain]);
         let before = words.iter().take(flow.at).any(|(word, _)| !matches!(word.letter, 'P' | 'L'));
@@ -263,7 +263,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A code that the machine profile makes call a program.
-    fn alias_call(&mut self, alias: Alias, at: usize, words: &Words<'a>, site: &Site) {
+    fn alias_call(&mut self, alias: Alias, at: usize, words: &Words<'a>, site: &SourceInfo) {
         let callee = Callee::Program(ProgramName::Number(alias.program));
         let mut rest = words.clone();
         rest.remove(at);
@@ -288,7 +288,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// True where a subprogram does not see its caller's locals.
-    fn has_own_locals(&mut self, site: &Site) -> bool {
+    fn has_own_locals(&mut self, site: &SourceInfo) -> bool {
         let answer = self.findings.behaviour(Question::LocalsSharedBySubprogram, site.span);
         if answer.is_none() {
             self.unknown_behaviour(Question::LocalsSharedBySubprogram, site.span);
@@ -296,7 +296,7 @@ impl<'a> Lowering<'a> {
         answer == Some("false")
     }
 
-    fn call(&mut self, call: Call, modal: bool, site: &Site) {
+    fn call(&mut self, call: Call, modal: bool, site: &SourceInfo) {
         // What is called may leave another motion mode behind.
         self.motion.joined = true;
         if modal {

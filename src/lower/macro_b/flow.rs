@@ -7,7 +7,7 @@ use super::expr::At;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BinOp, Class, Cond, Expr, Place, Relation, Site, StmtKind, TermKind, Var};
+use crate::ir::{BinOp, Class, Cond, Expr, Place, Relation, SourceInfo, StmtKind, TermKind, Var};
 use crate::syntax::{self, Item, ItemKind, Target};
 use crate::text::Span;
 
@@ -16,7 +16,7 @@ const HUB: Var = Var { class: Class::Temp, number: 1 };
 
 impl<'a> Lowering<'a> {
     /// `GOTO`.
-    pub(super) fn goto(&mut self, target: &'a Target, span: Span, site: &Site) {
+    pub(super) fn goto(&mut self, target: &'a Target, span: Span, site: &SourceInfo) {
         match target {
             Target::Sequence(number) => {
                 let to = self.target(*number, span);
@@ -39,7 +39,7 @@ impl<'a> Lowering<'a> {
     ///
     /// Where a program has very many of both, a jump leaves its number in a temporary and goes on at one
     /// block that jumps for all of them.
-    fn jump_to(&mut self, value: Expr, span: Span, site: &Site) {
+    fn jump_to(&mut self, value: Expr, span: Span, site: &SourceInfo) {
         if value.constant().is_none() && (self.hub.is_some() || self.is_crowded()) {
             let hub = *self.hub.get_or_insert_with(|| (self.builder.fresh(), span));
             // A temporary is never vacant; what is vacant finds no block, as 0 does not.
@@ -48,7 +48,7 @@ impl<'a> Lowering<'a> {
                 false => value,
             };
             self.builder.push(StmtKind::Assign { target: Place::Var(HUB), value }, site.clone());
-            return self.builder.end(TermKind::Jump(hub.0), Site { span, ..Site::default() });
+            return self.builder.end(TermKind::Jump(hub.0), SourceInfo { span, ..SourceInfo::default() });
         }
         let kind = match value.constant().and_then(crate::ir::eval::whole) {
             Some(number) => TermKind::Jump(self.target(number, span)),
@@ -61,11 +61,11 @@ impl<'a> Lowering<'a> {
     pub(super) fn close_hub(&mut self) {
         let Some((hub, span)) = self.hub.take() else { return };
         if self.builder.is_open() {
-            self.builder.end(TermKind::Stray, Site::default());
+            self.builder.end(TermKind::Stray, SourceInfo::default());
         }
         self.builder.start(hub);
         let targets = self.all_targets(span);
-        let site = Site { span, ..Site::default() };
+        let site = SourceInfo { span, ..SourceInfo::default() };
         self.builder.end(TermKind::Computed { value: Expr::Var(HUB), targets }, site);
     }
 
@@ -77,7 +77,7 @@ impl<'a> Lowering<'a> {
         bare: bool,
         body: &'a [Item],
         span: Span,
-        site: &Site,
+        site: &SourceInfo,
     ) {
         self.check_form(then, bare, body, span);
         let cond = self.cond(condition);
@@ -85,18 +85,18 @@ impl<'a> Lowering<'a> {
         if let (Some(Item { kind: ItemKind::Goto(Target::Sequence(number)), span }), None) =
             (doing.next(), doing.next())
         {
-            let yes = self.target(*number, *span);
-            self.builder.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
+            let then = self.target(*number, *span);
+            self.builder.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
             return;
         }
-        let (yes, no) = (self.builder.fresh(), self.builder.fresh());
-        self.builder.end(TermKind::Branch { cond, yes, no }, site.clone());
-        self.builder.start(yes);
+        let (then, otherwise) = (self.builder.fresh(), self.builder.fresh());
+        self.builder.end(TermKind::Branch { cond, then, otherwise }, site.clone());
+        self.builder.start(then);
         let motion = self.motion;
         self.items(body, site);
         // Behind it the mode is either: the words that need it must say which.
         self.motion.joined |= self.motion.code != motion.code;
-        self.builder.start(no);
+        self.builder.start(otherwise);
     }
 
     /// Which forms a control takes: without IF, without THEN, with words behind it.
@@ -135,7 +135,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M99`, with `P` or without.
-    pub(super) fn returning(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+    pub(super) fn returning(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let parts = self.parts(flow, words, &[Role::Sequence]);
         if !parts.rest.is_empty() {
             match self.findings.behaviour(Question::M99BlockMovesFirst, site.span) {
@@ -157,7 +157,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M96 P Q`: jumps when an input is off, that is reads 0.
-    pub(super) fn jump_on_input(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+    pub(super) fn jump_on_input(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let parts = self.parts(flow, words, &[Role::Sequence, Role::Input]);
         self.run_first(&parts, site);
         let number = self.part(&parts, Role::Sequence);
@@ -167,9 +167,9 @@ impl<'a> Lowering<'a> {
         let (Some(number), Some(input)) = (number, input) else {
             return self.findings.not_understood(site.span, "the jump needs constants for block and input");
         };
-        let yes = self.target(number, site.span);
+        let then = self.target(number, site.span);
         let cond = Cond::Compare(Relation::Equal, input, Expr::Number(0.0));
-        self.builder.end_then(site.clone(), |no| TermKind::Branch { cond, yes, no });
+        self.builder.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
     }
 
     /// The state of the input with this number, counted from 0.
@@ -181,14 +181,14 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M30`, `M02`: the other words of the block act first.
-    pub(super) fn ending(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &Site) {
+    pub(super) fn ending(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let parts = self.parts(flow, words, &[]);
         self.run_first(&parts, site);
         self.builder.end(TermKind::End { rewind: flow.row.op == Op::EndRewind }, site.clone());
     }
 
     /// The words beside a call or a jump act before it.
-    pub(super) fn run_first(&mut self, parts: &Parts<'a>, site: &Site) {
+    pub(super) fn run_first(&mut self, parts: &Parts<'a>, site: &SourceInfo) {
         if !parts.rest.is_empty() {
             self.nc(&parts.rest, site);
         }

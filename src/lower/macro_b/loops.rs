@@ -2,13 +2,19 @@
 
 use super::{Loop, Lowering};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Site, TermKind};
+use crate::ir::{SourceInfo, TermKind};
 use crate::syntax::Expr;
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
     /// `WHILE [..] DO n`: the condition is tested before each pass, that is at its head.
-    pub(super) fn do_loop(&mut self, condition: Option<&'a Expr>, number: u32, span: Span, site: &Site) {
+    pub(super) fn do_loop(
+        &mut self,
+        condition: Option<&'a Expr>,
+        number: u32,
+        span: Span,
+        site: &SourceInfo,
+    ) {
         let row = self.control.statement(if condition.is_some() { "while" } else { "do.endless" });
         row.iter().for_each(|row| self.findings.rest_on(*row, span));
         if self.loops.iter().any(|open| open.number == number) {
@@ -20,7 +26,7 @@ impl<'a> Lowering<'a> {
                 self.builder.start(head);
                 let cond = self.cond(condition);
                 let body = self.builder.fresh();
-                self.builder.end(TermKind::Branch { cond, yes: body, no: exit }, site.clone());
+                self.builder.end(TermKind::Branch { cond, then: body, otherwise: exit }, site.clone());
                 self.builder.start(body);
             }
             None => {
@@ -33,7 +39,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `END n` closes the nearest open loop of its number, which must be the innermost one.
-    pub(super) fn end_loop(&mut self, number: u32, span: Span, site: &Site) {
+    pub(super) fn end_loop(&mut self, number: u32, span: Span, site: &SourceInfo) {
         let Some(found) = self.loops.iter().rposition(|open| open.number == number) else {
             return self.loop_error(
                 Code::LoopNotPaired,

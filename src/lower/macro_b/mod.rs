@@ -35,10 +35,10 @@ mod words;
 use super::Lowered;
 use super::common::{Findings, remark_text};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Remark, Site, Var};
+use crate::ir::{BlockId, Builder, Remark, SourceInfo, Var};
 use crate::syntax::{ItemKind, ParsedFile, ProgramName};
 use crate::text::Span;
-use bare::Known;
+use bare::RolesUnder;
 use codes::{CodeId, Codes};
 use labels::Labels;
 use split::Piece;
@@ -98,7 +98,7 @@ struct Lowering<'a> {
     modal_calls: usize,
     /// The motion code in force as the text has it, for the roles of words that stand without one.
     motion: Motion,
-    known: Known,
+    known: RolesUnder,
     /// Index of the block being lowered.
     at: usize,
     /// True in a program that a code calls, where such codes call nothing.
@@ -116,7 +116,7 @@ struct Loop {
     start: usize,
     head: BlockId,
     exit: BlockId,
-    site: Site,
+    site: SourceInfo,
 }
 
 /// The motion code in force as the text has it.
@@ -159,7 +159,7 @@ impl<'a> Lowering<'a> {
             loops: Vec::new(),
             modal_calls: 0,
             motion: Motion::default(),
-            known: Known::default(),
+            known: RolesUnder::default(),
             at: piece.body.start,
             aliased,
             signed: false,
@@ -169,8 +169,8 @@ impl<'a> Lowering<'a> {
 }
 
 /// The site of the block that names a program, with the comments that stand before it.
-fn program_site(parsed: &ParsedFile<'_>, piece: &Piece) -> Site {
-    let mut site = Site::default();
+fn program_site(parsed: &ParsedFile<'_>, piece: &Piece) -> SourceInfo {
+    let mut site = SourceInfo::default();
     for &index in &piece.leading {
         let Some(block) = parsed.blocks.get(index) else { continue };
         site.span = if site.span.is_empty() { block.span } else { site.span.to(block.span) };

@@ -5,14 +5,14 @@ use super::expr::At;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Expr, OutputPart, Place, Site, StmtKind, Var};
+use crate::ir::{Expr, OutputPart, Place, SourceInfo, StmtKind, Var};
 use crate::lower::common::remark_text;
 use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
     /// One statement; `rest` is what stands behind it in its block.
-    pub(super) fn statement(&mut self, item: &'a Item, rest: &'a [Item], site: &Site) {
+    pub(super) fn statement(&mut self, item: &'a Item, rest: &'a [Item], site: &SourceInfo) {
         match &item.kind {
             ItemKind::Assign { target, value, by_sign: false } => {
                 let text = comment(rest).map(|span| remark_text(span, self.source));
@@ -58,7 +58,7 @@ impl<'a> Lowering<'a> {
 
     /// An assignment; one to the alarm or the stop variable is that statement, and the
     /// comment behind it is its message.
-    fn assign(&mut self, target: Place, value: Expr, text: Option<String>, site: &Site) {
+    fn assign(&mut self, target: Place, value: Expr, text: Option<String>, site: &SourceInfo) {
         let Place::System(state @ (Sys::Alarm | Sys::StopMessage), _) = target else {
             return self.builder.push(StmtKind::Assign { target, value }, site.clone());
         };
@@ -89,7 +89,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn set_names(&mut self, first: u32, names: &[String], span: Span, site: &Site) {
+    fn set_names(&mut self, first: u32, names: &[String], span: Span, site: &SourceInfo) {
         match self.numbered(first, span) {
             Some(Expr::Var(first)) => {
                 self.builder.push(StmtKind::SetNames { first, names: names.to_vec() }, site.clone());
@@ -98,7 +98,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn output(&mut self, parts: &'a [Part], span: Span, site: &Site) {
+    fn output(&mut self, parts: &'a [Part], span: Span, site: &SourceInfo) {
         self.rest_on_statement("output.formatted", span);
         let mut out = Vec::with_capacity(parts.len());
         for part in parts {

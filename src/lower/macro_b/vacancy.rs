@@ -74,12 +74,12 @@ fn solve(program: &Program, returns_anywhere: bool, modal: bool) -> Vec<Option<E
             heads.flow(to.index(), &Every(sure));
         };
         match &block.term.kind {
-            TermKind::Branch { cond, yes, no } => {
+            TermKind::Branch { cond, then, otherwise } => {
                 let mut held = sure.clone();
                 learn(cond, true, &mut held);
-                flow(*yes, held);
+                flow(*then, held);
                 learn(cond, false, &mut sure);
-                flow(*no, sure);
+                flow(*otherwise, sure);
             }
             TermKind::Call { call, next } => {
                 if let Callee::Block(entry) = call.callee {

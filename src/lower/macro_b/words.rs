@@ -8,7 +8,7 @@ use super::roles::BlockCodes;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question};
-use crate::ir::{Expr, Nc, NcItem, Site, StmtKind};
+use crate::ir::{Expr, Nc, NcItem, SourceInfo, StmtKind};
 use crate::lower::common::constant;
 use crate::syntax::{ExprKind, Word};
 use crate::text::Span;
@@ -45,7 +45,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A block of NC words.
-    pub(super) fn nc(&mut self, words: &Words<'a>, site: &Site) {
+    pub(super) fn nc(&mut self, words: &Words<'a>, site: &SourceInfo) {
         if let Some(nc) = self.bare_words(words) {
             return self.builder.push(StmtKind::Nc(nc), site.clone());
         }
@@ -76,7 +76,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A lookahead limit is a statement of its own, whatever stands beside it.
-    fn push_nc(&mut self, mut nc: Nc, site: &Site) {
+    fn push_nc(&mut self, mut nc: Nc, site: &SourceInfo) {
         if nc.has(Op::LimitLookahead) {
             let limit = nc.word(Role::Lookahead).cloned().unwrap_or(Expr::Number(0.0));
             self.lookahead_limited = limit.constant() != Some(0.0);

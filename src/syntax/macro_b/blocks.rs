@@ -1,12 +1,12 @@
 //! Cuts a line into blocks and reads each, by the scanner or by the grammar.
 
 use super::faults::{self, outside_text};
-use super::known::{self, is_tiled};
 use super::lexeme::{Row, tokens};
+use super::parse_cache::{self, is_tiled};
 use super::plain::{NeedsCheck, Plain};
 use super::shape::{self, Shape};
 use super::tree;
-use super::{Rules, checks, scanner, sound};
+use super::{Rules, checks, precheck, scanner};
 use crate::syntax::support::{LONGEST_LINE, readable, too_long};
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;
@@ -53,7 +53,7 @@ pub fn is_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
     // What is plain is seen faster than remembered.
     let found = || {
         is_plain(source, line)
-            || known::is_sound(rules, line.of(source), || is_found_sound(rules, source, line))
+            || parse_cache::is_sound(rules, line.of(source), || is_found_sound(rules, source, line))
     };
     line.len() <= LONGEST_LINE && found()
 }
@@ -72,7 +72,7 @@ pub(super) fn is_found_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
         if !shaped
             || (rules.read)(&readable(span.of(source)), span.start, &mut row).is_err()
             || !is_tiled(&row, span)
-            || !sound::is_sound(rules, source, &row)
+            || !precheck::is_sound(rules, source, &row)
         {
             return false;
         }
@@ -134,7 +134,7 @@ pub(super) fn grammar_block(
         return unread(span, end_of_block(bytes, span), faults::too_deep(span, shape.depth));
     }
     let mut row = Row::new();
-    let tree = match known::read(rules, source, span, &mut row) {
+    let tree = match parse_cache::read(rules, source, span, &mut row) {
         Ok(()) if !is_tiled(&row, span) => {
             // Cannot happen while grammars tile; if one does not, nothing may be lost.
             return unread(span, None, faults::not_tiled(span));

@@ -10,17 +10,17 @@
 //! [`faults`] says in a programmer's words why a block could not be read.
 
 mod blocks;
+mod cache_key;
 mod checks;
 mod expressions;
 mod faults;
-mod known;
 mod lexeme;
-mod likeness;
+mod parse_cache;
 mod plain;
+mod precheck;
 mod rules;
 mod scanner;
 mod shape;
-mod sound;
 mod statements;
 mod tree;
 
@@ -29,6 +29,6 @@ mod tests;
 
 pub(super) use blocks::{Keep, is_sound, read_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
-pub(super) use known::Known;
 pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
+pub(super) use parse_cache::ParseCache;
 pub(super) use rules::{Reading, Rules, read};

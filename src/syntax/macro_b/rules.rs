@@ -1,7 +1,7 @@
 //! What a dialect of the family fills in, and how its grammar is run.
 
-use super::known::Memory;
 use super::lexeme::{self, Lex, Row};
+use super::parse_cache::Memory;
 use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
 use pest::error::ErrorVariant;

@@ -2,8 +2,8 @@
 
 use super::{Input, Inputs, inputs_by, labels};
 use crate::control::ProgramRef;
-use crate::verify::names::{Names, class_of};
 use crate::verify::side::Side;
+use crate::verify::symbol_map::{SymbolMap, class_of};
 use std::collections::BTreeSet;
 
 /// The most values of one variable that are tried.
@@ -17,7 +17,7 @@ const LABELS: usize = 40;
 pub fn inputs_of_both(
     (source, program): (&Side<'_>, ProgramRef),
     (target, there): (&Side<'_>, ProgramRef),
-    names: &Names,
+    names: &SymbolMap,
     called: bool,
 ) -> Inputs {
     // Labels that only one side has tell more than those of both.
@@ -50,7 +50,7 @@ fn add(
     found: &mut Inputs,
     input: Input,
     (source, target): (&Side<'_>, &Side<'_>),
-    names: &Names,
+    names: &SymbolMap,
     called: bool,
 ) -> Option<usize> {
     let (from, to) = (source.control, target.control);

@@ -7,7 +7,7 @@ use crate::dialect::Control;
 use crate::syntax::{
     BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Row, Target, TestSubject, VarRef, Word, for_each_expr,
 };
-use crate::verify::names::class_of;
+use crate::verify::symbol_map::class_of;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Assignments that a number is followed back through, at the most.

@@ -5,7 +5,7 @@ use crate::canon::Op;
 use crate::control::{ProgramRef, Scenario};
 use crate::verify::Job;
 use crate::verify::certificate::Why;
-use crate::verify::given::{Given, given};
+use crate::verify::entry_state::{EntryState, given};
 use crate::verify::scenarios::unit;
 
 impl Verifier<'_, '_> {
@@ -34,7 +34,7 @@ impl Verifier<'_, '_> {
         if is_own && is_plain {
             return self.unstarted(there);
         }
-        let Some(witness) = self.begun_as(Given::default(), there).witness else { return };
+        let Some(witness) = self.begun_as(EntryState::default(), there).witness else { return };
         let given = in_words(&self.given, own);
         let whose = if self.given.never_come_to {
             "in which the runs of its callers end before they come to it"
@@ -87,7 +87,7 @@ impl Verifier<'_, '_> {
         let Job { source, target, .. } = *self.job;
         let given = target.given.get_or_init(|| given(&Job { source: target, target: source, ..*self.job }));
         let Some(theirs) = given.get(&there).filter(|given| !given.never_come_to) else { return };
-        let begins = |given: &Given| (given.unlike_power_on(), given.entry.clone());
+        let begins = |given: &EntryState| (given.unlike_power_on(), given.entry.clone());
         if begins(theirs) == begins(&self.given) {
             return;
         }
@@ -107,7 +107,7 @@ impl Verifier<'_, '_> {
 
     /// Tries the program in another guess of what is in force at its call: what differs in one of the two alone is for
     /// review.
-    fn or_begun_as(&mut self, guess: &Given, own: bool, there: ProgramRef) {
+    fn or_begun_as(&mut self, guess: &EntryState, own: bool, there: ProgramRef) {
         let other = self.begun_as(guess.clone(), there).witness;
         let here = self.witness.take();
         match here.as_ref().xor(other.as_ref()).map(|witness| witness.what.clone()) {
@@ -124,20 +124,20 @@ impl Verifier<'_, '_> {
     }
 
     /// The program tried anew, in other circumstances.
-    fn begun_as(&self, given: Given, there: ProgramRef) -> Self {
+    fn begun_as(&self, given: EntryState, there: ProgramRef) -> Self {
         let mut other = self.anew(given);
         other.search(there);
         other
     }
 
     /// A new verifier of the program, which is given this.
-    fn anew(&self, given: Given) -> Self {
+    fn anew(&self, given: EntryState) -> Self {
         Self { given, ..Self::new(self.job, self.program) }
     }
 }
 
 /// What a program is given that is not as after power-on: `in inches, distance.incremental`; or that nothing is.
-fn in_words(given: &Given, own: bool) -> String {
+fn in_words(given: &EntryState, own: bool) -> String {
     let unit =
         given.inch().filter(|inch| *inch != own).map(|inch| if inch { "inches" } else { "millimetres" });
     let modes = given.unlike_power_on().iter().map(Op::to_string).collect::<Vec<_>>();

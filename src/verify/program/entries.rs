@@ -14,7 +14,7 @@ use crate::dialect::Units;
 use crate::verify::certificate::Why;
 use crate::verify::compare::{Difference, compare, is_cut};
 use crate::verify::starts::{Start, UNIT, starts};
-use crate::verify::{Names, Side};
+use crate::verify::{Side, SymbolMap};
 use std::collections::BTreeSet;
 
 /// What runs from another state show.
@@ -177,7 +177,7 @@ impl Verifier<'_, '_> {
 
     /// What a run does otherwise than one of the same side after power-on.
     fn apart<'r>(&self, side: &Side<'_>, begun: &'r Run, plain: &'r Run) -> Option<Difference<'r>> {
-        let found = compare((side, begun), (side, plain), &Names::default(), self.tolerance);
+        let found = compare((side, begun), (side, plain), &SymbolMap::default(), self.tolerance);
         found.hair.or(found.difference)
     }
 

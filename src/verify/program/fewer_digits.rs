@@ -3,7 +3,7 @@
 use super::Verifier;
 use crate::control::trace::Event;
 use crate::control::{FEWER_DIGITS, ProgramRef, Run, Scenario};
-use crate::verify::Names;
+use crate::verify::SymbolMap;
 use crate::verify::compare::compare;
 
 impl Verifier<'_, '_> {
@@ -33,7 +33,7 @@ impl Verifier<'_, '_> {
             run.events.iter().position(is).unwrap_or(run.events.len())
         };
         let differs = |nudged: &Run| {
-            let apart = compare((target, run), (target, nudged), &Names::default(), self.tolerance);
+            let apart = compare((target, run), (target, nudged), &SymbolMap::default(), self.tolerance);
             let at = apart.difference.map(|difference| place(difference.source));
             at.is_some_and(|at| upto.is_none_or(|upto| at < place(upto)))
         };
@@ -50,7 +50,7 @@ impl Verifier<'_, '_> {
         }
         let target = self.job.target;
         let nudged = self.nudged(of, None);
-        let apart = compare((target, run), (target, &nudged), &Names::default(), self.tolerance);
+        let apart = compare((target, run), (target, &nudged), &SymbolMap::default(), self.tolerance);
         apart.difference.is_some() || apart.hair.is_some()
     }
 }

@@ -1,7 +1,7 @@
 //! Functions by arithmetic, which gives the same for some arguments only.
 
 use super::assumed::{assumption, place};
-use super::{Names, supposing};
+use super::{SymbolMap, supposing};
 use crate::assume::{Assumption, Domain, Predicate};
 use crate::canon::Func;
 use crate::verify::{Outcome, Why};
@@ -20,7 +20,7 @@ fn by_arithmetic(six: u32) -> String {
 fn an_argument_that_the_conversion_does_not_hold_for_is_a_condition() {
     let source = "O1\nG21G90\nIF[#1LT12]GOTO9\nG0X[BCD[#1]]\nN9M30\n";
     let outcome = |target: &str, supposed: &[(usize, Assumption)]| {
-        let names = Names { scratch: [161].into(), ..Names::default() };
+        let names = SymbolMap { scratch: [161].into(), ..SymbolMap::default() };
         let found = supposing(("fanuc", source), ("haas", target), names, supposed);
         let broken = found[0].reasons.iter().any(|reason| reason.why == Why::Condition);
         (found[0].outcome, broken)

@@ -1,6 +1,6 @@
 //! What a conversion supposes, tried on the runs of both sides: what it excuses, and what not.
 
-use super::{Names, supposing};
+use super::{SymbolMap, supposing};
 use crate::assume::{Assumption, Domain, Numbers, Predicate, Subscripts};
 use crate::canon::Func;
 use crate::text::Span;
@@ -32,7 +32,7 @@ fn all(
     supposed: &[(usize, Assumption)],
 ) -> Vec<ProgramCertificate> {
     let variables = names.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
-    supposing(("fanuc", source), ("haas", target), Names { variables, ..Names::default() }, supposed)
+    supposing(("fanuc", source), ("haas", target), SymbolMap { variables, ..SymbolMap::default() }, supposed)
 }
 
 fn one(source: &str, target: &str, supposed: &[(usize, Assumption)]) -> ProgramCertificate {

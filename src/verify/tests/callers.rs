@@ -4,7 +4,9 @@ use super::programs;
 use crate::control::LoadedFile;
 use crate::dialect::{Control, Profile, registry};
 use crate::syntax::parse_file;
-use crate::verify::{Assumptions, Effort, Job, Names, Outcome, ProgramCertificate, Side, Spent, Why, verify};
+use crate::verify::{
+    Assumptions, Effort, Job, Outcome, ProgramCertificate, Side, Spent, SymbolMap, Why, verify,
+};
 
 /// O2 rests on the mode that its caller is in.
 #[test]
@@ -224,7 +226,7 @@ fn control(dialect: &str, units: &str) -> Control {
 }
 
 /// Which programs of two libraries differ, given by the names of their files and their texts.
-fn judged(controls: &[Control; 2], texts: &[Vec<(&str, String)>; 2], names: Names) -> Vec<bool> {
+fn judged(controls: &[Control; 2], texts: &[Vec<(&str, String)>; 2], names: SymbolMap) -> Vec<bool> {
     let parsed: [Vec<_>; 2] = std::array::from_fn(|at| {
         let parse = controls[at].entry().parse;
         texts[at].iter().map(|(name, text)| (*name, parse_file(text.as_bytes(), parse))).collect()
@@ -252,7 +254,7 @@ fn a_cycle_is_called_by_its_code() {
         let main = format!("O1000\n{head}G90G54\nG0X1.\nM98P8000\nM30\n");
         let target = vec![("a.nc", main), ("cycle20.nc", format!("O8000\nG0\nZ{way}\nM99\n"))];
         let programs = [("a.nc".to_owned(), 1000), ("cycle20.nc".to_owned(), 8000)].into();
-        judged(&controls, &[source, target], Names { programs, ..Names::default() })
+        judged(&controls, &[source, target], SymbolMap { programs, ..SymbolMap::default() })
     };
     assert_eq!(tried("G21\n", "-1.5"), [false, false]);
     assert!(tried("", "-1.5")[0] && tried("G21\n", "-1.6")[1]);
@@ -267,7 +269,7 @@ fn what_no_run_comes_to_is_in_one_unit_on_both_sides() {
     };
     let judged = |value: &str| {
         let texts = [vec![("a.nc", library("0.05"))], vec![("a.nc", library(value))]];
-        judged(&controls, &texts, Names::default())[1]
+        judged(&controls, &texts, SymbolMap::default())[1]
     };
     assert_eq!((judged("0.05"), judged("0.06")), (false, true));
 }

@@ -1,7 +1,7 @@
 //! Codes whose number is computed, where the conversion has made it a condition what they are.
 
 use super::assumed::{assumption, place};
-use super::{Names, supposing};
+use super::{SymbolMap, supposing};
 use crate::assume::{Assumption, Numbers, Predicate, Subscripts};
 use crate::verify::{Outcome, Why};
 
@@ -9,7 +9,7 @@ use crate::verify::{Outcome, Why};
 fn outcome(source: &str, target: &str) -> (Outcome, bool) {
     let places = place(source, "G1G#500X5.F100.");
     let codes = assumption(Predicate::Codes { letter: 'G', places, same: vec![0.0, 1.0, 17.0, 90.0] });
-    let found = supposing(("fanuc", source), ("haas", target), Names::default(), &[codes]);
+    let found = supposing(("fanuc", source), ("haas", target), SymbolMap::default(), &[codes]);
     (found[0].outcome, found[0].reasons.iter().any(|reason| reason.why == Why::Condition))
 }
 
@@ -32,7 +32,7 @@ fn wear(base: u32) -> String {
 #[test]
 fn a_number_outside_of_those_reported_is_a_condition() {
     let outcome = |base: u32, supposed: &[(usize, Assumption)]| {
-        let found = supposing(("fanuc", &wear(2000)), ("haas", &wear(base)), Names::default(), supposed);
+        let found = supposing(("fanuc", &wear(2000)), ("haas", &wear(base)), SymbolMap::default(), supposed);
         (found[0].outcome, found[0].reasons.iter().any(|reason| reason.why == Why::Condition))
     };
     let places = place(&wear(2000), "N5#500=#[2000+#501]");

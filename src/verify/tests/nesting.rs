@@ -1,7 +1,7 @@
 //! Calls that nest deeper than the target takes, where the conversion has made that a condition.
 
 use super::assumed::assumption;
-use super::{Names, supposing};
+use super::{SymbolMap, supposing};
 use crate::assume::Predicate;
 use crate::verify::{Outcome, ProgramCertificate, Why};
 
@@ -13,7 +13,7 @@ fn outcomes(source: &str, target: &str) -> [(Outcome, bool); 2] {
     let (limit, counts) = ("call.macro".into(), [false, true]);
     let nesting = [assumption(Predicate::Nesting { limit, counts, most: 5 })];
     [&nesting[..], &[]].map(|supposed| {
-        let found = supposing(("haas", source), ("fanuc", target), Names::default(), supposed);
+        let found = supposing(("haas", source), ("fanuc", target), SymbolMap::default(), supposed);
         broken(&found[0])
     })
 }

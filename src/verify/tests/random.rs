@@ -103,7 +103,7 @@ fn registers_for_values_in_between_are_not_compared() {
     let (source, target) = ("O1\n#502=5\nM30\n", "O1\n#501=4\n#502=#501+1\nM30\n");
     assert_eq!(run("fanuc", source, "haas", target, &[]).outcome, Outcome::Different);
     let scratch = [501].into();
-    let found = named(("fanuc", source), ("haas", target), Names { scratch, ..Names::default() });
+    let found = named(("fanuc", source), ("haas", target), SymbolMap { scratch, ..SymbolMap::default() });
     assert_eq!(found[0].witness, None);
 }
 
@@ -150,7 +150,7 @@ fn a_return_to_a_block_shows_in_callers_alone() {
         let target = format!(
             "O1\nM98P2\nIF[#501EQ20]GOTO20\nG90G0X1.\nN20G90G0X2.\nM30\nO2\nG90G0Y1.\n#{register}=20\nM99\n"
         );
-        let names = Names { scratch: [501, 502].into(), ..Names::default() };
+        let names = SymbolMap { scratch: [501, 502].into(), ..SymbolMap::default() };
         named(("fanuc", source), ("haas", &target), names)
     };
     let found = with(501);

@@ -258,7 +258,7 @@ pub enum Frame {
     Mirrored,
     Scaled,
     /// Cutter compensation to the left.
-    Left,
+    ExitState,
     Right,
     /// A length offset.
     Long,

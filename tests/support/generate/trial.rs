@@ -5,7 +5,7 @@ mod missing;
 
 use super::{File, Program};
 use machines::{machine, targets};
-use macroglot::control::trace::Happening;
+use macroglot::control::trace::EventKind;
 use macroglot::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use macroglot::diag::Code;
 use macroglot::dialect::Control;
@@ -85,8 +85,8 @@ fn is_read(files: &[File], control: &Control, faults: &mut Vec<String>) -> bool 
 }
 
 fn does_something(run: &Run) -> bool {
-    let moved = |what: &Happening| {
-        matches!(what, Happening::Rapid { .. } | Happening::Feed { .. } | Happening::Arc { .. })
+    let moved = |what: &EventKind| {
+        matches!(what, EventKind::Rapid { .. } | EventKind::Feed { .. } | EventKind::Arc { .. })
     };
     run.end == End::Ended && (!run.variables.is_empty() || run.events.iter().any(|event| moved(&event.what)))
 }

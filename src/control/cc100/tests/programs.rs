@@ -2,7 +2,7 @@
 
 use super::corpus;
 use crate::control::testing::*;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Run};
 
 /// The datum that the programs give by VX and VY.
@@ -25,7 +25,7 @@ fn walks(name: &str, depth: f64, corners: &[[f64; 2]]) -> Run {
 /// End, centre and sweep of each arc, from the datum.
 fn arcs(run: &Run) -> Vec<([f64; 2], [f64; 2], f64)> {
     let arcs = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Arc { to, centre, sweep, off, .. } => {
+        EventKind::Arc { to, centre, sweep, off, .. } => {
             assert!(off.abs() < 1e-9);
             let flat = |at: [f64; 3]| [at[0] - DATUM, at[1] - DATUM];
             Some((flat(xyz(to)), flat(xyz(centre)), *sweep))
@@ -112,7 +112,7 @@ fn problem8b_shows_its_message() {
     let run = corpus("problem8b-error.nc", &crate::control::Scenario { steps: 500, ..given(&[]) });
     assert_eq!(run.end, End::StepBudget);
     let text = "INPUT VARIABLE IS NOT A MULTIPLE OF 50 - ENTER NEW VALUE OF V10";
-    assert!(run.events.iter().any(|event| event.what == Happening::Message { text: text.into() }));
+    assert!(run.events.iter().any(|event| event.what == EventKind::Message { text: text.into() }));
 }
 
 /// Ten holes 32 apart, 30 degrees up from X50 Y50.

@@ -3,7 +3,7 @@
 use crate::canon::Op;
 use crate::control::scenario::Tool;
 use crate::control::testing::*;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Run, Scenario};
 use crate::dialect::Control;
 
@@ -87,7 +87,7 @@ fn endless_jumps_end_at_the_budget_and_endless_calls_by_an_alarm() {
 #[test]
 fn a_stop_without_a_comment_is_a_plain_stop() {
     let run = lines("M0\nG1 X1 F10\nM30\n");
-    assert!(run.events.iter().any(|event| event.what == Happening::Stop));
+    assert!(run.events.iter().any(|event| event.what == EventKind::Stop));
 }
 
 /// A cycle returns by M2; elsewhere no source says what M2 is.
@@ -98,7 +98,7 @@ fn m2_returns_from_a_cycle_only() {
         let run = run("cc100", &[(file, text.as_bytes())], &called);
         ended(&run);
         let by = run.events.iter().rev().find_map(|event| match event.what {
-            Happening::End { by } => Some(by),
+            EventKind::End { by } => Some(by),
             _ => None,
         });
         (by, doubts(&run).contains(&"behaviour:cycle.end.ends.program"))
@@ -127,7 +127,7 @@ fn tool_words_bring_their_length() {
         .events
         .iter()
         .filter_map(|event| match event.what {
-            Happening::ToolChange { tool } => Some(tool),
+            EventKind::ToolChange { tool } => Some(tool),
             _ => None,
         })
         .collect();
@@ -146,7 +146,7 @@ fn a_tool_word_for_the_tool_in_the_spindle_does_what_the_profile_says() {
         let control = Control::from_profile(&text).unwrap();
         let run = run_on(&control, &[("t.nc", b"T01\nT01\nT02\nM30\n")], &given(&[]));
         ended(&run);
-        let change = |what: &Happening| matches!(what, Happening::ToolChange { .. });
+        let change = |what: &EventKind| matches!(what, EventKind::ToolChange { .. });
         run.events.iter().filter(|event| change(&event.what)).count()
     };
     assert_eq!(changes("changes"), 3);
@@ -164,7 +164,7 @@ fn the_sign_of_a_radius_tells_two_arcs_apart() {
         let run = lines(&format!("G90\nG1 X10 Y0 F100\nG3 X0 Y10 {word}\nM30\n"));
         ended(&run);
         let sweep = run.events.iter().find_map(|event| match event.what {
-            Happening::Arc { sweep, .. } => Some(sweep),
+            EventKind::Arc { sweep, .. } => Some(sweep),
             _ => None,
         });
         (sweep.unwrap().round(), doubts(&run).contains(&"behaviour:arc.radius.positive"))

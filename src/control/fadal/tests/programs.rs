@@ -1,7 +1,7 @@
 //! The manual's programs: their motion, worked out here.
 
 use crate::control::testing::*;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Run, Scenario};
 
 fn corpus(names: &[&str], scenario: &Scenario) -> Run {
@@ -11,7 +11,7 @@ fn corpus(names: &[&str], scenario: &Scenario) -> Run {
 /// End, centre and distance off the circle of each arc.
 fn arcs(run: &Run) -> Vec<([f64; 3], [f64; 3], f64)> {
     let arcs = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Arc { to, centre, off, .. } => Some((xyz(to), xyz(centre), *off)),
+        EventKind::Arc { to, centre, off, .. } => Some((xyz(to), xyz(centre), *off)),
         _ => None,
     });
     arcs.collect()
@@ -175,7 +175,7 @@ fn o4_drills_by_steps_at_each_place() {
         near(*point, [hole as f64, 0.0, 0.1 - 0.015 * step as f64]);
     }
     let dwells = run.events.iter().filter(
-        |event| matches!(event.what, Happening::Dwell { seconds } if (seconds - 0.0045).abs() < 1e-12),
+        |event| matches!(event.what, EventKind::Dwell { seconds } if (seconds - 0.0045).abs() < 1e-12),
     );
     assert_eq!(dwells.count(), 3 * steps);
 }

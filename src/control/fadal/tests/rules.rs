@@ -2,7 +2,7 @@
 
 use crate::canon::Op;
 use crate::control::testing::*;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Run, Scenario};
 
 fn lines(text: &str) -> Run {
@@ -56,7 +56,7 @@ fn the_length_picks_the_cutter_too() {
     let cutter = |before: &str| {
         let run = lines(&format!("G90 G17 G0 {before}\nG41 X1.\nM2\n"));
         let offset = run.events.iter().find_map(|event| match &event.what {
-            Happening::CutterRadius { offset, .. } => Some(*offset),
+            EventKind::CutterRadius { offset, .. } => Some(*offset),
             _ => None,
         });
         (offset, doubts(&run).contains(&"behaviour:length.word.picks.radius"))
@@ -92,7 +92,7 @@ fn what_is_not_there_is_an_error_at_its_block() {
     for text in ["#GOTO :NO\n", "#GOTO N7\n"] {
         let run = lines(text);
         assert!(matches!(&run.end, End::Alarm { stop, .. } if stop.no_label), "{text}");
-        let unsure = |what: &Happening| matches!(what, Happening::Unsure { fact } if fact.ends_with("goto.missing.alarms"));
+        let unsure = |what: &EventKind| matches!(what, EventKind::Unsure { fact } if fact.ends_with("goto.missing.alarms"));
         assert!(run.events.iter().any(|event| unsure(&event.what)), "{text}");
     }
     assert!(matches!(lines("#V101=1\n").end, End::Alarm { .. } | End::Error { .. }));
@@ -113,7 +113,7 @@ fn a_cycle_takes_its_plane_from_r0() {
         let run = lines(text);
         // The first rapid move down ends on the plane.
         let down = run.events.iter().find_map(|event| match &event.what {
-            Happening::Rapid { from, to } if to.0[2] < from.0[2] => Some(to.0[2]),
+            EventKind::Rapid { from, to } if to.0[2] < from.0[2] => Some(to.0[2]),
             _ => None,
         });
         (down, doubts(&run).contains(&"behaviour:cycle.r0.kept"))
@@ -147,7 +147,7 @@ fn m30_ends_a_program_without_subroutines() {
     let run = lines("#V1=1\nM30\n#V1=2\n");
     assert_eq!((run.end.clone(), run.variables["V1"]), (End::Ended, 1.0));
     assert!(doubts(&run).contains(&"behaviour:end.alone"));
-    assert!(run.events.iter().any(|event| event.what == Happening::End { by: Op::EndRewind }));
+    assert!(run.events.iter().any(|event| event.what == EventKind::End { by: Op::EndRewind }));
 }
 
 #[test]
@@ -186,9 +186,9 @@ fn keeps_the_digits_that_the_scenario_leaves() {
 #[test]
 fn words_stand_before_the_dwell_and_the_gear_suffix_is_no_speed() {
     let run = lines("M3 S500.1\nG4 P1500\n");
-    let speed = |what: &Happening| matches!(what, Happening::Spindle { speed: 500.0, .. });
+    let speed = |what: &EventKind| matches!(what, EventKind::Spindle { speed: 500.0, .. });
     assert!(run.events.iter().any(|event| speed(&event.what)));
-    assert!(run.events.iter().any(|event| event.what == Happening::Dwell { seconds: 1.5 }));
+    assert!(run.events.iter().any(|event| event.what == EventKind::Dwell { seconds: 1.5 }));
 }
 
 /// The cycle takes its speed from F and its lead from Q: 400 turns of 0.05 are 20 a minute.
@@ -199,7 +199,7 @@ fn a_tap_advances_its_lead_each_turn_and_leaves_the_feed_alone() {
         .events
         .iter()
         .filter_map(|event| match &event.what {
-            Happening::Feed { feed, .. } => Some(*feed),
+            EventKind::Feed { feed, .. } => Some(*feed),
             _ => None,
         })
         .collect();

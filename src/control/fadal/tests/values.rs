@@ -4,7 +4,7 @@
 use crate::canon::Sys;
 use crate::control::scenario::StateValue;
 use crate::control::testing::*;
-use crate::control::trace::Happening;
+use crate::control::trace::EventKind;
 use crate::control::{End, Scenario};
 
 /// Runs macro lines from given values and looks at one variable.
@@ -92,14 +92,14 @@ fn signs_before_r_multiply() {
     near(feeds(&run)[0], [-10.0, 5.0, 0.0]);
     let run = run_line(b"R3+7.5 R4+5.5 R5+0\nX + R3. I - R4 J - R5 G3 F10.");
     let arc = run.events.iter().find_map(|event| match &event.what {
-        Happening::Arc { to, centre, .. } => Some((xyz(to), xyz(centre))),
+        EventKind::Arc { to, centre, .. } => Some((xyz(to), xyz(centre))),
         _ => None,
     });
     let (to, centre) = arc.unwrap();
     near(to, [7.5, 0.0, 0.0]);
     near(centre, [-5.5, 0.0, 0.0]);
     let run = run_line(b"R8+50.0\nN13 F+R8\nG1 X1.");
-    assert!(run.events.iter().any(|event| matches!(event.what, Happening::Feed { feed: 50.0, .. })));
+    assert!(run.events.iter().any(|event| matches!(event.what, EventKind::Feed { feed: 50.0, .. })));
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn machine_state() {
     assert_eq!(read(b"#V1=I(3)", Scenario::default()), 0.0);
     let run = run("fadal", &[("t.nc", b"#O(1) = 0")], &Scenario::default());
     let low =
-        |what: &Happening| matches!(what, Happening::Write { state: Sys::OutputInverted, value: 0.0, .. });
+        |what: &EventKind| matches!(what, EventKind::Write { state: Sys::OutputInverted, value: 0.0, .. });
     assert!(run.events.iter().any(|event| low(&event.what)));
 }
 

@@ -113,7 +113,7 @@ fn a_corner_stands_beside_one_cut() {
     let corner = |block: &str| {
         let run = haas(&format!("O1\nG21G90G0X0Y0\nF100.\n{block}\nX30.Y9.\nM30\n"));
         let sizes = run.events.iter().filter_map(|event| match event.what {
-            Happening::Corner { chamfer, size } => Some((chamfer, size)),
+            EventKind::Corner { chamfer, size } => Some((chamfer, size)),
             _ => None,
         });
         (sizes.collect::<Vec<_>>(), doubts(&run, "machine:corner.elsewhere"))

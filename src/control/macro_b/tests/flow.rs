@@ -69,7 +69,7 @@ fn a_skipped_block_is_passed_over_where_its_switch_is_on() {
     let control = Control::plain("fanuc").expect("the table loads");
     let text = "O1\n/#101=1\n/2#102=1\nG4 P1 / M3\nM30\n";
     let with = |block_skip| run_on(&control, &[text], &Scenario { block_skip, ..Scenario::default() });
-    let spindle = |run: &Run| run.events.iter().any(|event| matches!(event.what, Happening::Spindle { .. }));
+    let spindle = |run: &Run| run.events.iter().any(|event| matches!(event.what, EventKind::Spindle { .. }));
     let run = with(0);
     assert!(value(&run, "#101").is_some() && value(&run, "#102").is_some() && spindle(&run));
     let run = with(1 << 1);
@@ -86,7 +86,7 @@ fn words_before_and_after_a_block_skip_are_one_block() {
             &Scenario { block_skip, ..Scenario::default() },
         );
         let ends = run.events.iter().filter_map(|event| match &event.what {
-            Happening::Rapid { to, .. } => Some((to.0[0], to.0[1])),
+            EventKind::Rapid { to, .. } => Some((to.0[0], to.0[1])),
             _ => None,
         });
         ends.collect::<Vec<_>>()
@@ -106,20 +106,20 @@ fn alarms_and_messages_show_their_text() {
         (stop.number.as_str(), stop.program_number, stop.text.as_str()),
         ("3101", Some(101.0), "TOO SMALL")
     );
-    assert!(run.events.iter().any(|event| event.what == Happening::Message { text: "CHECK PART".into() }));
+    assert!(run.events.iter().any(|event| event.what == EventKind::Message { text: "CHECK PART".into() }));
     assert_eq!(alarm(&haas("O1\n#3000=1\n")), "1001");
 }
 
 /// The comment behind the stop, none before it.
 #[test]
 fn a_stop_shows_its_comment() {
-    let texts = |text: &str| -> Vec<Happening> {
+    let texts = |text: &str| -> Vec<EventKind> {
         let events = fanuc(text).events.into_iter().map(|event| event.what);
-        events.filter(|what| matches!(what, Happening::Message { .. } | Happening::Stop)).collect()
+        events.filter(|what| matches!(what, EventKind::Message { .. } | EventKind::Stop)).collect()
     };
-    let message = |text: &str| Happening::Message { text: text.into() };
+    let message = |text: &str| EventKind::Message { text: text.into() };
     assert_eq!(texts("O1\nN4 (LABEL) M0 (TURN THE PART)\nM30\n"), [message("TURN THE PART")]);
-    assert_eq!(texts("O1\nN4 (LABEL) M0\n(NEXT)\nM30\n"), [Happening::Stop]);
+    assert_eq!(texts("O1\nN4 (LABEL) M0\n(NEXT)\nM30\n"), [EventKind::Stop]);
     assert_eq!(texts("O1\nG0 X1. (NO STOP)\nM30\n"), []);
     assert_eq!(texts("O1\nIF[1EQ1]THEN M0 (HERE)\nM30\n"), [message("HERE")]);
 }
@@ -136,7 +136,7 @@ fn output_to_a_closed_port_is_in_doubt() {
 fn output_has_its_places() {
     let run = haas("O1\n#1=1.5\n#2=-12.3456\nDPRNT[X#1[53]*Y#2[32]Z#1[40]]\nM30\n");
     let text = run.events.iter().find_map(|event| match &event.what {
-        Happening::Output { text } => Some(text.as_str()),
+        EventKind::Output { text } => Some(text.as_str()),
         _ => None,
     });
     // Five and three places round the point are nine characters, three and two are six.

@@ -4,7 +4,7 @@ use super::*;
 
 fn holes(run: &Run) -> Vec<(f64, f64)> {
     let holes = run.events.iter().filter_map(|event| match &event.what {
-        Happening::Hole { at, .. } => Some((at.0[0], at.0[1])),
+        EventKind::Hole { at, .. } => Some((at.0[0], at.0[1])),
         _ => None,
     });
     holes.collect()
@@ -42,7 +42,7 @@ fn the_frame_macro_drills_eighteen_holes_round_its_frame() {
         .events
         .iter()
         .filter_map(|event| match &event.what {
-            Happening::Hole { bottom, .. } => Some(*bottom),
+            EventKind::Hole { bottom, .. } => Some(*bottom),
             _ => None,
         })
         .collect();
@@ -69,7 +69,7 @@ fn nested_modal_calls_run_in_the_order_of_the_rule() {
         .events
         .iter()
         .filter_map(|event| match event.what {
-            Happening::Enter { program, .. } => Some(run.programs[program as usize].name.as_str()),
+            EventKind::Enter { program, .. } => Some(run.programs[program as usize].name.as_str()),
             _ => None,
         })
         .collect();

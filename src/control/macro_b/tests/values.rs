@@ -38,7 +38,7 @@ fn vacancy_is_copied_counts_as_zero_in_arithmetic_and_differs_from_zero() {
 fn speed(text: &str) -> f64 {
     let run = fanuc(text);
     let mut speeds = run.events.iter().filter_map(|event| match event.what {
-        Happening::Spindle { speed, direction: Spindle::Clockwise, .. } => Some(speed),
+        EventKind::Spindle { speed, direction: Spindle::Clockwise, .. } => Some(speed),
         _ => None,
     });
     speeds.next_back().expect("a spindle event")
@@ -67,7 +67,7 @@ fn computed_words_are_rounded_to_the_least_increment() {
 fn codes_come_from_variables() {
     let run = fanuc("O1\nG1 X1. F10.\n#10=00\nG#10 X1.2\nM30\n");
     let rapid = run.events.iter().find_map(|event| match &event.what {
-        Happening::Rapid { to, .. } => Some(to.0[0]),
+        EventKind::Rapid { to, .. } => Some(to.0[0]),
         _ => None,
     });
     assert_eq!(rapid, Some(1.2));
@@ -225,7 +225,7 @@ fn haas_inputs_steer_the_program() {
 fn dwells_count_seconds_with_a_point_on_haas() {
     let seconds = |run: &Run| {
         run.events.iter().find_map(|event| match event.what {
-            Happening::Dwell { seconds } => Some(seconds),
+            EventKind::Dwell { seconds } => Some(seconds),
             _ => None,
         })
     };

@@ -1,11 +1,11 @@
 use super::*;
 
-fn then(dialect: &str, program: &Program, lines: &[&str]) {
+fn writes(dialect: &str, program: &Program, lines: &[&str]) {
     assert_eq!(text(dialect, program).lines().collect::<Vec<_>>(), lines);
 }
 
 fn fanuc(program: &Program, lines: &[&str]) {
-    then("fanuc", program, lines);
+    writes("fanuc", program, lines);
 }
 
 fn le(number: u32, limit: f64) -> Cond {
@@ -70,22 +70,26 @@ fn one_macro_statement_stands_behind_then() {
 #[test]
 fn words_stand_behind_then_where_they_did_and_may() {
     let mut builder = Builder::new();
-    let at = Site { remarks: [remark("LAST", false)].into(), ..numbered(1, 10) };
-    let (yes, no) = (builder.fresh(), builder.fresh());
-    builder.end(TermKind::Branch { cond: gt(1, 5.0), yes, no }, at.clone());
-    builder.start(yes);
+    let at = SourceInfo { remarks: [remark("LAST", false)].into(), ..numbered(1, 10) };
+    let (then, otherwise) = (builder.fresh(), builder.fresh());
+    builder.end(TermKind::Branch { cond: gt(1, 5.0), then, otherwise }, at.clone());
+    builder.start(then);
     builder.push(mv(1.0), at);
-    builder.start(no);
+    builder.start(otherwise);
     builder.end(END, site(2));
-    let program = builder.finish(None, 0, Site::default());
-    then("haas", &program, &["N10 IF [#1 GT 5] THEN X1. (LAST)", "M30"]);
+    let program = builder.finish(None, 0, SourceInfo::default());
+    writes("haas", &program, &["N10 IF [#1 GT 5] THEN X1. (LAST)", "M30"]);
     fanuc(&program, &["N10 IF [#1 LE 5] GOTO 20 (LAST)", "X1.", "N20 M30"]);
 }
 
 #[test]
 fn conditions_are_joined_and_turned_round() {
-    let program = |cond, yes, no| {
-        blocks([(&[], vec![], branch(cond, yes, no)), (&[], vec![mv(1.0)], jump(2)), (&[], vec![], END)])
+    let program = |cond, then, otherwise| {
+        blocks([
+            (&[], vec![], branch(cond, then, otherwise)),
+            (&[], vec![mv(1.0)], jump(2)),
+            (&[], vec![], END),
+        ])
     };
     let head = |dialect: &str, program: &Program| {
         let text = text(dialect, program);
@@ -110,10 +114,10 @@ fn conditions_are_joined_and_turned_round() {
 
 #[test]
 fn a_loop_that_tests_at_its_head_is_while() {
-    let program = |cond, yes, no| {
+    let program = |cond, then, otherwise| {
         blocks([
             (&[], vec![set(1, n(0.0))], jump(1)),
-            (&[], vec![], branch(cond, yes, no)),
+            (&[], vec![], branch(cond, then, otherwise)),
             (&[], vec![mv(1.0), set(1, add(v(1), n(1.0)))], jump(1)),
             (&[], vec![], END),
         ])
@@ -251,8 +255,8 @@ fn a_jump_from_inside_to_before_the_loop_does_not_hit_its_while() {
 
 #[test]
 fn the_block_skip_switch_is_a_slash() {
-    let program = |cond, yes, no, stmts, kind| {
-        blocks([(&[], vec![], branch(cond, yes, no)), (&[], stmts, kind), (&[], vec![], END)])
+    let program = |cond, then, otherwise, stmts, kind| {
+        blocks([(&[], vec![], branch(cond, then, otherwise)), (&[], stmts, kind), (&[], vec![], END)])
     };
     let on = || Cond::Switch(1);
     fanuc(&program(on(), 2, 1, vec![mv(1.0)], jump(2)), &["/X1.", "M30"]);

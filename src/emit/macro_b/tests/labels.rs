@@ -15,18 +15,18 @@ fn lines(numbers: &[Option<u32>], targets: &[u32]) -> Program {
         if let Some(number) = number {
             builder.label(Label::Number(*number));
         }
-        let site = Site { sequence: *number, ..site(at) };
+        let site = SourceInfo { sequence: *number, ..site(at) };
         builder.push(mv(f64::from(at + 1)), site);
     }
     for target in targets {
-        builder.end_then(Site::default(), |no| branch_to(*target, no));
+        builder.end_then(SourceInfo::default(), |otherwise| branch_to(*target, otherwise));
     }
-    builder.end(END, Site::default());
-    builder.finish(None, 0, Site::default())
+    builder.end(END, SourceInfo::default());
+    builder.finish(None, 0, SourceInfo::default())
 }
 
-fn branch_to(to: u32, no: BlockId) -> TermKind {
-    TermKind::Branch { cond: gt(1, 0.0), yes: BlockId(to), no }
+fn branch_to(to: u32, otherwise: BlockId) -> TermKind {
+    TermKind::Branch { cond: gt(1, 0.0), then: BlockId(to), otherwise }
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn what_a_computed_jump_may_look_for_is_not_invented() {
     let jumping = |value: Expr, first: StmtKind| {
         let targets = vec![(20, BlockId(3))];
         let mut program = blocks([
-            (&[], vec![], TermKind::Branch { cond: gt(5, 3.0), yes: BlockId(1), no: BlockId(2) }),
+            (&[], vec![], TermKind::Branch { cond: gt(5, 3.0), then: BlockId(1), otherwise: BlockId(2) }),
             (&[], vec![mv(1.0), mv(2.0)], jump(2)),
             (&[], vec![first], TermKind::Computed { value, targets }),
             (&[20], vec![mv(2.0)], END),

@@ -69,8 +69,8 @@ fn refused(dialect: &str, program: &Program) -> Vec<Code> {
 /// A program of one block.
 fn one(kinds: impl IntoIterator<Item = StmtKind>) -> Program {
     let mut builder = Builder::new();
-    kinds.into_iter().for_each(|kind| builder.push(kind, Site::default()));
-    builder.finish(None, 0, Site::default())
+    kinds.into_iter().for_each(|kind| builder.push(kind, SourceInfo::default()));
+    builder.finish(None, 0, SourceInfo::default())
 }
 
 /// The lines of one statement, without the last line feed.
@@ -158,13 +158,13 @@ fn gt(number: u32, limit: f64) -> Cond {
 }
 
 /// A site of its own bytes.
-fn site(at: u32) -> Site {
-    Site { span: Span::new(at * 10, at * 10 + 9), ..Site::default() }
+fn site(at: u32) -> SourceInfo {
+    SourceInfo { span: Span::new(at * 10, at * 10 + 9), ..SourceInfo::default() }
 }
 
 /// A site with a sequence number.
-fn numbered(at: u32, sequence: u32) -> Site {
-    Site { sequence: Some(sequence), ..site(at) }
+fn numbered(at: u32, sequence: u32) -> SourceInfo {
+    SourceInfo { sequence: Some(sequence), ..site(at) }
 }
 
 fn remark(text: &str, leading: bool) -> Remark {
@@ -175,18 +175,18 @@ fn remark(text: &str, leading: bool) -> Remark {
 fn blocks<const N: usize>(blocks: [(&[u32], Vec<StmtKind>, TermKind); N]) -> Program {
     let blocks = blocks.into_iter().map(|(labels, stmts, kind)| Block {
         labels: labels.iter().map(|n| Label::Number(*n)).collect(),
-        stmts: stmts.into_iter().map(|kind| Stmt { kind, site: Site::default() }).collect(),
-        term: Terminator { kind, site: Site::default() },
+        stmts: stmts.into_iter().map(|kind| Stmt { kind, site: SourceInfo::default() }).collect(),
+        term: Terminator { kind, site: SourceInfo::default() },
     });
-    Program { name: None, file: 0, site: Site::default(), blocks: blocks.collect() }
+    Program { name: None, file: 0, site: SourceInfo::default(), blocks: blocks.collect() }
 }
 
 fn jump(to: u32) -> TermKind {
     TermKind::Jump(BlockId(to))
 }
 
-fn branch(cond: Cond, yes: u32, no: u32) -> TermKind {
-    TermKind::Branch { cond, yes: BlockId(yes), no: BlockId(no) }
+fn branch(cond: Cond, then: u32, otherwise: u32) -> TermKind {
+    TermKind::Branch { cond, then: BlockId(then), otherwise: BlockId(otherwise) }
 }
 
 const END: TermKind = TermKind::End { rewind: true };

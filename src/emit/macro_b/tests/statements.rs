@@ -190,7 +190,7 @@ fn ends_and_returns() {
 
 #[test]
 fn what_came_from_one_block_goes_back_to_one() {
-    let at = Site { remarks: [remark("HOME", false)].into(), ..numbered(1, 50) };
+    let at = SourceInfo { remarks: [remark("HOME", false)].into(), ..numbered(1, 50) };
     let home = nc([op(Op::Incremental), op(Op::ReferenceReturn), word(Role::Z, n(0.0))]);
     let program = |kind: TermKind, rest: usize| {
         let mut builder = Builder::new();
@@ -199,9 +199,9 @@ fn what_came_from_one_block_goes_back_to_one() {
         for _ in 0..rest {
             let next = builder.fresh();
             builder.start(next);
-            builder.end(END, Site::default());
+            builder.end(END, SourceInfo::default());
         }
-        builder.finish(None, 0, Site::default())
+        builder.finish(None, 0, SourceInfo::default())
     };
     assert_eq!(text("fanuc", &program(END, 0)), "N50 G91 G28 Z0. M30 (HOME)\n");
     let call = || Call {
@@ -219,16 +219,16 @@ fn what_came_from_one_block_goes_back_to_one() {
 fn comments_and_names_stay_with_their_blocks() {
     let mut builder = Builder::new();
     let remarks = [remark("CUT (DEEP)", true), remark("50%", false)].into();
-    builder.push(mv(1.0), Site { remarks, ..numbered(2, 10) });
-    builder.push(StmtKind::Remark, Site { remarks: [remark("ALONE", true)].into(), ..site(3) });
+    builder.push(mv(1.0), SourceInfo { remarks, ..numbered(2, 10) });
+    builder.push(StmtKind::Remark, SourceInfo { remarks: [remark("ALONE", true)].into(), ..site(3) });
     builder.push(StmtKind::Remark, numbered(4, 20));
     builder.push(StmtKind::Remark, site(5));
-    builder.push(mv(2.0), Site { skip: Some(1), ..numbered(6, 30) });
-    builder.push(mv(3.0), Site { skip: Some(2), ..site(7) });
+    builder.push(mv(2.0), SourceInfo { skip: Some(1), ..numbered(6, 30) });
+    builder.push(mv(3.0), SourceInfo { skip: Some(2), ..site(7) });
     let text_of_alarm = StmtKind::Alarm { number: n(1.0), text: "STOP".into() };
     let remarks = [remark("STOP", false), remark("OR ELSE", false)].into();
-    builder.push(text_of_alarm, Site { remarks, ..numbered(8, 40) });
-    let head = Site { remarks: [remark("BOLT CIRCLE", false)].into(), ..numbered(1, 1) };
+    builder.push(text_of_alarm, SourceInfo { remarks, ..numbered(8, 40) });
+    let head = SourceInfo { remarks: [remark("BOLT CIRCLE", false)].into(), ..numbered(1, 1) };
     let program = builder.finish(Some(ProgramName::Number(12)), 0, head);
     assert_eq!(
         text("fanuc", &program),
@@ -249,11 +249,11 @@ fn a_long_line_gives_up_its_comments_first() {
     let long =
         "A COMMENT THAT IS SO LONG THAT IT WOULD NOT FIT BESIDE THE WORDS OF THE BLOCK IT STANDS IN AT ALL";
     let mut builder = Builder::new();
-    builder.push(mv(1.0), Site { remarks: [remark(long, false)].into(), ..numbered(1, 10) });
+    builder.push(mv(1.0), SourceInfo { remarks: [remark(long, false)].into(), ..numbered(1, 10) });
     let program = builder.finish(
         Some(ProgramName::Number(7)),
         0,
-        Site { remarks: [remark(long, true)].into(), ..site(0) },
+        SourceInfo { remarks: [remark(long, true)].into(), ..site(0) },
     );
     let first = "(A COMMENT THAT IS SO LONG THAT IT WOULD NOT FIT BESIDE THE WORDS OF THE BLOCK";
     let text = text("haas", &program);
@@ -264,7 +264,7 @@ fn a_long_line_gives_up_its_comments_first() {
     assert!(text.lines().all(|line| line.len() <= 80));
     // Counted as they are written: an umlaut is two letters, and a bracket at a piece's end stays.
     let remarks = [remark(&format!("{} (IN BRACKETS) {}", "Ü".repeat(59), "%".repeat(50)), true)].into();
-    let program = Builder::new().finish(Some(ProgramName::Number(7)), 0, Site { remarks, ..site(0) });
+    let program = Builder::new().finish(Some(ProgramName::Number(7)), 0, SourceInfo { remarks, ..site(0) });
     let (words, signs) = ("UE".repeat(39), "PCT".repeat(26));
     let text = super::text("haas", &program);
     assert_eq!(
@@ -279,7 +279,7 @@ fn a_long_line_gives_up_its_comments_first() {
 #[test]
 fn a_program_without_a_number_is_refused() {
     for name in [ProgramName::Name("NOBODY".into()), ProgramName::Number(0), ProgramName::Number(123456)] {
-        let program = Builder::new().finish(Some(name), 0, Site::default());
+        let program = Builder::new().finish(Some(name), 0, SourceInfo::default());
         assert_eq!(refused("fanuc", &program), [Code::Unmapped]);
     }
 }
@@ -288,9 +288,9 @@ fn a_program_without_a_number_is_refused() {
 fn the_line_map_names_where_each_line_comes_from() {
     let mut builder = Builder::new();
     builder.push(mv(1.0), site(1));
-    builder.push(mv(2.0), Site::default());
+    builder.push(mv(2.0), SourceInfo::default());
     builder.push(mv(3.0), site(2));
-    let program = builder.finish(None, 0, Site::default());
+    let program = builder.finish(None, 0, SourceInfo::default());
     let emitted = emit_with("fanuc", &program, &names()).unwrap();
     assert_eq!(emitted.text, "X1.\nX2.\nX3.\n");
     assert_eq!(emitted.blocks, [(Span::new(10, 19), 0..3), (Span::new(20, 29), 8..11)]);

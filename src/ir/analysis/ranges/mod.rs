@@ -91,8 +91,8 @@ impl Analysis for Rules<'_> {
 
     fn edge<'s>(&self, from: BlockId, to: BlockId, state: &'s State) -> Option<Cow<'s, State>> {
         match self.program.block(from).map(|block| &block.term.kind) {
-            Some(TermKind::Branch { cond, yes, no }) if yes != no => {
-                self.narrowed(cond, to == *yes, state).map(Cow::Owned)
+            Some(TermKind::Branch { cond, then, otherwise }) if then != otherwise => {
+                self.narrowed(cond, to == *then, state).map(Cow::Owned)
             }
             _ => Some(Cow::Borrowed(state)),
         }

@@ -5,7 +5,9 @@ use crate::dialect::Control;
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, States, solve};
 use crate::ir::analysis::modal::Modal;
-use crate::ir::{Block, BlockId, Class, Expr, Module, Place, Program, Site, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{
+    Block, BlockId, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
+};
 use crate::legalize::ModalFacts;
 use crate::legalize::rewrite::highest_temp;
 
@@ -99,7 +101,7 @@ impl Kept {
     pub fn reading(register: Var, stmt: &Stmt) -> Stmt {
         let read = Expr::System(Sys::Address, [Expr::Number(f64::from(ADDRESS_F))].into());
         let kind = StmtKind::Assign { target: Place::Var(register), value: read };
-        Stmt { kind, site: Site { span: stmt.site.span, ..Site::default() } }
+        Stmt { kind, site: SourceInfo { span: stmt.site.span, ..SourceInfo::default() } }
     }
 
     /// Goes on behind a statement, and says what must be done at it.

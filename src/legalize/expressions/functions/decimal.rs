@@ -29,6 +29,10 @@ fn digits(a: Expr, rewriter: &mut Rewriter<'_>, op: BinOp, base: f64, weight: im
     (1..DIGITS).fold(a.clone(), |sum, i| {
         let higher = apply(Func::Fix, Expr::binary(BinOp::Div, a.clone(), number(base.powi(i))));
         // One term a statement keeps lines short.
-        Expr::Var(rewriter.hold(Expr::binary(op, sum, Expr::binary(BinOp::Mul, higher, number(weight(i))))))
+        Expr::Var(rewriter.materialize(Expr::binary(
+            op,
+            sum,
+            Expr::binary(BinOp::Mul, higher, number(weight(i))),
+        )))
     })
 }

@@ -13,15 +13,15 @@ const HALVINGS: i32 = 10;
 /// Law: `EXP[a] = EXP[a/1024]^1024`, the inner one by its series to the seventh power. For `a` from
 /// -20 to 20 the relative difference is below 1e-12 in binary64.
 pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
-    let small = rewriter.hold(Expr::binary(BinOp::Div, a, number(2f64.powi(HALVINGS))));
+    let small = rewriter.materialize(Expr::binary(BinOp::Div, a, number(2f64.powi(HALVINGS))));
     // Horner: 1 + s(1 + s/2(1 + s/3(..))).
     let series = (1..=7).rev().fold(number(1.0), |inner, k| {
         let term =
             Expr::binary(BinOp::Div, Expr::binary(BinOp::Mul, Expr::Var(small), inner), number(f64::from(k)));
-        Expr::Var(rewriter.hold(Expr::binary(BinOp::Add, number(1.0), term)))
+        Expr::Var(rewriter.materialize(Expr::binary(BinOp::Add, number(1.0), term)))
     });
-    let value =
-        (0..HALVINGS).fold(series, |v, _| Expr::Var(rewriter.hold(Expr::binary(BinOp::Mul, v.clone(), v))));
+    let value = (0..HALVINGS)
+        .fold(series, |v, _| Expr::Var(rewriter.materialize(Expr::binary(BinOp::Mul, v.clone(), v))));
     let why = "by its series, within a 1e-12th part for arguments from -20 to 20";
     Emulated::Inside(value, why.into(), Domain::Range(-20.0, 20.0))
 }
@@ -29,17 +29,17 @@ pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 /// Law: `LN[a] = 1024*LN[z]` with z the root of a taken ten times, and `LN[z] = 2*(w + w^3/3 + w^5/5 + w^7/7)`
 /// with `w = (z-1)/(z+1)`. For `a` from 1e-9 to 1e9 the difference is below 1e-11 in binary64.
 pub fn ln(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
-    let root = (0..HALVINGS).fold(a, |v, _| Expr::Var(rewriter.hold(apply(Func::Sqrt, v))));
+    let root = (0..HALVINGS).fold(a, |v, _| Expr::Var(rewriter.materialize(apply(Func::Sqrt, v))));
     let (below, above) =
         (Expr::binary(BinOp::Sub, root.clone(), number(1.0)), Expr::binary(BinOp::Add, root, number(1.0)));
-    let w = Expr::Var(rewriter.hold(Expr::binary(BinOp::Div, below, above)));
-    let square = Expr::Var(rewriter.hold(Expr::binary(BinOp::Mul, w.clone(), w.clone())));
+    let w = Expr::Var(rewriter.materialize(Expr::binary(BinOp::Div, below, above)));
+    let square = Expr::Var(rewriter.materialize(Expr::binary(BinOp::Mul, w.clone(), w.clone())));
     let series = [5.0, 3.0, 1.0].into_iter().fold(number(1.0 / 7.0), |inner, k| {
         let step = Expr::binary(BinOp::Add, number(1.0 / k), Expr::binary(BinOp::Mul, square.clone(), inner));
-        Expr::Var(rewriter.hold(step))
+        Expr::Var(rewriter.materialize(step))
     });
     let scale = number(2f64.powi(HALVINGS + 1));
-    let value = rewriter.hold(Expr::binary(BinOp::Mul, scale, Expr::binary(BinOp::Mul, w, series)));
+    let value = rewriter.materialize(Expr::binary(BinOp::Mul, scale, Expr::binary(BinOp::Mul, w, series)));
     let why = "by its series, within 1e-11 for arguments from 1e-9 to 1e9; zero does not alarm";
     Emulated::Inside(Expr::Var(value), why.into(), Domain::Range(1e-9, 1e9))
 }

@@ -4,13 +4,13 @@ use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};
-use crate::legalize::{Position, Prelude, Rewriter};
+use crate::legalize::{Position, PreStatement, Rewriter};
 
 /// Law: `r = 1`, then `r = -1` where the argument is below zero. Exact; zero counts as positive.
 pub fn sign(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let a = rewriter.held(a);
-    let r = rewriter.hold(number(1.0));
-    rewriter.first(Prelude::When(Cond::Compare(Relation::Less, a, number(0.0)), r, number(-1.0)));
+    let r = rewriter.materialize(number(1.0));
+    rewriter.first(PreStatement::When(Cond::Compare(Relation::Less, a, number(0.0)), r, number(-1.0)));
     Emulated::Exact(Expr::Var(r))
 }
 
@@ -18,11 +18,11 @@ pub fn sign(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 /// is toward zero, so `a` and `f` have one sign and differ by less than one.
 pub fn fup(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let a = rewriter.held(a);
-    let f = Expr::Var(rewriter.hold(apply(Func::Fix, a.clone())));
-    let r = rewriter.hold(f.clone());
+    let f = Expr::Var(rewriter.materialize(apply(Func::Fix, a.clone())));
+    let r = rewriter.materialize(f.clone());
     for (relation, step) in [(Relation::Greater, 1.0), (Relation::Less, -1.0)] {
         let cond = Cond::Compare(relation, a.clone(), f.clone());
-        rewriter.first(Prelude::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
+        rewriter.first(PreStatement::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
     }
     Emulated::Exact(Expr::Var(r))
 }
@@ -32,15 +32,15 @@ pub fn fup(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
 /// (0.49999999999999994 plus a half is 1). The target must have FIX.
 pub fn nearest(a: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
     if target.function(Func::Round, 1).is_some() {
-        return Expr::Var(rewriter.hold(apply(Func::Round, a)));
+        return Expr::Var(rewriter.materialize(apply(Func::Round, a)));
     }
     let a = rewriter.held(a);
-    let f = Expr::Var(rewriter.hold(apply(Func::Fix, a.clone())));
-    let rest = Expr::Var(rewriter.hold(Expr::binary(BinOp::Sub, a, f.clone())));
-    let r = rewriter.hold(f.clone());
+    let f = Expr::Var(rewriter.materialize(apply(Func::Fix, a.clone())));
+    let rest = Expr::Var(rewriter.materialize(Expr::binary(BinOp::Sub, a, f.clone())));
+    let r = rewriter.materialize(f.clone());
     for (relation, half, step) in [(Relation::GreaterEqual, 0.5, 1.0), (Relation::LessEqual, -0.5, -1.0)] {
         let cond = Cond::Compare(relation, rest.clone(), number(half));
-        rewriter.first(Prelude::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
+        rewriter.first(PreStatement::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
     }
     Expr::Var(r)
 }
@@ -80,7 +80,7 @@ pub fn round_places(a: Expr, places: &Expr, rewriter: &mut Rewriter<'_>, target:
         return super::missing(Func::Round.name(), target);
     }
     let scale = number(10f64.powi(places as i32));
-    let scaled = rewriter.hold(Expr::binary(BinOp::Mul, a, scale.clone()));
+    let scaled = rewriter.materialize(Expr::binary(BinOp::Mul, a, scale.clone()));
     let rounded = nearest(Expr::Var(scaled), rewriter, target);
     let value = Expr::binary(BinOp::Div, rounded, scale);
     Emulated::Near(

@@ -4,7 +4,7 @@ use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};
-use crate::legalize::{Prelude, Rewriter};
+use crate::legalize::{PreStatement, Rewriter};
 
 /// Law: `SIN[a]/COS[a]`. Off by at most two units of the last digit; at 90 degrees it divides by
 /// what the control has for `COS[90]`, as the tangent itself would.
@@ -40,14 +40,14 @@ pub fn inverse(
     }
     let x = rewriter.held(a);
     let square = Expr::binary(BinOp::Mul, x.clone(), x.clone());
-    let root = rewriter.hold(apply(Func::Sqrt, Expr::binary(BinOp::Sub, number(1.0), square)));
+    let root = rewriter.materialize(apply(Func::Sqrt, Expr::binary(BinOp::Sub, number(1.0), square)));
     let zero = Cond::Compare(Relation::Equal, Expr::Var(root), number(0.0));
-    let asin = rewriter.hold(Expr::binary(BinOp::Mul, number(90.0), x.clone()));
+    let asin = rewriter.materialize(Expr::binary(BinOp::Mul, number(90.0), x.clone()));
     // The divisor is made 1 where it would be 0; the quotient is not used there.
-    let divisor = rewriter.hold(Expr::Var(root));
-    rewriter.first(Prelude::When(zero.clone(), divisor, number(1.0)));
+    let divisor = rewriter.materialize(Expr::Var(root));
+    rewriter.first(PreStatement::When(zero.clone(), divisor, number(1.0)));
     let inside = apply(Func::Atan, Expr::binary(BinOp::Div, x, Expr::Var(divisor)));
-    rewriter.first(Prelude::When(zero.negated(), asin, inside));
+    rewriter.first(PreStatement::When(zero.negated(), asin, inside));
     let value = match function {
         Func::Asin if wanted == "270..90" => wrapped(Expr::Var(asin), rewriter),
         Func::Asin => Expr::Var(asin),
@@ -68,10 +68,10 @@ fn unwrapped(angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
 
 /// An angle, turned by some degrees where it stands in this relation to a limit.
 fn turned_where(relation: Relation, limit: f64, by: f64, angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
-    let angle = rewriter.hold(angle);
+    let angle = rewriter.materialize(angle);
     let beyond = Cond::Compare(relation, Expr::Var(angle), number(limit));
     let turned = Expr::binary(BinOp::Add, Expr::Var(angle), number(by));
-    rewriter.first(Prelude::When(beyond, angle, turned));
+    rewriter.first(PreStatement::When(beyond, angle, turned));
     Expr::Var(angle)
 }
 
@@ -94,29 +94,34 @@ pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, ta
     }
     let (y, x) = (rewriter.held(y), rewriter.held(x));
     let compare = |relation, a: &Expr| Cond::Compare(relation, a.clone(), number(0.0));
-    let divisor = rewriter.hold(x.clone());
-    rewriter.first(Prelude::When(compare(Relation::Equal, &x), divisor, y.clone()));
-    let angle = rewriter.hold(apply(Func::Atan, Expr::binary(BinOp::Div, y.clone(), Expr::Var(divisor))));
+    let divisor = rewriter.materialize(x.clone());
+    rewriter.first(PreStatement::When(compare(Relation::Equal, &x), divisor, y.clone()));
+    let angle =
+        rewriter.materialize(apply(Func::Atan, Expr::binary(BinOp::Div, y.clone(), Expr::Var(divisor))));
     let turned = |by: f64| Expr::binary(BinOp::Add, Expr::Var(angle), number(by));
-    rewriter.first(Prelude::When(compare(Relation::Less, &x), angle, turned(180.0)));
+    rewriter.first(PreStatement::When(compare(Relation::Less, &x), angle, turned(180.0)));
     let upright = |relation| Cond::And(vec![compare(Relation::Equal, &x), compare(relation, &y)]);
     if x.constant().is_none_or(|x| x == 0.0) {
-        rewriter.first(Prelude::When(upright(Relation::Greater), angle, number(90.0)));
-        rewriter.first(Prelude::When(upright(Relation::Less), angle, number(-90.0)));
+        rewriter.first(PreStatement::When(upright(Relation::Greater), angle, number(90.0)));
+        rewriter.first(PreStatement::When(upright(Relation::Less), angle, number(-90.0)));
     }
     match wanted.as_str() {
         "0..360" => {
-            rewriter.first(Prelude::When(compare(Relation::Less, &Expr::Var(angle)), angle, turned(360.0)));
+            rewriter.first(PreStatement::When(
+                compare(Relation::Less, &Expr::Var(angle)),
+                angle,
+                turned(360.0),
+            ));
             Emulated::Exact(Expr::Var(angle))
         }
         "-180..180" => {
             let above = Cond::Compare(Relation::Greater, Expr::Var(angle), number(180.0));
-            rewriter.first(Prelude::When(above, angle, turned(-360.0)));
+            rewriter.first(PreStatement::When(above, angle, turned(-360.0)));
             Emulated::Exact(Expr::Var(angle))
         }
         _ => {
             let above = Cond::Compare(Relation::Greater, Expr::Var(angle), number(180.0));
-            rewriter.first(Prelude::When(above, angle, turned(-360.0)));
+            rewriter.first(PreStatement::When(above, angle, turned(-360.0)));
             Emulated::Near(
                 Expr::Var(angle),
                 "no source gives the range of the source's two-argument form; -180 to 180 is taken".into(),

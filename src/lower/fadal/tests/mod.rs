@@ -10,7 +10,7 @@ use super::lower;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::ir::text::print;
-use crate::ir::{Module, Site};
+use crate::ir::{Module, SourceInfo};
 use crate::syntax::{fadal::parse_line, parse_file};
 
 /// The control, with lines of a machine profile.
@@ -25,10 +25,10 @@ fn lowered(source: &str, control: &Control) -> (Vec<String>, Vec<Diagnostic>) {
     let mut found = Vec::new();
     for (mut program, findings) in lower(&parsed, 0, "test", control).programs {
         found.extend(findings);
-        program.site = Site::default();
+        program.site = SourceInfo::default();
         for block in &mut program.blocks {
-            block.term.site = Site::default();
-            block.stmts.iter_mut().for_each(|stmt| stmt.site = Site::default());
+            block.term.site = SourceInfo::default();
+            block.stmts.iter_mut().for_each(|stmt| stmt.site = SourceInfo::default());
         }
         module.programs.push(program);
     }

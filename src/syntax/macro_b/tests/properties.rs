@@ -1,8 +1,8 @@
 //! Laws over random input.
 
 use super::super::{
-    bits_among_arithmetic, blocks, blocks::Keep, known, lexeme::Row, likeness::LONGEST, likeness::likeness,
-    read_line, scanner, shape, tree,
+    bits_among_arithmetic, blocks, blocks::Keep, cache_key::LONGEST, cache_key::cache_key, lexeme::Row,
+    parse_cache, read_line, scanner, shape, tree,
 };
 use super::{BOTH, Dialect};
 use crate::syntax::support::readable;
@@ -164,14 +164,14 @@ fn numbers() -> impl Strategy<Value = Vec<u8>> {
 /// What is remembered of a block's likeness is what the grammar makes of the block.
 fn alike_is_read_alike(dialect: &Dialect, block: &[u8]) {
     let mut key = [0; LONGEST];
-    let Some(like) = likeness(block, &mut key, &mut [0; LONGEST]) else { return };
+    let Some(like) = cache_key(block, &mut key, &mut [0; LONGEST]) else { return };
     let mut row = Row::new();
     let mut read = |text: &[u8], by: &dyn Fn(Span, &mut Row) -> bool| {
         row.clear();
         by(Span::new(0, text.len() as u32), &mut row).then(|| row.clone())
     };
-    let remember = |span, row: &mut Row| known::read(dialect.rules, like, span, row).is_ok();
-    let remembered = |span, row: &mut Row| known::read(dialect.rules, block, span, row).is_ok();
+    let remember = |span, row: &mut Row| parse_cache::read(dialect.rules, like, span, row).is_ok();
+    let remembered = |span, row: &mut Row| parse_cache::read(dialect.rules, block, span, row).is_ok();
     let by_grammar = |_, row: &mut Row| (dialect.rules.read)(&readable(block), 0, row).is_ok();
     let is_read = read(like, &remember).is_some();
     let expected = read(block, &by_grammar);
@@ -182,7 +182,7 @@ fn alike_is_read_alike(dialect: &Dialect, block: &[u8]) {
 /// What is read without tokens or not at all is what is read; returns how many lines are sound, and how many have faults.
 fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
     let is_sound = |source: &[u8], line: Span| blocks::is_sound(dialect.rules, source, line);
-    let (mut sound, mut faulty, mut faults) = (0, 0, Vec::new());
+    let (mut precheck, mut faulty, mut faults) = (0, 0, Vec::new());
     for line in Lines::new(source).map(|line| line.text) {
         let mut read = Vec::new();
         (dialect.parse_line)(source, line, &mut read);
@@ -191,15 +191,15 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
         if is_sound(source, line) {
             let unread = |block: &Block| block.items.iter().any(|item| item.kind == ItemKind::Unparsed);
             assert!(errors.is_empty() && !read.iter().any(unread), "{}: {text}: {errors:?}", dialect.name);
-            sound += usize::from(!blocks::is_plain(source, line));
+            precheck += usize::from(!blocks::is_plain(source, line));
         }
         read.iter().for_each(|block| alike_is_read_alike(dialect, block.span.of(source)));
         let mut key = [0; LONGEST];
-        if let Some(like) = likeness(line.of(source), &mut key, &mut [0; LONGEST]) {
+        if let Some(like) = cache_key(line.of(source), &mut key, &mut [0; LONGEST]) {
             let whole = Span::new(0, like.len() as u32);
             let found = |source: &[u8], line: Span| blocks::is_found_sound(dialect.rules, source, line);
             assert_eq!(found(like, whole), found(source, line), "{}: {text}", dialect.name);
-            assert_eq!(likeness(like, &mut [0; LONGEST], &mut [0; LONGEST]), Some(like), "{text}");
+            assert_eq!(cache_key(like, &mut [0; LONGEST], &mut [0; LONGEST]), Some(like), "{text}");
         }
         faulty += usize::from(!errors.is_empty());
         faults.extend(errors);
@@ -212,16 +212,16 @@ fn shortcuts_agree(dialect: &Dialect, source: &[u8]) -> (usize, usize) {
         let found = parse_faults(source, dialect.parse_line, dialect.is_sound);
         assert_eq!(found, faults, "{}: {}", dialect.name, source.escape_ascii());
     }
-    (sound, faulty)
+    (precheck, faulty)
 }
 
 #[test]
 fn what_is_not_read_has_no_fault() {
     for dialect in BOTH {
-        let (sound, faulty) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
+        let (precheck, faulty) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
         let agree = |source: &[u8]| {
             let (more_sound, more_faulty) = shortcuts_agree(&dialect, source);
-            sound.set(sound.get() + more_sound);
+            precheck.set(precheck.get() + more_sound);
             faulty.set(faulty.get() + more_faulty);
         };
         let files: Vec<Vec<u8>> = dialect.corpus().into_iter().map(|(_, source)| source).collect();
@@ -229,11 +229,11 @@ fn what_is_not_read_has_no_fault() {
         dialect.fragments().iter().for_each(|fragment| agree(fragment.text.as_bytes()));
         TRICKY.iter().for_each(|line| agree(line));
         over(1500, &text(), |source| agree(&source));
-        sound.set(0);
+        precheck.set(0);
         faulty.set(0);
         over(4000, &statements(), |source| agree(&source));
         over(4000, &numbers(), |source| agree(&source));
-        assert!(sound.get() > 1000, "only {} lines are sound", sound.get());
+        assert!(precheck.get() > 1000, "only {} lines are sound", precheck.get());
         assert!(faulty.get() > 1000, "only {} lines have faults", faulty.get());
         let damaged = (proptest::sample::select(files), any::<(u16, u16)>(), text());
         over(60, &damaged, |(mut source, (from, len), insert)| {

@@ -202,7 +202,7 @@ impl Draw<'_, '_> {
             Frame::Rotated,
             Frame::Mirrored,
             Frame::Scaled,
-            Frame::Left,
+            Frame::ExitState,
             Frame::Right,
             Frame::Long,
             Frame::Shifted,

@@ -7,7 +7,7 @@ use crate::ir::{
 
 /// Kinds of things, besides operations and words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Thing {
+pub enum Feature {
     /// A code known by its number.
     Code,
     /// An NC block without words.
@@ -60,21 +60,21 @@ pub enum Thing {
 
 /// A census of programs.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Census {
+pub struct Features {
     ops: [u64; 4],
     roles: [u64; 4],
     things: u32,
 }
 
-impl Census {
+impl Features {
     /// Of these programs.
     pub fn of(programs: &[Program]) -> Self {
-        let mut census = Self::default();
+        let mut features = Self::default();
         for block in programs.iter().flat_map(|program| &program.blocks) {
-            block.stmts.iter().for_each(|stmt| census.stmt(&stmt.kind));
-            census.term(&block.term.kind);
+            block.stmts.iter().for_each(|stmt| features.stmt(&stmt.kind));
+            features.term(&block.term.kind);
         }
-        census
+        features
     }
 
     /// Adds what stands elsewhere.
@@ -85,7 +85,7 @@ impl Census {
     }
 
     /// True where there is one.
-    pub fn has(&self, thing: Thing) -> bool {
+    pub fn has(&self, thing: Feature) -> bool {
         self.things >> thing as u32 & 1 == 1
     }
 
@@ -104,7 +104,7 @@ impl Census {
         self.roles[role as usize / 64] >> (role as usize % 64) & 1 == 1
     }
 
-    fn add(&mut self, thing: Thing) {
+    fn add(&mut self, thing: Feature) {
         self.things |= 1 << thing as u32;
     }
 
@@ -113,29 +113,29 @@ impl Census {
             StmtKind::Nc(nc) => return self.nc(nc),
             StmtKind::ModalCall(call) => {
                 self.callee(&call.callee);
-                self.add(Thing::Modal);
+                self.add(Feature::Modal);
             }
-            StmtKind::ModalCallOff => self.add(Thing::Modal),
-            StmtKind::Sync | StmtKind::LimitLookahead(_) => self.add(Thing::Wait),
-            StmtKind::Print { .. } => self.add(Thing::Print),
-            StmtKind::Output(_) => self.add(Thing::Output),
-            StmtKind::Input { .. } => self.add(Thing::Input),
-            StmtKind::ClearAll(_) => self.add(Thing::Clear),
-            StmtKind::Alarm { .. } | StmtKind::StopMessage { .. } => self.add(Thing::Message),
-            StmtKind::SetNames { .. } => self.add(Thing::Variable),
+            StmtKind::ModalCallOff => self.add(Feature::Modal),
+            StmtKind::Sync | StmtKind::LimitLookahead(_) => self.add(Feature::Wait),
+            StmtKind::Print { .. } => self.add(Feature::Print),
+            StmtKind::Output(_) => self.add(Feature::Output),
+            StmtKind::Input { .. } => self.add(Feature::Input),
+            StmtKind::ClearAll(_) => self.add(Feature::Clear),
+            StmtKind::Alarm { .. } | StmtKind::StopMessage { .. } => self.add(Feature::Message),
+            StmtKind::SetNames { .. } => self.add(Feature::Variable),
             _ => {}
         }
         kind.exprs(&mut |e| self.value(e));
         kind.target().iter().for_each(|place| match place {
             Place::Var(var) => self.variable(*var),
-            Place::System(..) => self.add(Thing::System),
+            Place::System(..) => self.add(Feature::System),
             Place::Indirect(bank, _) => self.indirect(*bank),
         });
     }
 
     fn nc(&mut self, nc: &Nc) {
         if nc.items.is_empty() {
-            self.add(Thing::Emptied);
+            self.add(Feature::Emptied);
         }
         for item in &nc.items {
             match item {
@@ -145,7 +145,7 @@ impl Census {
                     self.value(value);
                 }
                 NcItem::Code(_, value) => {
-                    self.add(Thing::Code);
+                    self.add(Feature::Code);
                     self.value(value);
                 }
             }
@@ -155,10 +155,10 @@ impl Census {
     fn term(&mut self, kind: &TermKind) {
         match kind {
             TermKind::Call { call, .. } => self.callee(&call.callee),
-            TermKind::Chain(_) => self.add(Thing::Chain),
-            TermKind::Return { to: Some(_) } => self.add(Thing::ReturnTo),
+            TermKind::Chain(_) => self.add(Feature::Chain),
+            TermKind::Return { to: Some(_) } => self.add(Feature::ReturnTo),
             TermKind::Branch { cond: Cond::And(_) | Cond::Or(_) | Cond::Not(_), .. } => {
-                self.add(Thing::Compound);
+                self.add(Feature::Compound);
             }
             TermKind::Jump(_) => return,
             _ => {}
@@ -167,35 +167,35 @@ impl Census {
     }
 
     fn variable(&mut self, var: Var) {
-        self.add(Thing::Variable);
+        self.add(Feature::Variable);
         if var.class == Class::Temp {
-            self.add(Thing::Temp);
+            self.add(Feature::Temp);
         }
     }
 
     fn indirect(&mut self, bank: Bank) {
-        self.add(Thing::Indirect);
+        self.add(Feature::Indirect);
         if bank != Bank::Numbered {
-            self.add(Thing::Banked);
+            self.add(Feature::Banked);
         }
     }
 
     fn callee(&mut self, callee: &Callee) {
-        self.add(if matches!(callee, Callee::Block(_)) { Thing::LocalCall } else { Thing::Call });
+        self.add(if matches!(callee, Callee::Block(_)) { Feature::LocalCall } else { Feature::Call });
     }
 
     fn value(&mut self, e: &Expr) {
         match e {
             Expr::Number(value) => {
                 return if is_long(*value) {
-                    self.add(Thing::Long)
+                    self.add(Feature::Long)
                 };
             }
-            Expr::Increments(_) => return self.add(Thing::Increments),
+            Expr::Increments(_) => return self.add(Feature::Increments),
             Expr::Negate(inner) => return self.value(inner),
             Expr::Var(var) => self.variable(*var),
             Expr::System(_, subscripts) => {
-                self.add(Thing::System);
+                self.add(Feature::System);
                 subscripts.iter().for_each(|subscript| self.value(subscript));
             }
             Expr::Indirect(bank, index) => {
@@ -204,21 +204,21 @@ impl Census {
             }
             Expr::Binary(op, operands) => {
                 if matches!(op, BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor) {
-                    self.add(Thing::Function);
+                    self.add(Feature::Function);
                 }
                 operands.iter().for_each(|operand| self.value(operand));
             }
             Expr::Call(_, arguments) => {
-                self.add(Thing::Function);
+                self.add(Feature::Function);
                 arguments.iter().for_each(|argument| self.value(argument));
             }
             Expr::Truth(cond) => {
-                self.add(Thing::Truth);
+                self.add(Feature::Truth);
                 cond.exprs(&mut |operand| self.value(operand));
             }
             Expr::Vacant => {}
         }
-        self.add(Thing::Computed);
+        self.add(Feature::Computed);
     }
 }
 

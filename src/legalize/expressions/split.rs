@@ -7,9 +7,11 @@
 
 use crate::canon::{Func, Sys};
 use crate::dialect::Control;
-use crate::ir::{Block, Class, Cond, Expr, NcItem, Place, Program, Site, Stmt, StmtKind, TermKind, Var};
+use crate::ir::{
+    Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
+};
 use crate::legalize::context::Context;
-use crate::legalize::expressions::measure::{Measure, REGISTER, Size};
+use crate::legalize::expressions::cost::{Measure, REGISTER, Size};
 use crate::legalize::rewrite::{self, Position, highest_temp};
 
 /// Characters that stand before a block's own: a block skip, a sequence number.
@@ -97,7 +99,7 @@ impl Cutter<'_> {
         let count = self.before.len();
         let assigns = self.before.drain(..).map(|(var, value)| Stmt {
             kind: StmtKind::Assign { target: Place::Var(var), value },
-            site: Site { skip, ..Site::default() },
+            site: SourceInfo { skip, ..SourceInfo::default() },
         });
         stmts.splice(at..at, assigns);
         count
@@ -160,7 +162,7 @@ impl Cutter<'_> {
             });
             sizes[worst] = (Size { depth: 0, length: REGISTER }, true);
             let Some(taken) = taken else { continue };
-            let temp = Expr::Var(self.hold(taken));
+            let temp = Expr::Var(self.materialize(taken));
             at = 0;
             e.exprs_mut(&mut |operand| {
                 if at == worst {
@@ -203,7 +205,7 @@ impl Cutter<'_> {
             let Some((at, _)) = longest else { return };
             let Some(NcItem::Word(_, value)) = items.get_mut(at) else { return };
             let taken = std::mem::replace(value, Expr::Vacant);
-            *value = Expr::Var(self.hold(taken));
+            *value = Expr::Var(self.materialize(taken));
         }
     }
 
@@ -223,11 +225,11 @@ impl Cutter<'_> {
                 return;
             }
             let taken = std::mem::replace(side, Expr::Vacant);
-            *side = Expr::Var(self.hold(taken));
+            *side = Expr::Var(self.materialize(taken));
         }
     }
 
-    fn hold(&mut self, value: Expr) -> Var {
+    fn materialize(&mut self, value: Expr) -> Var {
         self.highest += 1;
         let temp = Var { class: Class::Temp, number: self.highest };
         self.before.push((temp, value));

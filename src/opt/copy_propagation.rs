@@ -16,11 +16,11 @@ use crate::ir::{Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The pass.
-pub struct Copies;
+pub struct CopyPropagation;
 
-impl Pass for Copies {
+impl Pass for CopyPropagation {
     fn name(&self) -> &'static str {
-        "copies"
+        "copy-propagation"
     }
 
     fn keeps_legal(&self) -> bool {
@@ -36,7 +36,7 @@ impl Pass for Copies {
             return;
         }
         for block in &mut program.blocks {
-            let mut copies = Known { sources: BTreeMap::new(), named: &library.named, level };
+            let mut copies = Available { sources: BTreeMap::new(), named: &library.named, level };
             for stmt in &mut block.stmts {
                 if !matches!(stmt.kind, StmtKind::Nc(_) | StmtKind::ModalCall(_)) {
                     stmt.kind.exprs_mut(&mut |e| copies.replace(e));
@@ -51,13 +51,13 @@ impl Pass for Copies {
 }
 
 /// What is known at a place of a block.
-struct Known<'k> {
+struct Available<'k> {
     sources: BTreeMap<Var, Expr>,
     named: &'k BTreeSet<Var>,
     level: Level,
 }
 
-impl Known<'_> {
+impl Available<'_> {
     fn replace(&self, e: &mut Expr) {
         match e {
             Expr::Var(var) => {

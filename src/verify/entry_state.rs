@@ -12,7 +12,7 @@ const MORE_LOOKS: usize = 24;
 
 /// What the callers of a program give it, as far as their runs show.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
+pub struct EntryState {
     /// What is in force at its start whoever calls it: of each group of [`crate::control::machine::GIVEN`] at the most
     /// one.
     pub modes: Vec<Op>,
@@ -26,7 +26,7 @@ pub struct Given {
     pub never_come_to: bool,
 }
 
-impl Given {
+impl EntryState {
     /// Takes in what another run gives.
     fn add(&mut self, modes: &[Op], entry: &Entry) {
         if !std::mem::replace(&mut self.any, true) {
@@ -108,7 +108,7 @@ impl Given {
 ///
 /// Programs that none calls give first; then, in what they are given themselves, those that these enter give to what
 /// was not come to yet. One that no run comes to begins in what was in force where the runs of its callers ended.
-pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, Given> {
+pub fn given(job: &Job<'_>) -> BTreeMap<ProgramRef, EntryState> {
     given_by(job, |callers, gives| callers.iter().map(gives).collect())
 }
 
@@ -119,15 +119,15 @@ pub(super) type Gives<'g> = dyn Fn(&ProgramRef) -> Shown + Sync + 'g;
 pub(super) fn given_by(
     job: &Job<'_>,
     all: impl Fn(&[ProgramRef], &Gives<'_>) -> Vec<Shown>,
-) -> BTreeMap<ProgramRef, Given> {
+) -> BTreeMap<ProgramRef, EntryState> {
     let links = job.source.links();
     let roots = || links.programs().iter().copied().filter(|program| is_root(job, program));
-    let mut found: BTreeMap<ProgramRef, Given> = BTreeMap::new();
-    let mut ended: BTreeMap<ProgramRef, Given> = BTreeMap::new();
+    let mut found: BTreeMap<ProgramRef, EntryState> = BTreeMap::new();
+    let mut ended: BTreeMap<ProgramRef, EntryState> = BTreeMap::new();
     let mut gone: BTreeSet<ProgramRef> = BTreeSet::new();
     let mut callers: Vec<ProgramRef> = roots().filter(|program| !links.is_called(*program)).collect();
     loop {
-        let mut came: BTreeMap<ProgramRef, Given> = BTreeMap::new();
+        let mut came: BTreeMap<ProgramRef, EntryState> = BTreeMap::new();
         for shown in all(&callers, &|caller| gives(job, *caller, found.get(caller))) {
             for (to, ran) in shown.met {
                 if !found.contains_key(&to) {
@@ -135,8 +135,9 @@ pub(super) fn given_by(
                 }
             }
             for to in shown.missed {
-                let given =
-                    ended.entry(to).or_insert_with(|| Given { never_come_to: true, ..Given::default() });
+                let given = ended
+                    .entry(to)
+                    .or_insert_with(|| EntryState { never_come_to: true, ..EntryState::default() });
                 shown.ends.iter().for_each(|modes| given.add(modes, &Entry::default()));
             }
         }
@@ -170,7 +171,7 @@ pub(super) struct Shown {
 }
 
 /// Runs a caller, more often where some that its text calls are not come to.
-fn gives(job: &Job<'_>, caller: ProgramRef, given: Option<&Given>) -> Shown {
+fn gives(job: &Job<'_>, caller: ProgramRef, given: Option<&EntryState>) -> Shown {
     let links = job.source.links();
     let callees = links.callees(caller).iter().copied().filter(|callee| *callee != caller);
     let mut shown = Shown { missed: callees.collect(), ..Shown::default() };

@@ -3,13 +3,13 @@
 use super::{Callees, Routine};
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
 use crate::ir::analysis::modal::calls_of;
-use crate::ir::analysis::{Cfg, Row, Universe};
+use crate::ir::analysis::{BitRow, Cfg, Universe};
 use crate::ir::{Block, BlockId, Call, Module, Place, TermKind};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What every way through a called routine writes; absent while no way through it is known.
-pub(super) struct Written(BTreeMap<Routine, Option<Row>>);
+pub(super) struct Written(BTreeMap<Routine, Option<BitRow>>);
 
 impl Written {
     pub(super) fn of(module: &Module, callees: &Callees<'_>, universe: &Universe) -> Self {
@@ -45,7 +45,7 @@ impl Written {
     }
 
     /// What is surely written when a call at the end of a block comes back.
-    pub(super) fn by_end(&self, routine: Routine, block: &Block) -> Option<&Row> {
+    pub(super) fn by_end(&self, routine: Routine, block: &Block) -> Option<&BitRow> {
         match &block.term.kind {
             TermKind::Call { call, .. } if runs(call) => self.0.get(&routine)?.as_ref(),
             _ => None,
@@ -55,7 +55,7 @@ impl Written {
 
 /// Rows of what every way writes.
 #[derive(Clone)]
-struct Sure(Row);
+struct Sure(BitRow);
 
 impl Lattice for Sure {
     fn join(&mut self, other: &Self) -> bool {
@@ -76,7 +76,7 @@ struct Ways<'w> {
 
 impl Ways<'_> {
     /// What all of them write; none where none comes to a return.
-    fn through(&self, cfg: &Cfg) -> Option<Row> {
+    fn through(&self, cfg: &Cfg) -> Option<BitRow> {
         let program = self.module.programs.get(self.routine.0)?;
         let starts = solve(self, program, cfg);
         let returns = program.ids().zip(&program.blocks).filter_map(|(id, block)| {
@@ -94,7 +94,7 @@ impl Ways<'_> {
 
     /// What the call at the end of a block surely writes: none where that says nothing, and no row where it is not
     /// known to come back so far.
-    fn called(&self, block: &Block) -> Option<Option<&Row>> {
+    fn called(&self, block: &Block) -> Option<Option<&BitRow>> {
         let TermKind::Call { call, .. } = &block.term.kind else { return None };
         let callee = self.callees.routine(self.routine.0, call).filter(|_| runs(call))?;
         self.written.0.get(&callee).map(Option::as_ref)

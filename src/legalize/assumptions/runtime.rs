@@ -8,18 +8,18 @@ use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side, matters};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind, TermKind};
-use crate::legalize::census::{Census, Thing};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
 
 /// True where something is computed or called, a cycle stands, or an arc by its radius has an end that counts increments.
-pub fn concerns(census: &Census) -> bool {
+pub fn concerns(features: &Features) -> bool {
     let computed =
-        [Thing::Computed, Thing::System, Thing::Indirect].into_iter().any(|thing| census.has(thing));
+        [Feature::Computed, Feature::System, Feature::Indirect].into_iter().any(|thing| features.has(thing));
     computed
-        || census.has(Thing::Call)
-        || census.any_op(Op::is_cycle)
-        || census.role(Role::ArcRadius) && census.has(Thing::Increments)
+        || features.has(Feature::Call)
+        || features.any_op(Op::is_cycle)
+        || features.role(Role::ArcRadius) && features.has(Feature::Increments)
 }
 
 /// Reports what the programs of a library rest on.

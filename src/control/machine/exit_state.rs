@@ -20,7 +20,7 @@ const MODES: [Group; 8] = [
 
 /// What is in force, besides the offsets, spindle and coolant that events tell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Left {
+pub struct ExitState {
     /// The operation in force in each modal group.
     pub modes: Vec<(Group, Op)>,
     /// True where the program named its unit; else that is the one it began in.
@@ -57,12 +57,12 @@ pub struct Left {
 
 impl Machine {
     /// What is in force now, at the end of a run: the machine's tables go with it.
-    pub fn left(&mut self) -> Left {
+    pub fn left(&mut self) -> ExitState {
         let rounded = self.off_by();
         let is_lost = self.length_lost.is_some();
         let length = if is_lost { self.length_value() } else { self.frame.length };
         self.frame.length = 0.0;
-        Left {
+        ExitState {
             modes: MODES.into_iter().filter_map(|group| Some((group, self.modal(group)?))).collect(),
             unit_named: self.unit_named,
             feed: self.feed,

@@ -44,7 +44,7 @@ pub fn is_sound(rules: &Rules, source: &[u8], row: &[Lexeme]) -> bool {
 impl Met {
     /// Takes the next leaf; false where it may be wrong.
     fn take(&mut self, rules: &Rules, kind: Lex, text: &[u8]) -> bool {
-        let sound = match kind {
+        let precheck = match kind {
             Lex::Letter => self.word(text),
             Lex::Number => self.number(rules, text),
             Lex::Hash => {
@@ -68,7 +68,7 @@ impl Met {
         if !matches!(kind, Lex::Comment | Lex::EndOfBlock) {
             self.last_said = kind;
         }
-        sound
+        precheck
     }
 
     fn word(&mut self, text: &[u8]) -> bool {

@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 
 /// What a program may leave in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Left {
+pub struct ExitUnit {
     /// It names inches.
     inch: bool,
     /// It names millimetres.
@@ -26,7 +26,7 @@ pub struct Left {
     pub outside: bool,
 }
 
-impl Left {
+impl ExitUnit {
     /// By program of a library.
     pub fn of(module: &Module, source: &Control) -> Vec<Self> {
         let mut left = own(module, source);
@@ -101,13 +101,13 @@ impl Left {
 }
 
 /// What the codes of each program name.
-fn own(module: &Module, source: &Control) -> Vec<Left> {
+fn own(module: &Module, source: &Control) -> Vec<ExitUnit> {
     let summaries = LazyCell::new(|| Summaries::of(module));
     let is_unit = |number: f64| {
         let row = |number| source.code('G', number, &[]);
         [number, number.round()].into_iter().filter_map(row).any(|row| row.op.group() == Group::Units)
     };
-    let mut left = vec![Left::default(); module.programs.len()];
+    let mut left = vec![ExitUnit::default(); module.programs.len()];
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {

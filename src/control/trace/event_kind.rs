@@ -56,7 +56,7 @@ pub enum FeedMode {
 pub enum Side {
     #[default]
     Off,
-    Left,
+    ExitState,
     Right,
 }
 
@@ -75,7 +75,7 @@ pub enum Spindle {
 /// What happened.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
-pub enum Happening {
+pub enum EventKind {
     /// A rapid move.
     Rapid {
         /// Where it began.

@@ -1,6 +1,6 @@
 //! What lines have in common that are read alike: all but the digits of most of their numbers.
 
-use super::sound::USUAL_DIGITS;
+use super::precheck::USUAL_DIGITS;
 
 /// Bytes of the longest line that has a likeness.
 pub const LONGEST: usize = 64;
@@ -10,7 +10,7 @@ pub const LONGEST: usize = 64;
 /// line: that of a G code or of a loop, and behind a slash, where one digit is read otherwise than several.
 ///
 /// Also says where in the line ends what each of its bytes stands for. None of a long line.
-pub fn likeness<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; LONGEST]) -> Option<&'k [u8]> {
+pub fn cache_key<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; LONGEST]) -> Option<&'k [u8]> {
     if line.len() > LONGEST {
         return None;
     }

@@ -13,11 +13,11 @@ use crate::ir::{Block, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use std::cell::Cell;
 
 /// The pass.
-pub struct DeadTemps;
+pub struct DeadStores;
 
-impl Pass for DeadTemps {
+impl Pass for DeadStores {
     fn name(&self) -> &'static str {
-        "dead-temps"
+        "dead-stores"
     }
 
     fn run(&self, program: &mut Program, library: &Library, _: Level) {

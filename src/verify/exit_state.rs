@@ -10,7 +10,7 @@ use super::observe::returns;
 use super::side::Side;
 use super::substitutes::lacks;
 use crate::canon::{Group, Op};
-use crate::control::machine::Left;
+use crate::control::machine::ExitState;
 use crate::control::scenario::{AXES, Axes, Tool};
 use crate::control::{Run, Table};
 use crate::dialect::Question;
@@ -42,7 +42,7 @@ pub fn left_differs(
 }
 
 /// What a person could tell of the machine behind the end.
-pub(super) fn seen_differs(ours: &Left, theirs: &Left, tolerance: Tolerance) -> Option<String> {
+pub(super) fn seen_differs(ours: &ExitState, theirs: &ExitState, tolerance: Tolerance) -> Option<String> {
     let allowed = tolerance.between(ours.rounded, theirs.rounded).max(tolerance.rounded);
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;
     let places = |a: &Axes, b: &Axes| a.iter().zip(b).any(|(a, b)| apart(*a, *b));
@@ -80,8 +80,8 @@ fn first_apart<T: Default>(
 /// Where the source's control goes straight in a block of an arc that has no centre, arcs and lines leave the same.
 /// A mode is none where a control has no code for what the other is in: no program of that control can rest on it.
 fn state_differs(
-    (source, ours): (&Side<'_>, &Left),
-    (target, theirs): (&Side<'_>, &Left),
+    (source, ours): (&Side<'_>, &ExitState),
+    (target, theirs): (&Side<'_>, &ExitState),
     tolerance: Tolerance,
     substituted: &mut BTreeSet<String>,
 ) -> Option<String> {
@@ -121,7 +121,7 @@ fn state_differs(
     if !uncancelled && (is_apart || (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis]))) {
         return Some("with another shift of coordinates".into());
     }
-    let turn = |left: &Left| left.rotation.map_or(0.0, |turn| turn.degrees);
+    let turn = |left: &ExitState| left.rotation.map_or(0.0, |turn| turn.degrees);
     if apart(turn(ours), turn(theirs)) {
         return Some("with another rotation of coordinates".into());
     }

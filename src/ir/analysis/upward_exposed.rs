@@ -4,7 +4,7 @@ mod written;
 
 use super::modal::calls_of;
 use crate::ir::analysis::dataflow::{Analysis, Direction, solve};
-use crate::ir::analysis::{CallGraph, Cfg, Row, Universe, VarSet};
+use crate::ir::analysis::{BitRow, CallGraph, Cfg, Universe, VarSet};
 use crate::ir::{Block, BlockId, Call, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::syntax::ProgramName;
 use std::borrow::Cow;
@@ -19,26 +19,27 @@ type Routine = (usize, BlockId);
 /// A backward analysis over all programs until nothing changes. A callee that is called at least once takes
 /// off what every way through it writes; one outside the library adds nothing, because a diagnostic of
 /// its own speaks of it. A computed call may run any program. The sets may be too large, never too small.
-pub struct Exposed {
+pub struct UpwardExposed {
     universe: Universe,
     /// What is live where a routine is entered.
-    entries: BTreeMap<Routine, Row>,
+    entries: BTreeMap<Routine, BitRow>,
 }
 
-impl Exposed {
+impl UpwardExposed {
     /// Analyses a library.
     pub fn of(module: &Module) -> Self {
         Self::among(module, universe(module))
     }
 
-    /// As [`Exposed::of`], of some variables only.
+    /// As [`UpwardExposed::of`], of some variables only.
     pub fn among(module: &Module, universe: Universe) -> Self {
         let callees = Callees::of(module);
         let written = Written::of(module, &callees, &universe);
         let none = universe.none();
         let own = (0..module.programs.len()).map(|index| (index, BlockId(0)));
         let routines = written.routines().chain(own);
-        let mut entries: BTreeMap<Routine, Row> = routines.map(|routine| (routine, none.clone())).collect();
+        let mut entries: BTreeMap<Routine, BitRow> =
+            routines.map(|routine| (routine, none.clone())).collect();
         callees.graph(module).settle(|index| {
             let program = &module.programs[index];
             let transfer = |block| Transfer::of(block, &universe, |call| callees.called(index, call));
@@ -61,7 +62,7 @@ impl Exposed {
             };
             let ends = solve(&live, program, &Cfg::of(program));
             let own = || (index, BlockId(0))..(index + 1, BlockId(0));
-            let found: Vec<Row> = (entries.range(own()))
+            let found: Vec<BitRow> = (entries.range(own()))
                 .map(|((_, id), _)| {
                     let mut start = ends.at(*id).unwrap_or(&none).clone();
                     program.block(*id).iter().for_each(|block| live.block(*id, block, &mut start));
@@ -91,15 +92,15 @@ impl Exposed {
 struct Live<'l> {
     program: &'l Program,
     transfers: &'l [Transfer],
-    entries: &'l BTreeMap<Routine, Row>,
+    entries: &'l BTreeMap<Routine, BitRow>,
     /// What is live where any program is entered.
-    anywhere: Row,
+    anywhere: BitRow,
     written: &'l Written,
-    none: &'l Row,
+    none: &'l BitRow,
 }
 
 impl Live<'_> {
-    fn called(&self, callee: Called) -> Option<&Row> {
+    fn called(&self, callee: Called) -> Option<&BitRow> {
         match callee {
             Called::Any => Some(&self.anywhere),
             Called::One(routine) => self.entries.get(&routine),
@@ -108,14 +109,14 @@ impl Live<'_> {
 }
 
 impl Analysis for Live<'_> {
-    type State = Row;
+    type State = BitRow;
     const DIRECTION: Direction = Direction::Backward;
 
-    fn entries(&self, _: &Cfg) -> Vec<(BlockId, Row)> {
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, BitRow)> {
         self.program.ids().map(|id| (id, self.none.clone())).collect()
     }
 
-    fn block(&self, id: BlockId, _: &Block, live: &mut Row) {
+    fn block(&self, id: BlockId, _: &Block, live: &mut BitRow) {
         let Some(Transfer { reads, passes, called, modal }) = self.transfers.get(id.index()) else { return };
         called.iter().filter_map(|callee| self.called(*callee)).for_each(|there| {
             live.join(there);
@@ -131,7 +132,7 @@ impl Analysis for Live<'_> {
     }
 
     /// What a call surely writes is not live before it for what comes after it.
-    fn edge<'s>(&self, from: BlockId, _: BlockId, live: &'s Row) -> Option<Cow<'s, Row>> {
+    fn edge<'s>(&self, from: BlockId, _: BlockId, live: &'s BitRow) -> Option<Cow<'s, BitRow>> {
         let called = self.transfers.get(from.index()).and_then(|transfer| transfer.called);
         let sure = match (called, self.program.block(from)) {
             (Some(Called::One(routine)), Some(block)) => self.written.by_end(routine, block),
@@ -208,13 +209,13 @@ impl<'m> Callees<'m> {
 /// What a block makes of what is live behind it.
 struct Transfer {
     /// What it makes of nothing.
-    reads: Row,
+    reads: BitRow,
     /// What it makes of everything.
-    passes: Row,
+    passes: BitRow,
     /// What its end calls.
     called: Option<Called>,
     /// The modal calls that it starts, and what the statements before each make of everything.
-    modal: Vec<(Called, Row)>,
+    modal: Vec<(Called, BitRow)>,
 }
 
 impl Transfer {
@@ -244,7 +245,7 @@ impl Transfer {
     }
 }
 
-fn note(e: &Expr, rows: &mut [Row], universe: &Universe) {
+fn note(e: &Expr, rows: &mut [BitRow], universe: &Universe) {
     read(e, &mut |var| {
         if let Some(at) = universe.place(var) {
             rows.iter_mut().for_each(|row| row.insert(at));
@@ -252,7 +253,7 @@ fn note(e: &Expr, rows: &mut [Row], universe: &Universe) {
     });
 }
 
-fn backward(stmts: &[Stmt], rows: &mut [Row], universe: &Universe) {
+fn backward(stmts: &[Stmt], rows: &mut [BitRow], universe: &Universe) {
     for stmt in stmts.iter().rev() {
         if let Some(Place::Var(var)) = stmt.kind.target()
             && stmt.site.skip.is_none()

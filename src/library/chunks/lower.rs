@@ -2,8 +2,8 @@
 //!
 //! The blocks of a part are dropped when it is lowered: what a file says takes forty times its length.
 
-use super::Input;
 use crate::dialect::Control;
+use crate::library::Input;
 use crate::lower::{Cut, Lowered};
 use crate::syntax::{ItemKind, ParsedFile, parse_file, parse_part};
 use crate::text::Span;

@@ -5,7 +5,7 @@
 //! beginning, too. Side condition: a number that is a label stays with the block that it finds. Counter-example:
 //! `#101=0`, `N8 #504=#101`, of which a start at N8 leaves out the first.
 
-use crate::ir::{Class, Expr, Module, Place, Program, Site, StmtKind, TermKind, Var};
+use crate::ir::{Class, Expr, Module, Place, Program, SourceInfo, StmtKind, TermKind, Var};
 use crate::legalize::Context;
 use crate::syntax::Label;
 
@@ -63,7 +63,7 @@ impl Thing<'_> {
 /// Where the numbers go, and where they no longer stand.
 fn moves(program: &Program) -> Vec<(At, Option<u32>)> {
     let mut found = Vec::new();
-    let mut head: Option<(At, &Site, Option<u32>)> = None;
+    let mut head: Option<(At, &SourceInfo, Option<u32>)> = None;
     // What stands directly before and comes from no block of its own.
     let mut before: Vec<(At, Thing<'_>)> = Vec::new();
     for (at, block) in program.blocks.iter().enumerate() {

@@ -7,16 +7,16 @@
 //! comments and program ends only; one control family, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
-use super::compile::{Made, make};
-use super::convert::{ProgramReport, frames, outcome};
-use super::pieces::{Piece, Pieces};
-use super::{Conversion, Input, Lock, Options, Outcome};
+use super::cut::{Piece, Pieces};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::Numbers;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
+use crate::library::compile::{Made, make};
+use crate::library::convert::{ProgramReport, frames, outcome};
+use crate::library::{Conversion, Input, Lock, Options, Outcome};
 use crate::lower::Lowered;
 use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word};
 use crate::text::{Line, Lines, Span};
@@ -242,7 +242,7 @@ impl Sink {
             // What is said once a program was said for an earlier piece of it.
             let mut said = BTreeSet::new();
             diagnostics.retain(|d| !is_said_once(d) || said.insert((d.code, d.message.clone())));
-            super::echoes::drop_echoes(&mut diagnostics);
+            crate::library::echoes::drop_echoes(&mut diagnostics);
             let outcome = outcome(&diagnostics);
             let mut length = 0;
             match outcome {
@@ -320,7 +320,7 @@ mod tests {
         let inputs = [input];
         for (source, target) in [(&controls[0], &controls[1]), (&controls[1], &controls[0])] {
             let lock = Lock::new(source.name(), target.name());
-            let whole = super::super::convert(&inputs, source, target, lock.clone(), Options::default());
+            let whole = crate::library::convert(&inputs, source, target, lock.clone(), Options::default());
             for piece in [40, 300, 7_000, 1_000_000] {
                 let sizes = Sizes { long: 0, piece };
                 let pieces = convert_in(sizes, &inputs, source, target, &lock, Options::default());
@@ -352,7 +352,7 @@ mod tests {
                 found.map(|d| (d.span, d.code, d.message.to_string())).collect::<Vec<_>>()
             };
             let whole =
-                found(super::super::convert(&inputs, source, target, lock.clone(), Options::default()));
+                found(crate::library::convert(&inputs, source, target, lock.clone(), Options::default()));
             let errors = whole.iter().filter(|(_, code, _)| *code == Code::NotUnderstood);
             assert_eq!(errors.count(), many);
             for piece in [40, 300, 7_000, 1_000_000] {

@@ -1,8 +1,8 @@
 //! Remembers what the grammar made of blocks: one that differs from another in digits alone has the same leaves.
 
 use super::Rules;
+use super::cache_key::{LONGEST, cache_key};
 use super::lexeme::{Lex, Lexeme, Row};
-use super::likeness::{LONGEST, likeness};
 use super::rules::Reading;
 use crate::syntax::support::readable;
 use crate::text::Span;
@@ -15,15 +15,15 @@ type Leaves = Box<[(Lex, u8)]>;
 
 /// What is remembered, by likeness.
 #[derive(Default)]
-pub struct Known {
+pub struct ParseCache {
     /// The leaves of blocks.
     rows: HashMap<Box<[u8]>, Leaves>,
     /// Lines that are sound.
-    sound: HashSet<Box<[u8]>>,
+    precheck: HashSet<Box<[u8]>>,
 }
 
 /// What each thread remembers of a dialect.
-pub type Memory = LocalKey<RefCell<Known>>;
+pub type Memory = LocalKey<RefCell<ParseCache>>;
 
 /// Blocks and lines that are remembered at a time.
 const REMEMBERED: usize = 8192;
@@ -31,11 +31,11 @@ const REMEMBERED: usize = 8192;
 /// Reads the leaves of a block, by the grammar unless it has read one that is alike.
 pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<(), Reading> {
     let (mut key, mut ends) = ([0; LONGEST], [0; LONGEST]);
-    let Some(likeness) = likeness(block.of(source), &mut key, &mut ends) else {
+    let Some(cache_key) = cache_key(block.of(source), &mut key, &mut ends) else {
         return (rules.read)(&readable(block.of(source)), block.start, row);
     };
-    rules.known.with_borrow_mut(|Known { rows, .. }| {
-        if let Some(leaves) = rows.get(likeness) {
+    rules.known.with_borrow_mut(|ParseCache { rows, .. }| {
+        if let Some(leaves) = rows.get(cache_key) {
             let mut at = block.start;
             row.extend(leaves.iter().map(|&(kind, last)| {
                 let from = std::mem::replace(&mut at, block.start + u32::from(ends[usize::from(last)]));
@@ -44,11 +44,11 @@ pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<
             return Ok(());
         }
         (rules.read)(&readable(block.of(source)), block.start, row)?;
-        if let Some(leaves) = leaves(row, block, &ends[..likeness.len()]) {
+        if let Some(leaves) = leaves(row, block, &ends[..cache_key.len()]) {
             if rows.len() == REMEMBERED {
                 rows.clear();
             }
-            rows.insert(likeness.into(), leaves);
+            rows.insert(cache_key.into(), leaves);
         }
         Ok(())
     })
@@ -57,17 +57,17 @@ pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<
 /// True for a line that is as sound as one that was asked for before, or else is found to be so.
 pub fn is_sound(rules: &Rules, line: &[u8], find: impl FnOnce() -> bool) -> bool {
     let mut key = [0; LONGEST];
-    let Some(likeness) = likeness(line, &mut key, &mut [0; LONGEST]) else { return find() };
-    if rules.known.with_borrow(|Known { sound, .. }| sound.contains(likeness)) {
+    let Some(cache_key) = cache_key(line, &mut key, &mut [0; LONGEST]) else { return find() };
+    if rules.known.with_borrow(|ParseCache { precheck, .. }| precheck.contains(cache_key)) {
         return true;
     }
     let is_sound = find();
     if is_sound {
-        rules.known.with_borrow_mut(|Known { sound, .. }| {
-            if sound.len() == REMEMBERED {
-                sound.clear();
+        rules.known.with_borrow_mut(|ParseCache { precheck, .. }| {
+            if precheck.len() == REMEMBERED {
+                precheck.clear();
             }
-            sound.insert(likeness.into());
+            precheck.insert(cache_key.into());
         });
     }
     is_sound

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 ///
 /// A variable that is not here has its own name on the target, if the target has that.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Names {
+pub struct SymbolMap {
     /// Register numbers: `V12` to 512; `V(..)` to what is added to every number.
     pub variables: BTreeMap<String, u32>,
     /// Registers of the target that hold values in between and that nobody may rely on.
@@ -42,7 +42,7 @@ pub(super) fn numbered(name: &str, letter: &str) -> Option<u32> {
     digits.parse().ok().filter(|_| is_plain)
 }
 
-impl Names {
+impl SymbolMap {
     /// The name on the target of a variable of the source; none where it has no place there.
     pub(super) fn variable(&self, name: &str, source: &Control, target: &Control) -> Option<String> {
         let prefix = &target.classes().iter().find(|row| row.class != "letter")?.name;

@@ -6,7 +6,7 @@
 
 use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr};
-use crate::legalize::census::is_long;
+use crate::legalize::features::is_long;
 use smallvec::SmallVec;
 
 /// Characters of a register's name.
