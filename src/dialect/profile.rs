@@ -129,7 +129,7 @@ impl From<DecimalPoint> for BareLength {
 
 /// A value of a parameter or setting.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a value is true or false, a number, or a word in quotes")]
 pub enum Plain {
     /// True or false, which is 1 or 0.
     Truth(bool),

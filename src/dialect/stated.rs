@@ -94,25 +94,28 @@ fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (Strin
                 format!("{name} is one of {} on this control, not '{value}'", row.one_of.join(", "));
             Err((message, "the table's source says so: check it again".into()))
         }
-        Some(row) if !acts_by(dialect, row, value) => {
-            let message = format!("{name} is '{}' in the table, and '{value}' is not converted", row.value);
+        row if !acts_by(dialect, question, row, value) => {
+            let known =
+                row.map_or("as on most controls".into(), |row| format!("'{}' in the table", row.value));
+            let message = format!("{name} is {known}, and '{value}' is not converted");
             Err((message, "leave the programs out that hang on it".into()))
         }
         _ => Ok(question),
     }
 }
 
-/// True where conversions go by the answer: the table's own, one that settles what is open there, or one that another
-/// control of the family gives, or a setting of one.
-fn acts_by(dialect: &Dialect, row: &Behaviour, value: &str) -> bool {
+/// True where conversions go by the answer: the table's own, one that settles what is open there, or one that a control
+/// of the family gives, or a setting or an option of one.
+fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value: &str) -> bool {
     let gives = |other: &Dialect| {
         let sets = other.settings.iter().flat_map(|setting| setting.sets.values());
-        other.behaviours.iter().any(|its| its.question == row.question && its.value == value)
-            || sets.flatten().any(|(fact, to)| fact == row.question.fact() && to == value)
+        other.behaviours.iter().any(|its| its.question == question && its.value == value)
+            || sets.flatten().any(|(fact, to)| fact == question.fact() && to == value)
     };
-    row.value == value
-        || OPEN.contains(&row.value.as_str())
-        || OPEN.contains(&value)
+    let settles = |row: &Behaviour| {
+        row.value == value || OPEN.contains(&row.value.as_str()) || row.option.is_some() && value != "unknown"
+    };
+    row.is_some_and(settles)
         || registry::all()
             .iter()
             .filter_map(|entry| entry.dialect().ok())

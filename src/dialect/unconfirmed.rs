@@ -60,8 +60,10 @@ impl Control {
                 )
             }
             None if row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
-                Some(question) => to_answer(question, row.map_or(&[], |row| &row.one_of), side),
-                None => to_confirm(fact, side),
+                Some(question) if !question.answers().written(&[]).is_empty() => {
+                    to_answer(question, row.map_or(&[], |row| &row.one_of), side)
+                }
+                _ => to_confirm(fact, side),
             },
             None => to_confirm(fact, side),
         }

@@ -61,8 +61,12 @@ fn profiles_state_answers() {
     assert!(haas("").unwrap().behaviour(Question::CycleEndsByMotion).is_none());
     let open = haas("[behaviours]\nalarm.offset = \"unknown\"");
     assert!(open.is_err(), "a number is asked for");
-    let doubted = haas("[behaviours]\ndwell.bare = \"unknown\"").unwrap();
-    assert!(!doubted.behaviour(Question::DwellBare).unwrap().origin.confirmed);
+    // What another control of the family leaves open may be left open here.
+    let doubted =
+        haas("[behaviours]\narguments.mixed.later.wins = true\nm99.block.moves.first = \"unknown\"").unwrap();
+    assert!(!doubted.behaviour(Question::M99BlockMovesFirst).unwrap().origin.confirmed);
+    let option = "dialect = \"fanuc\"\n[behaviours]\ncondition.and.or = false";
+    assert!(!Control::from_profile(option).unwrap().is(Question::ConditionAndOr));
 }
 
 #[test]
@@ -84,6 +88,13 @@ fn profiles_state_no_wrong_answers() {
     haas("sub.ends.at.next = true", "Haas is not asked 'sub.ends.at.next'");
     haas("equal.tolerance = 0.001", "equal.tolerance is '0' in the table, and '0.001' is not converted");
     haas("fix.toward.zero = false", "'false' is not converted");
+    // To take back an answer that all of the family rely on would be read as 'no'.
+    haas("vacancy = \"unknown\"", "vacancy is 'true' in the table, and 'unknown' is not converted");
+    haas(
+        "cycle.ends.by.motion = false",
+        "cycle.ends.by.motion is as on most controls, and 'false' is not converted",
+    );
+    haas("vacancy = [1]", "a value is true or false, a number, or a word in quotes");
     // Another control of the family does so, and its conversion is there.
     assert!(Control::from_profile("dialect = \"haas\"\n[behaviours]\nm99.p.jumps.here = false").is_ok());
     wrong(
