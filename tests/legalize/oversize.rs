@@ -23,7 +23,7 @@ fn both_compute_the_same() {
         for pick in 0..400 {
             let e = nested(pick * 37 + 5, 9);
             let before = program(&format!(" global.9 = {e}"));
-            let (after, found) = legalized("oversize", &before, &control(source), &control(target));
+            let (after, found) = legalized("split-expressions", &before, &control(source), &control(target));
             assert!(found.is_empty());
             cut += usize::from(after != before);
             for a in DOMAIN {
