@@ -51,7 +51,7 @@ impl Machine {
             }
         }
         if let Some(number) = entry.cutter {
-            self.side = if entry.cutter_right { Side::Right } else { Side::ExitState };
+            self.side = if entry.cutter_right { Side::Right } else { Side::Left };
             self.radius_offset = number;
         }
         self.shape(entry);

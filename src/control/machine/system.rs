@@ -232,7 +232,7 @@ impl Machine {
             }
             Group::RadiusComp => match self.side {
                 super::Side::Off => Op::RadiusOff,
-                super::Side::ExitState => Op::RadiusLeft,
+                super::Side::Left => Op::RadiusLeft,
                 super::Side::Right => Op::RadiusRight,
             },
             Group::LengthComp => self.length_op,

@@ -102,7 +102,7 @@ fn apply_length(machine: &mut Machine, trace: &mut Trace) {
 fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let side = command.ops.iter().rev().find_map(|op| match op {
         Op::RadiusOff => Some(Side::Off),
-        Op::RadiusLeft => Some(Side::ExitState),
+        Op::RadiusLeft => Some(Side::Left),
         Op::RadiusRight => Some(Side::Right),
         _ => None,
     });

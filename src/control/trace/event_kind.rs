@@ -56,7 +56,7 @@ pub enum FeedMode {
 pub enum Side {
     #[default]
     Off,
-    ExitState,
+    Left,
     Right,
 }
 

@@ -258,7 +258,7 @@ pub enum Frame {
     Mirrored,
     Scaled,
     /// Cutter compensation to the left.
-    ExitState,
+    Left,
     Right,
     /// A length offset.
     Long,

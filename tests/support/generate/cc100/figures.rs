@@ -48,7 +48,7 @@ impl Writer {
 
     pub(super) fn within(&mut self, frame: Frame, [a, _]: &[Value; 2], body: &[Step]) {
         let (before, behind) = match frame {
-            Frame::ExitState | Frame::Rotated => ("G41 T03", "G40"),
+            Frame::Left | Frame::Rotated => ("G41 T03", "G40"),
             Frame::Right => ("G42", "G40"),
             Frame::Long => ("G0 Z30 T05", "T00"),
             Frame::Shifted | Frame::Mirrored => ("G55", "G54"),

@@ -202,7 +202,7 @@ impl Draw<'_, '_> {
             Frame::Rotated,
             Frame::Mirrored,
             Frame::Scaled,
-            Frame::ExitState,
+            Frame::Left,
             Frame::Right,
             Frame::Long,
             Frame::Shifted,

@@ -58,7 +58,7 @@ impl Writer {
         let (before, behind) = match frame {
             Frame::Rotated => (format!("G68 X0 Y0 R{}", self.word(a)), "G69"),
             Frame::Mirrored => ("G51.1 X0".into(), "G50.1"),
-            Frame::Scaled | Frame::ExitState => {
+            Frame::Scaled | Frame::Left => {
                 let (x, y) = (self.word(a), self.word(b));
                 (format!("G41 D3 G1 X{x} Y{y} F100."), "G40 G1 X0 Y0")
             }

@@ -67,7 +67,7 @@ impl Writer<'_> {
             Frame::Mirrored if self.haas => ("G101 X0.".into(), "G100 X0."),
             Frame::Mirrored => (format!("G51.1 {}", w('X', a)), "G50.1 X0."),
             Frame::Scaled => (format!("G51 X0. Y0. Z0. P{}", if self.haas { "2." } else { "2000" }), "G50"),
-            Frame::ExitState => (format!("G41 D3 G1 {} {} F100.", w('X', a), w('Y', b)), "G40 G1 X0. Y0."),
+            Frame::Left => (format!("G41 D3 G1 {} {} F100.", w('X', a), w('Y', b)), "G40 G1 X0. Y0."),
             Frame::Right => (format!("G42 D4 {} {}", w('X', a), w('Y', b)), "G40 X-20."),
             Frame::Long => (format!("G43 H5 Z[ABS[{}]+10]", self.value(a, 0)), "G49 Z100."),
             Frame::Shifted => (format!("G52 {} {}", w('X', a), w('Z', b)), "G52 X0. Y0. Z0."),
