@@ -58,7 +58,7 @@ pub enum Feature {
     Compound,
 }
 
-/// A census of programs.
+/// The features of programs: which operations, words and things stand in them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Features {
     ops: [u64; 4],

@@ -48,21 +48,31 @@ pub const GROUPS: &[Group] = &[
     Group { name: "layout", heading: "Numbers of blocks and programs", passes: LAYOUT },
 ];
 
+// These run twice.
+const FOLD: Pass = Pass::tidies(&Fold, "fold", "values that can be computed here are computed");
+const RETARGET: Pass = Pass::tidies(
+    &Retarget,
+    "retarget",
+    "a value goes straight to the variable that its temporary was copied to",
+);
+const BRANCHES: Pass =
+    Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps");
+const UNREACHABLE: Pass =
+    Pass::tidies(&Unreachable, "unreachable", "blocks that nothing reaches are removed");
+const DEAD_STORES: Pass =
+    Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads are removed");
+
 const TIDY: &[Pass] = &[
     Pass::tidies(
         &CopyPropagation,
         "copy-propagation",
         "reads of a temporary that only holds another value become reads of that value",
     ),
-    Pass::tidies(&Fold, "fold", "values that can be computed here are"),
-    Pass::tidies(
-        &Retarget,
-        "retarget",
-        "a value goes straight to the variable that the temporary was copied to",
-    ),
-    Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps"),
-    Pass::tidies(&Unreachable, "unreachable", "blocks that nothing comes to go"),
-    Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads go"),
+    FOLD,
+    RETARGET,
+    BRANCHES,
+    UNREACHABLE,
+    DEAD_STORES,
 ];
 
 const SOURCE: &[Pass] = &[
@@ -286,17 +296,7 @@ const ENTRY: &[Pass] = &[
 ];
 
 /// Only passes that keep a module such as the target can say it.
-const TIDY_LEGAL: &[Pass] = &[
-    Pass::tidies(&Fold, "fold", "values that can be computed here are"),
-    Pass::tidies(
-        &Retarget,
-        "retarget",
-        "a value goes straight to the variable that the temporary was copied to",
-    ),
-    Pass::tidies(&Branches, "branches", "branches with one way, and jumps to jumps, become jumps"),
-    Pass::tidies(&Unreachable, "unreachable", "blocks that nothing comes to go"),
-    Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads go"),
-];
+const TIDY_LEGAL: &[Pass] = &[FOLD, RETARGET, BRANCHES, UNREACHABLE, DEAD_STORES];
 
 // What these put in, they put in for something that stood there before.
 const REGISTERS: &[Pass] = &[
