@@ -22,6 +22,7 @@ mod moves;
 mod offsets;
 mod operator;
 pub mod pipeline;
+mod registers;
 mod rewrite;
 mod variables;
 
@@ -29,6 +30,6 @@ pub use crate::ir::analysis::{Modal, ModalFacts, Setting, calls_of, reachable, r
 pub use context::Context;
 pub use expressions::split::shares_line;
 pub use layout::program_numbers::ProgramNumbers;
+pub use registers::locked::Locked;
+pub use registers::map::{Register, Registers};
 pub use rewrite::{Position, PreStatement, Rewriter, Wanted, rewrite_program};
-pub use variables::locked::Locked;
-pub use variables::registers::{Register, Registers};

@@ -21,8 +21,8 @@ use crate::ir::{
     StmtKind, TermKind, Var,
 };
 use crate::legalize::moves::increments;
+use crate::legalize::registers::names::name_of;
 use crate::legalize::rewrite::unless_skipped;
-use crate::legalize::variables::registers::name_of;
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::syntax::ProgramName;
 use std::collections::BTreeSet;

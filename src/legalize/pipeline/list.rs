@@ -19,9 +19,9 @@ use crate::legalize::offsets::{
     tool_word,
 };
 use crate::legalize::operator::{alarms, letters, messages, ports, questions};
+use crate::legalize::registers::{allocate, clear, temporaries};
 use crate::legalize::variables::{
-    banks, clear, computed_numbers, probe_points, registers, retention, state, temporaries, vacancy,
-    vacant_writes,
+    banks, computed_numbers, probe_points, retention, state, vacancy, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -303,7 +303,7 @@ const REGISTERS: &[Pass] = &[
     Pass::rewrites("temporaries", "temporaries that are never alive together share one", temporaries::run)
         .when(|c, _| c.has(Feature::Temp))
         .brings_nothing(),
-    Pass::rewrites("registers", "every variable gets its register", registers::run)
+    Pass::rewrites("registers", "every variable gets its register", allocate::run)
         .needs(&["temporaries", "computed-numbers"])
         .brings_nothing(),
     Pass::reports(

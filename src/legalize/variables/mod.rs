@@ -1,13 +1,9 @@
 //! Variables, their registers, and the machine's state in variables.
 
 pub(in crate::legalize) mod banks;
-pub(in crate::legalize) mod clear;
 pub(in crate::legalize) mod computed_numbers;
-pub(in crate::legalize) mod locked;
 pub(in crate::legalize) mod probe_points;
-pub(in crate::legalize) mod registers;
 pub(in crate::legalize) mod retention;
 pub(in crate::legalize) mod state;
-pub(in crate::legalize) mod temporaries;
 pub(in crate::legalize) mod vacancy;
 pub(in crate::legalize) mod vacant_writes;

@@ -9,7 +9,7 @@ use crate::ir::analysis::Universe;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::{Class, Module, Var};
 use crate::legalize::Context;
-use crate::legalize::variables::registers::{Register, Registers};
+use crate::legalize::registers::map::{Register, Registers};
 use foldhash::{HashMap, HashMapExt};
 use std::sync::Arc;
 

@@ -12,8 +12,8 @@ use crate::ir::{
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::registers::map::{Register, Registers};
 use crate::legalize::rewrite::{Part, rebuild};
-use crate::legalize::variables::registers::{Register, Registers};
 
 /// Counts through the registers of a run.
 pub const COUNTER: Var = Var { class: Class::Register, number: 9 };

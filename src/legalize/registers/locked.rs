@@ -12,7 +12,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::Numbers;
 use crate::ir::{Bank, Module, Var};
 use crate::legalize::Context;
-use crate::legalize::variables::registers::{Registers, members, name_of, run_name};
+use crate::legalize::registers::map::Registers;
+use crate::legalize::registers::names::{members, name_of, run_name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// No names.

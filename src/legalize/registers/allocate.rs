@@ -1,0 +1,98 @@
+//! Registers for variables: one map for the whole library.
+//!
+//! A variable whose number the target has too keeps it. All others get a register of their own, the
+//! one that the lock gives them or the next free one: their values outlive a program, so every one of
+//! them interferes with every other. Temporaries live inside one program and are coloured
+//! ([`super::temporaries`]) before this runs.
+
+use super::clear;
+use super::locked::{self, Locked};
+use super::map::{Register, Registers, is_own};
+use super::names::{class_of, keeps_number, name_of, reached};
+use super::pool::Pool;
+use super::runs::{banks, point, run_of};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::VarSet;
+use crate::ir::{Bank, Class, Module, Var};
+use crate::legalize::Context;
+use crate::legalize::features::{Feature, Features};
+use crate::text::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Gives every variable its register. Nothing changes the variables of the module after this.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let (features, locked) = (context.features, context.locked.clone());
+    context.registers = allocate(module, &features, &locked, context);
+}
+
+/// Chooses registers for everything in the library, after the choices of earlier runs.
+fn allocate(
+    module: &mut Module,
+    features: &Features,
+    locked: &Locked<'_>,
+    context: &mut Context<'_>,
+) -> Registers {
+    let mut users: BTreeMap<Var, (usize, Span)> = BTreeMap::new();
+    // Where no program names any, there is nothing to look for.
+    let named = module.programs.iter().enumerate().filter(|_| features.has(Feature::Variable));
+    let mut seen = VarSet::default();
+    for (index, program) in named {
+        program.variables(&mut |var| {
+            if seen.insert(var) {
+                users.insert(var, (index, program.site.span));
+            }
+        });
+    }
+    if clear::concerns(features, context) {
+        users.insert(clear::COUNTER, (0, Span::default()));
+    }
+    let banks = if features.has(Feature::Banked) { banks(module) } else { BTreeMap::new() };
+    for (bank, place) in &banks {
+        for number in reached(*bank, context.source) {
+            users.entry(Var { class: class_of(*bank), number }).or_insert(*place);
+        }
+    }
+    let banked: Vec<Bank> = banks.keys().copied().collect();
+    let kept: BTreeSet<Var> = users.keys().copied().filter(|var| keeps_number(*var, context)).collect();
+    let effective = locked::settle(module, locked, &kept, &banked, context);
+    let mut pool = Pool::new(context, &effective, locked);
+    let mut registers = Registers { freed: effective.freed.clone(), ..Registers::default() };
+    registers.reached = context.reached.sure.clone();
+    registers.reached.join(&context.reached.everything(context.source, context.target));
+    for var in kept {
+        pool.used.insert(var.number);
+        registers.of.insert(var, Register { name: pool.name.clone(), number: var.number });
+    }
+    let runs: Vec<(Bank, u32)> =
+        banks.keys().filter_map(|bank| run_of(*bank, &mut pool, &users, &mut registers, context)).collect();
+    for (&var, &(index, span)) in &users {
+        if registers.of.contains_key(&var) {
+            continue;
+        }
+        let name = name_of(var, module, context.source);
+        match pool.take(var.class, name.as_deref()) {
+            Some(number) => {
+                if var.class == Class::Temp {
+                    registers.scratch.insert(number);
+                } else if let Some(name) = name {
+                    registers.chosen.insert(name, number);
+                }
+                registers.of.insert(var, Register { name: pool.name.clone(), number });
+            }
+            None => {
+                let what = format!(
+                    "the target has no register left for {}; {} variables of the library want one",
+                    name.unwrap_or_else(|| "a temporary".into()),
+                    users.len()
+                );
+                context.add(index, Diagnostic::new(Code::OutOfRegisters, span, what));
+            }
+        }
+    }
+    locked::check(module, &effective.variables, &registers, context);
+    let moved = registers.of.iter().filter(|(var, register)| !is_own(var, register));
+    let named = moved.filter_map(|(var, _)| Some((*var, name_of(*var, module, context.source)?)));
+    registers.names = named.collect();
+    point(module, &runs);
+    registers
+}

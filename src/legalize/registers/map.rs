@@ -1,0 +1,55 @@
+//! The register map.
+
+use crate::ir::analysis::Numbers;
+use crate::ir::{Class, Var};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A register of the target: its name before the number, and its number.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Register {
+    /// `#`, `V`.
+    pub name: String,
+    /// Its number.
+    pub number: u32,
+}
+
+/// The map, and what the lock is to remember of it.
+#[derive(Clone, Debug, Default)]
+pub struct Registers {
+    /// The register of each variable.
+    pub of: BTreeMap<Var, Register>,
+    /// What was chosen, by the variable's name on the source.
+    pub chosen: BTreeMap<String, u32>,
+    /// The registers of temporaries.
+    pub scratch: BTreeSet<u32>,
+    /// Variables that lose the register of an earlier run, by name.
+    pub freed: BTreeSet<String>,
+    /// Numbers that programs reach by computing them, or may.
+    pub reached: Numbers,
+    /// The names on the source of variables that have another number now.
+    pub names: BTreeMap<Var, String>,
+}
+
+impl Registers {
+    /// The registers that hold something else than the variable of their number.
+    pub fn taken(&self) -> impl Iterator<Item = u32> + '_ {
+        self.of.iter().filter(|(var, register)| !is_own(var, register)).map(|(_, register)| register.number)
+    }
+
+    /// The registers that hold the variable of their number, locals aside.
+    pub fn own(&self) -> impl Iterator<Item = u32> + '_ {
+        let own = self.of.iter().filter(|(var, register)| is_own(var, register) && var.class != Class::Local);
+        own.map(|(_, register)| register.number)
+    }
+
+    /// The registers of variables that a program of the source has.
+    pub fn held(&self) -> impl Iterator<Item = u32> + '_ {
+        let named = self.of.iter().filter(|(var, _)| var.class != Class::Temp);
+        named.map(|(_, register)| register.number)
+    }
+}
+
+/// True where a variable is in the register of its own number.
+pub(super) fn is_own(var: &Var, register: &Register) -> bool {
+    var.class.nullable() && var.number == register.number
+}

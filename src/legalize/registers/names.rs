@@ -1,0 +1,73 @@
+//! What variables, and the spaces that they are in, are called.
+
+use crate::dialect::Control;
+use crate::ir::{Bank, Class, Module, Var};
+use crate::legalize::Context;
+
+/// The class that a bank counts in.
+pub(super) fn class_of(bank: Bank) -> Class {
+    if bank == Bank::Parametric { Class::Parametric } else { Class::Global }
+}
+
+/// What the run of registers of a bank is called in the lock.
+pub(in crate::legalize) fn run_name(bank: Bank) -> String {
+    match bank {
+        Bank::Parametric => "R(..)".into(),
+        Bank::Global | Bank::Numbered => "V(..)".into(),
+    }
+}
+
+/// The variables of a bank of its own: their numbers and names.
+pub(in crate::legalize) fn members(bank: Bank, module: &Module, context: &Context<'_>) -> Vec<(u32, String)> {
+    let numbers = reached(bank, context.source).into_iter();
+    let named =
+        |number| Some((number, name_of(Var { class: class_of(bank), number }, module, context.source)?));
+    numbers.filter_map(named).collect()
+}
+
+/// The numbers that a computed one can be, in a bank of its own.
+pub(super) fn reached(bank: Bank, source: &Control) -> Vec<u32> {
+    let Some(wanted) = bank.class() else { return Vec::new() };
+    source
+        .classes()
+        .iter()
+        .filter(|row| row.class == wanted && !row.nullable)
+        .flat_map(|row| row.first..=row.last)
+        .collect()
+}
+
+/// The name of a variable on the source.
+pub(in crate::legalize) fn name_of(var: Var, module: &Module, source: &Control) -> Option<String> {
+    if let Some(name) = module.names.get(&var) {
+        return Some(name.clone());
+    }
+    let class = match var.class {
+        Class::Local => "local",
+        Class::Common => "common",
+        Class::Retained => "retained",
+        Class::Global => "global",
+        Class::Parametric => "parametric",
+        Class::Register => return Some(format!("register {}", var.number)),
+        Class::Temp => return None,
+    };
+    let rows = source.classes();
+    let row = rows.iter().find(|row| row.class == class && (row.first..=row.last).contains(&var.number));
+    let row = row.or_else(|| {
+        rows.iter().find(|row| row.class != "letter" && (row.first..=row.last).contains(&var.number))
+    });
+    Some(format!("{}{}", row.map_or("#", |row| row.name.as_str()), var.number))
+}
+
+/// True for a variable whose number the target has too.
+pub(super) fn keeps_number(var: Var, context: &Context<'_>) -> bool {
+    let name = pool_name(context.target);
+    let there = context.target.variable_class(&name, var.number);
+    let same_kind = there.is_some_and(|row| (row.class == "local") == (var.class == Class::Local));
+    var.class.nullable() && same_kind && !context.target.is_reserved(&name, var.number)
+}
+
+/// The name that the target's registers have before their number.
+pub(super) fn pool_name(target: &Control) -> String {
+    let shared = target.classes().iter().find(|row| row.class != "local" && row.class != "letter");
+    shared.map_or_else(|| "#".into(), |row| row.name.clone())
+}

@@ -1,0 +1,96 @@
+//! The registers of the target that are free.
+
+use super::locked::{Effective, Locked};
+use super::names::pool_name;
+use crate::dialect::{Control, VariableClass};
+use crate::ir::Class;
+use crate::ir::analysis::Numbers;
+use crate::legalize::Context;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The registers of the target and which of them are taken.
+pub(super) struct Pool<'a> {
+    pub name: String,
+    /// Rows to take from, those that keep their values first.
+    rows: Vec<&'a VariableClass>,
+    pub used: BTreeSet<u32>,
+    locked: &'a BTreeMap<String, u32>,
+    /// Where temporaries go first, and nothing else ever.
+    scratch: BTreeSet<u32>,
+    /// Numbers that computed ones reach.
+    reached: Numbers,
+    /// Numbers that computed ones are supposed to be: taken where nothing else is free.
+    supposed: Numbers,
+    target: &'a Control,
+}
+
+impl<'a> Pool<'a> {
+    pub fn new(context: &Context<'a>, effective: &'a Effective, locked: &Locked<'_>) -> Self {
+        let target = context.target;
+        let supposed = context.reached.supposed();
+        let mut reached = context.reached.sure.clone();
+        reached.join(&locked.reached);
+        let mut rows: Vec<&VariableClass> =
+            target.classes().iter().filter(|row| row.class != "local" && row.class != "letter").collect();
+        // What every control of the kind has comes before what must be bought.
+        rows.sort_by_key(|row| (row.option.is_some(), row.first));
+        let name = pool_name(target);
+        let used = effective.variables.values().chain(locked.own).copied().collect();
+        let scratch = effective.scratch.clone();
+        Self { name, rows, used, locked: &effective.variables, scratch, reached, supposed, target }
+    }
+
+    fn free(&self, number: u32) -> bool {
+        !self.used.contains(&number)
+            && !self.scratch.contains(&number)
+            && !self.reached.contains(number)
+            && !self.target.is_reserved(&self.name, number)
+    }
+
+    pub fn take(&mut self, class: Class, name: Option<&str>) -> Option<u32> {
+        if let Some(&number) = name.and_then(|name| self.locked.get(name)) {
+            return Some(number);
+        }
+        let keeps = |row: &&&VariableClass| row.retained != Some(false);
+        let volatile = matches!(class, Class::Temp | Class::Register | Class::Common | Class::Local);
+        let preferred = self.rows.iter().filter(|row| keeps(row) != volatile);
+        let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
+        let again = |number: &u32| {
+            let taken = self.used.contains(number) || self.target.is_reserved(&self.name, *number);
+            class == Class::Temp && !taken && !self.reached.contains(*number)
+        };
+        let free: Vec<u32> = preferred
+            .chain(rest)
+            .flat_map(|row| row.first..=row.last)
+            .filter(|number| self.free(*number))
+            .collect();
+        let in_use = |number: u32| self.target.is_in_use(&self.name, number);
+        let best = || free.iter().copied().min_by_key(|n| (self.supposed.contains(*n), in_use(*n)));
+        let number = self.scratch.iter().copied().find(again).or_else(best)?;
+        self.used.insert(number);
+        Some(number)
+    }
+
+    /// A base so that `base + first ..= base + last` are free registers of one kind that keep their values.
+    pub fn run(&mut self, first: u32, last: u32, name: &str) -> Option<u32> {
+        if let Some(&base) = self.locked.get(name) {
+            return Some(base);
+        }
+        let keeps = |row: &&&VariableClass| row.retained != Some(false);
+        let mut numbers: Vec<u32> =
+            self.rows.iter().filter(keeps).flat_map(|row| row.first..=row.last).collect();
+        numbers.sort_unstable();
+        let all: BTreeSet<u32> = numbers.iter().copied().collect();
+        let fits = |base: &u32| (base + first..=base + last).all(|n| all.contains(&n) && self.free(n));
+        // Round bases read best: V12 in #512 or #612.
+        let bases = numbers.iter().filter_map(|n| n.checked_sub(first));
+        let shunned = |number| self.supposed.contains(number) || self.target.is_in_use(&self.name, number);
+        let apart = |base: &u32| !(base + first..=base + last).any(shunned);
+        let round = bases.clone().filter(|base| base % 100 == 0).find(|base| fits(base) && apart(base));
+        let base = round
+            .or_else(|| bases.clone().find(|base| fits(base) && apart(base)))
+            .or_else(|| bases.clone().find(&fits))?;
+        self.used.extend(base + first..=base + last);
+        Some(base)
+    }
+}
