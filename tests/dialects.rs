@@ -6,9 +6,12 @@ use macroglot::dialect::{BareLength, Control, Question, faults_as_text, matrix, 
 #[test]
 fn every_table_loads() {
     for entry in registry::all() {
-        if let Err(faults) = entry.dialect() {
-            panic!("{}", entry.faults_as_text(faults));
+        if let Err(faults) = entry.check() {
+            panic!("{}", entry.faults_as_text(&faults));
         }
+        let dialect = entry.dialect().unwrap();
+        assert!(!entry.endings().is_empty());
+        assert_eq!(entry.endings(), dialect.extensions, "{}", entry.name);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::UNUSABLE;
 use super::streams::{complain, complain_lines, remark};
 use crate::diag::Code;
-use crate::dialect::{Control, Profile, registry};
+use crate::dialect::{Control, Entry, Profile, registry};
 use crate::library::{Detected, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like};
 use crate::verify::Effort;
 use std::path::{Path, PathBuf};
@@ -22,8 +22,7 @@ pub fn read_all(paths: &[PathBuf]) -> Result<(Vec<Input>, Vec<LeftOut>), u8> {
 
 /// Endings of program files, by the tables of all dialects.
 pub fn endings() -> Vec<String> {
-    let dialects = registry::all().iter().filter_map(|entry| entry.dialect().ok());
-    dialects.flat_map(|dialect| dialect.extensions.clone()).collect()
+    registry::all().iter().flat_map(Entry::endings).collect()
 }
 
 /// What was read of the programs, unless a fault among them is fatal.

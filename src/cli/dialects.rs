@@ -1,7 +1,7 @@
 //! `macroglot dialects [D]`.
 
 use super::{WELL, common, streams};
-use crate::dialect::{matrix, page};
+use crate::dialect::{Entry, matrix, page, registry};
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -15,9 +15,16 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> u8 {
     let printed = match &arguments.dialect {
-        None => streams::print(&matrix()),
-        Some(name) => common::control(name, arguments.machine.as_deref())
-            .and_then(|control| streams::print(&page(&control))),
+        None => registry::all().iter().try_for_each(check).and_then(|()| streams::print(&matrix())),
+        Some(name) => common::control(name, arguments.machine.as_deref()).and_then(|control| {
+            check(control.entry())?;
+            streams::print(&page(&control))
+        }),
     };
     printed.err().unwrap_or(WELL)
+}
+
+/// Conversions take it that a shipped table is right; whoever reads it is told where it is not.
+fn check(entry: &Entry) -> Result<(), u8> {
+    entry.check().map_err(|faults| streams::complain_lines(entry.faults_as_text(&faults)))
 }

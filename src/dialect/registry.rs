@@ -1,6 +1,7 @@
 //! The list of dialects: the one place where a dialect is added, and so the one
 //! that names modules further right than its own.
 
+use super::load::load_checked;
 use super::{Base, Dialect, faults_of_files, load};
 use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
@@ -32,6 +33,12 @@ pub struct Entry {
     /// Runs programs as its control would; absent where there is no emulated control.
     pub execute: Option<Execute>,
     loaded: OnceLock<Result<Dialect, Vec<Diagnostic>>>,
+}
+
+/// A line of a table.
+#[derive(Default, serde::Deserialize)]
+struct Head {
+    extensions: Vec<String>,
 }
 
 macro_rules! entry {
@@ -113,13 +120,29 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 impl Entry {
-    /// Its facts. A shipped table loads (a test says so); the faults are for one that is being edited.
+    /// Its facts. A shipped table loads (a test says so); the faults are for one that is being edited. An optimized build
+    /// takes it that its rows do not contradict each other: [`Entry::check`] says whether they do.
     pub fn dialect(&self) -> Result<&Dialect, &[Diagnostic]> {
+        let load = if cfg!(debug_assertions) { load } else { load_checked };
         self.loaded.get_or_init(|| load(self.table, &BASES)).as_ref().map_err(Vec::as_slice)
+    }
+
+    /// Holds the rows of its table against each other.
+    ///
+    /// # Errors
+    /// Every fault of it.
+    pub fn check(&self) -> Result<(), Vec<Diagnostic>> {
+        load(self.table, &BASES).map(drop)
     }
 }
 
 impl Entry {
+    /// The endings of its programs' files. One line of its table says them, and the rest is not read.
+    pub fn endings(&self) -> Vec<String> {
+        let line = self.table.lines().find(|line| line.starts_with("extensions"));
+        line.and_then(|line| toml::from_str::<Head>(line).ok()).unwrap_or_default().extensions
+    }
+
     /// The texts that its facts are read from, with their files: its table, and those that tables extend.
     pub fn files(&self) -> Vec<(&'static str, &'static str)> {
         let bases = BASES.iter().map(|base| (base.file, base.text));

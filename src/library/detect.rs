@@ -11,6 +11,9 @@ const HEAD: usize = 16 * 1024;
 const SHORT: usize = 2 * 1024;
 const FEW: usize = 40;
 
+/// By how much of the text a control is clearly ahead of another.
+const AHEAD: f64 = 0.15;
+
 /// What the text says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detected {
@@ -36,7 +39,7 @@ impl Score {
 
     /// True where this control reads clearly more: some blocks, and a good part of all.
     fn is_far_above(self, other: Self) -> bool {
-        self.share() > 0.5 && self.good >= other.good + 3 && self.share() > other.share() + 0.15
+        self.share() > 0.5 && self.good >= other.good + 3 && self.share() > other.share() + AHEAD
     }
 
     fn add(self, other: Self) -> Self {
@@ -73,6 +76,9 @@ pub fn detect(inputs: &[Input]) -> Detected {
 pub fn looks_like(inputs: &[Input], named: &str) -> Option<String> {
     let step = inputs.len().div_ceil(FEW).max(1);
     let some: Vec<Input> = inputs.iter().step_by(step).map(head).collect();
+    if reads_most(&Control::plain(named)?, &some) {
+        return None;
+    }
     let files = scores(&some, SHORT);
     let of = |scores: &[(Score, &Entry)]| scores.iter().find(|(_, e)| e.name == named).map(|(s, _)| *s);
     let told = |scores: &[(Score, &'static Entry)], what: &str| {
@@ -87,6 +93,13 @@ pub fn looks_like(inputs: &[Input], named: &str) -> Option<String> {
     };
     let single = || some.iter().zip(&files).find_map(|(input, file)| told(file, &input.name));
     told(&of_all(&files), "the text").or_else(single)
+}
+
+/// True where a control reads so much of each file that none can read clearly more: the others need not be asked.
+fn reads_most(control: &Control, inputs: &[Input]) -> bool {
+    let most = |score: Score| score.share() + AHEAD >= 1.0;
+    let files: Vec<Score> = inputs.par_iter().map(|input| score(control, &input.bytes)).collect();
+    files.iter().copied().all(most) && most(files.into_iter().fold(Score::default(), Score::add))
 }
 
 /// The start of a file, to its last whole line.

@@ -186,7 +186,7 @@ impl Finding {
     /// The numbers that it must be one of, were there no registers among them.
     fn supposed(&self, numbers: &Numbers<'_>) -> analysis::Numbers {
         match self {
-            Finding::Any => numbers.list(),
+            Finding::Any => numbers.list().clone(),
             other => analysis::Numbers::of(other.run()),
         }
     }

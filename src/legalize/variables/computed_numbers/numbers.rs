@@ -9,6 +9,7 @@ use crate::ir::Expr;
 use crate::ir::analysis;
 use crate::ir::eval::whole;
 use crate::legalize::offsets::position_length;
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -23,6 +24,8 @@ pub(super) struct Numbers<'c> {
     table: Table,
     /// By the constant part of a number.
     pub(super) known: BTreeMap<u32, Finding>,
+    runs: OnceCell<Vec<(u32, u32)>>,
+    listed: OnceCell<analysis::Numbers>,
 }
 
 /// By number: true where both controls mean the same, none where neither means anything.
@@ -31,7 +34,8 @@ pub(super) type Table = Arc<OnceLock<Vec<Option<bool>>>>;
 impl<'c> Numbers<'c> {
     /// `table` is of the same two controls.
     pub(super) fn new(source: &'c Control, target: &'c Control, table: Table) -> Self {
-        Self { source, target, table, known: BTreeMap::new() }
+        let (runs, listed) = (OnceCell::new(), OnceCell::new());
+        Self { source, target, table, known: BTreeMap::new(), runs, listed }
     }
 
     fn table(&self) -> &[Option<bool>] {
@@ -117,8 +121,8 @@ impl<'c> Numbers<'c> {
             _ => start,
         };
         if self.alike(first) {
-            let around = self.runs().into_iter().find(|(from, to)| (*from..=*to).contains(&first));
-            return around.map_or(Finding::Any, |(from, to)| Finding::Alike(from, to));
+            let around = self.runs().iter().find(|(from, to)| (*from..=*to).contains(&first));
+            return around.map_or(Finding::Any, |(from, to)| Finding::Alike(*from, *to));
         }
         self.distance(first).or_else(|| self.counted(first)).unwrap_or(Finding::Other(first))
     }
@@ -159,7 +163,11 @@ impl<'c> Numbers<'c> {
     }
 
     /// Runs of numbers that mean the same, over gaps that stand for axes that are not there.
-    fn runs(&self) -> Vec<(u32, u32)> {
+    fn runs(&self) -> &[(u32, u32)] {
+        self.runs.get_or_init(|| self.found_runs())
+    }
+
+    fn found_runs(&self) -> Vec<(u32, u32)> {
         let mut runs: Vec<(u32, u32)> = Vec::new();
         let mut broken = true;
         for (number, alike) in (0..).zip(self.table()).skip(1) {
@@ -174,8 +182,12 @@ impl<'c> Numbers<'c> {
     }
 
     /// The numbers that mean the same, whatever is in force.
-    pub(super) fn list(&self) -> analysis::Numbers {
-        let runs = analysis::Numbers::of(self.runs());
+    pub(super) fn list(&self) -> &analysis::Numbers {
+        self.listed.get_or_init(|| self.made_list())
+    }
+
+    fn made_list(&self) -> analysis::Numbers {
+        let runs = analysis::Numbers::of(self.runs().iter().copied());
         let [here, there] =
             [self.source, self.target].map(|control| control.behaviour(position_length::FACT));
         if here.map(|row| &row.value) == there.map(|row| &row.value) {
