@@ -1,7 +1,9 @@
 //! The shipped tables and machine profiles load, and say what the manuals say.
 
 use macroglot::canon::{Func, Op, Role, Sys};
-use macroglot::dialect::{BareLength, Control, Question, faults_as_text, matrix, page, registry};
+use macroglot::dialect::{
+    BareLength, Compares, Control, Operand, OperandPlace, Question, faults_as_text, matrix, page, registry,
+};
 
 #[test]
 fn every_table_loads() {
@@ -541,4 +543,42 @@ fn the_kind_of_offset_memory_says_what_its_numbers_are() {
     assert_eq!(states(&memory("C", 0)), [Some("offset.length.wear"), Some("offset.length"), None, None]);
     let fifteen = ["offset.length", "offset.length.wear", "offset.radius", "offset.radius.wear"];
     assert_eq!(states(&memory("C", 1)), fifteen.map(Some));
+}
+
+/// Whether a control takes an expression, a variable, a constant in a place.
+fn takes(control: &Control, place: OperandPlace) -> [bool; 3] {
+    let form = control.form(place);
+    [Operand::Expression, Operand::Variable, Operand::Literal]
+        .map(|operand| form.is_some_and(|form| form.takes(operand)))
+}
+
+/// Fadal section 18: "Machine program code cannot be coded in a macro line"; words take R alone (seed 000:19, 99). Seed
+/// 004:190 and 245: one step an assignment, no constant beside a variable; 1635: the second operand may be a constant.
+#[test]
+fn places_take_what_the_manuals_say() {
+    use OperandPlace::{Assignment, Condition, First, Function, Jump, Loop, Output, Second, State, Word};
+    for name in ["fanuc", "haas"] {
+        let control = control(name);
+        for place in [Word, Assignment, First, Second, Function, State, Condition, Loop] {
+            assert_eq!(takes(&control, place), [true; 3], "{name} {place:?}");
+        }
+        assert_eq!(takes(&control, Output), [false, true, false]);
+        assert_eq!((control.numbered(), control.names().program.as_deref()), (Some("#"), Some("O")));
+    }
+    let fadal = control("fadal");
+    assert_eq!(takes(&fadal, Word), [false, true, true]);
+    assert_eq!(fadal.form(Word).unwrap().class.as_deref(), Some("parametric"));
+    assert_eq!(takes(&fadal, Assignment), [true; 3]);
+    assert!(fadal.form(Loop).is_none() && fadal.numbered().is_none());
+    // 63 characters, of which nine are kept for "/1N99999 ", and six are "#V100=".
+    assert_eq!(fadal.room(Assignment), 54);
+    assert_eq!(fadal.form(Assignment).unwrap().beside(), 6);
+    assert_eq!(fadal.room(Word), usize::MAX);
+    let cc100 = control("cc100");
+    assert_eq!((takes(&cc100, First), takes(&cc100, Second)), ([false, true, false], [false, true, true]));
+    assert_eq!((takes(&cc100, Function), takes(&cc100, State)), ([false, true, false], [false, true, false]));
+    assert!(!cc100.form(Word).unwrap().mixed);
+    assert_eq!(cc100.form(Condition).unwrap().compares, Compares::Zero);
+    assert_eq!(takes(&cc100, Jump), [false, true, true]);
+    assert_eq!((cc100.limit("operators"), cc100.names().program.as_deref()), (Some(1), None));
 }

@@ -4,14 +4,15 @@
 use super::overlay;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Function, InUse, Limit, Operator, Question, Row, Setting, Statement,
-    SystemVariable, VariableClass, WordMeaning,
+    Argument, Behaviour, CodeMeaning, Form, Function, InUse, Limit, Operator, Question, Row, Setting,
+    Statement, SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
 
 /// The rows of a table with their places.
 #[derive(Default)]
 pub(super) struct Tables {
+    pub forms: Vec<Placed<Form>>,
     pub limits: Vec<Placed<Limit>>,
     pub operators: Vec<Placed<Operator>>,
     pub functions: Vec<Placed<Function>>,
@@ -28,6 +29,7 @@ pub(super) struct Tables {
 
 /// Runs every check.
 pub(super) fn all(reader: &mut Reader, tables: &Tables) {
+    duplicates(reader, &tables.forms, |row| row.place.name().into());
     duplicates(reader, &tables.limits, |row| row.name.clone());
     duplicates(reader, &tables.operators, |row| format!("{} {}", row.spelling, row.meaning));
     duplicates(reader, &tables.functions, |row| format!("{}/{}", row.spelling, row.arguments));
@@ -37,6 +39,7 @@ pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.arguments, |row| format!("local {}", row.local));
     duplicates(reader, &tables.settings, |row| row.name.clone());
     duplicates(reader, &tables.words, |row| format!("{} {:?} {:?}", row.letter, row.machine, row.when));
+    forms(reader, tables);
     operators(reader, &tables.operators);
     names(reader, tables);
     answers(reader, &tables.behaviours);
@@ -142,6 +145,19 @@ fn names(reader: &mut Reader, tables: &Tables) {
     }
     for placed in &tables.limits {
         one_of(reader, placed, &placed.row.name, LIMITS);
+    }
+}
+
+/// A form is whole, and its class one that the control has.
+fn forms(reader: &mut Reader, tables: &Tables) {
+    for placed in &tables.forms {
+        if let Some((message, help)) = placed.row.fault() {
+            reader.fault_at(placed.place.clone(), message, help);
+        }
+        if let Some(class) = &placed.row.class {
+            let known: Vec<&str> = tables.variables.iter().map(|row| row.row.class.as_str()).collect();
+            one_of(reader, placed, class, &known);
+        }
     }
 }
 
@@ -298,6 +314,7 @@ fn sources(reader: &mut Reader, tables: &Tables) {
             }
         }
     }
+    section(reader, &tables.forms);
     section(reader, &tables.limits);
     section(reader, &tables.operators);
     section(reader, &tables.functions);

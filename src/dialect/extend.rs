@@ -4,9 +4,9 @@
 //! control's own manual has it: a control that it does not name has the row unconfirmed.
 
 use super::check::Tables;
-use super::load::{self, BASE_KEYS};
+use super::load;
 use super::reader::{Placed, Reader, closest};
-use super::{Numbers, Row, Text};
+use super::{Names, Numbers, Row, Text};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeTable;
@@ -27,6 +27,7 @@ pub struct Base<'t> {
 pub(super) struct Whole {
     pub numbers: Option<Placed<Numbers>>,
     pub text: Option<Placed<Text>>,
+    pub names: Option<Placed<Names>>,
     pub tables: Tables,
 }
 
@@ -105,7 +106,7 @@ fn extended(
     seen.push(name.clone());
     let outer = reader.enter(base.name, start);
     let mut document = reader.document(base.text);
-    reader.known_keys(&document, BASE_KEYS);
+    reader.known_keys(&document, &load::base_keys());
     for key in ["name", "title"] {
         let _: Option<String> = reader.require(&mut document, key);
     }
@@ -120,7 +121,9 @@ fn lay(reader: &mut Reader, own: Whole, base: Whole, without: &mut [Without]) ->
     Whole {
         numbers: own.numbers.or(base.numbers),
         text: own.text.or(base.text),
+        names: own.names.or(base.names),
         tables: Tables {
+            forms: lay.rows(mine.forms, its.forms),
             limits: lay.rows(mine.limits, its.limits),
             operators: lay.rows(mine.operators, its.operators),
             functions: lay.rows(mine.functions, its.functions),

@@ -17,6 +17,8 @@ const KEYS: &[&str] = &[
     "without",
     "numbers",
     "text",
+    "names",
+    "forms",
     "limits",
     "operators",
     "functions",
@@ -31,27 +33,13 @@ const KEYS: &[&str] = &[
     "settings",
 ];
 
+/// What a base does not say: it is no control.
+const OF_CONTROLS: &[&str] = &["family", "extensions"];
+
 /// What a base may say.
-pub(super) const BASE_KEYS: &[&str] = &[
-    "name",
-    "title",
-    "extends",
-    "without",
-    "numbers",
-    "text",
-    "limits",
-    "operators",
-    "functions",
-    "statements",
-    "behaviours",
-    "variables",
-    "in_use",
-    "system",
-    "words",
-    "codes",
-    "arguments",
-    "settings",
-];
+pub(super) fn base_keys() -> Vec<&'static str> {
+    KEYS.iter().copied().filter(|key| !OF_CONTROLS.contains(key)).collect()
+}
 
 /// Reads a table, laid over the base that it extends. All that is wrong comes back at once, each fault at its place in
 /// `text`, or behind its end in the texts of the bases.
@@ -90,9 +78,10 @@ fn read(
     let family = reader.require(document, "family");
     let extensions = reader.take(document, "extensions").unwrap_or_default();
     reader.control = name.clone().unwrap_or_default();
-    let Whole { numbers, text, tables } = extend::read(reader, document, bases);
+    let Whole { numbers, text, names, tables } = extend::read(reader, document, bases);
     let numbers = there(reader, numbers);
     let text = there(reader, text);
+    let names = there(reader, names);
     check(reader, &tables);
     Some(Dialect {
         name: name?,
@@ -101,6 +90,8 @@ fn read(
         extensions,
         numbers: numbers?,
         text: text?,
+        names: names?,
+        forms: plain(tables.forms),
         limits: plain(tables.limits),
         operators: plain(tables.operators),
         functions: plain(tables.functions),
@@ -122,7 +113,9 @@ pub(super) fn sections(reader: &mut Reader, document: &mut DeTable<'_>) -> Whole
     Whole {
         numbers: only(reader, document),
         text: only(reader, document),
+        names: only(reader, document),
         tables: Tables {
+            forms: reader.rows(document),
             limits: reader.rows(document),
             operators: reader.rows(document),
             functions: reader.rows(document),

@@ -1,7 +1,7 @@
 //! The capability matrix: one line a concept, one column a dialect.
 
 use super::table::columns;
-use super::{BareLength, Control, Origin, Question, registry};
+use super::{BareLength, Control, OperandPlace, Origin, Question, registry};
 use crate::canon::{Func, Op, Sys};
 use std::collections::BTreeSet;
 
@@ -55,6 +55,20 @@ pub fn matrix() -> String {
                         .map(|v| mark(&run(&v.name, v.first, v.last, class == "letter"), &v.origin))
                         .collect();
                     if runs.is_empty() { NONE.into() } else { runs.join(" ") }
+                })
+            })
+            .collect(),
+    );
+    section(
+        "OPERANDS",
+        OperandPlace::ALL
+            .iter()
+            .map(|place| {
+                row(place.name(), &|c| {
+                    c.form(*place).map_or(NONE.into(), |form| {
+                        let takes: Vec<&str> = form.takes.iter().map(|operand| operand.name()).collect();
+                        mark(&takes.join("/"), &form.origin)
+                    })
                 })
             })
             .collect(),

@@ -1,6 +1,7 @@
 //! The shape of `dialects/*.toml`. Every row says where it comes from, and
 //! whether a maker's text confirms it.
 
+use super::forms::{Form, LineCounts, Names};
 use super::rows::*;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +41,10 @@ pub struct Dialect {
     pub numbers: Numbers,
     /// Characters, comments, lengths.
     pub text: Text,
+    /// Names of programs and variables.
+    pub names: Names,
+    /// What each place takes as an operand.
+    pub forms: Vec<Form>,
     /// Nesting and other limits.
     pub limits: Vec<Limit>,
     /// Operators, with their rank.
@@ -135,6 +140,9 @@ pub struct Text {
     pub line: Option<u32>,
     /// Most characters of a macro statement's line, where that is another number.
     pub macro_line: Option<u32>,
+    /// What counts as the length of a line.
+    #[serde(default)]
+    pub line_counts: LineCounts,
     /// Largest sequence number.
     pub sequence_max: u32,
     /// Largest program number.

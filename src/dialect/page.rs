@@ -2,7 +2,7 @@
 
 use super::matrix::{mark, run};
 use super::table::columns;
-use super::{Control, Row};
+use super::{Compares, Control, Row};
 
 /// All that is known of a control: section by section, each row with its
 /// source, and with its note where it has one. A `?` marks what no maker's text confirms.
@@ -32,6 +32,21 @@ pub fn page(control: &Control) -> String {
             row.program_max,
             known(row.message)
         )]
+    });
+    section(&mut out, "NAMES", std::slice::from_ref(&dialect.names), |row| {
+        let name = |name: &Option<String>| name.clone().unwrap_or("none".into());
+        let (program, numbered) = (name(&row.program), name(&row.numbered));
+        let tape = if row.tape { ", files between %" } else { "" };
+        vec![format!("programs {program}, system variables by number {numbered}{tape}")]
+    });
+    section(&mut out, "FORMS", &dialect.forms, |row| {
+        let takes: Vec<&str> = row.takes.iter().map(|operand| operand.name()).collect();
+        let class = row.class.as_ref().map_or(String::new(), |class| format!("{class} only"));
+        let apart = if row.mixed { "" } else { "constants and variables in blocks of their own" };
+        let zero = if row.compares == Compares::Zero { "against 0" } else { "" };
+        let limits: Vec<&str> =
+            [class.as_str(), apart, zero].into_iter().filter(|limit| !limit.is_empty()).collect();
+        vec![row.place.name().into(), row.written.clone(), takes.join(", "), limits.join(", ")]
     });
     section(&mut out, "LIMITS", &dialect.limits, |row| {
         let max = row.max.map_or("none".into(), |max| max.to_string());

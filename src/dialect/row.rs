@@ -1,8 +1,8 @@
 //! What all rows have in common: a section, a name within it, an origin.
 
 use super::{
-    Argument, Behaviour, CodeMeaning, Function, InUse, Limit, Numbers, Operator, Origin, Setting, Statement,
-    SystemVariable, Text, VariableClass, WordMeaning,
+    Argument, Behaviour, CodeMeaning, Form, Function, InUse, Limit, Names, Numbers, Operator, Origin,
+    Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
 };
 use serde::de::DeserializeOwned;
 
@@ -64,6 +64,8 @@ macro_rules! row {
 row! {
     Numbers "numbers" "numbers" |_row| String::new();
     Text "text" "text" |_row| String::new();
+    Names "names" "names" |_row| String::new();
+    Form "forms" "form" |row| row.place.name().into();
     Limit "limits" "limit" |row| row.name.clone();
     Operator "operators" "operator" |row| row.meaning.clone();
     Function "functions" "function" |row| match row.arguments {

@@ -26,6 +26,10 @@ source = "here"
 sequence_max = 9999
 program_max = 9999
 source = "here"
+[names]
+tape = false
+nameless = false
+source = "here"
 "#,
         if rows.contains("settings") { "" } else { SETTINGS }
     )

@@ -25,8 +25,10 @@ pub enum Position {
     Condition,
     /// Something printed.
     Output,
-    /// A count, a computed target, a program number.
-    Other,
+    /// A count, a program number.
+    Count,
+    /// The target of a computed jump or return.
+    Jump,
 }
 
 /// What runs before the statement whose expression was rewritten.
@@ -297,12 +299,12 @@ fn condition(cond: &mut Cond, f: &mut Each<'_>) {
 
 fn call(call: &mut Call, f: &mut Each<'_>) {
     if let crate::ir::Callee::Computed(e) = &mut call.callee {
-        f(e, Position::Other);
+        f(e, Position::Count);
     }
     for argument in &mut call.arguments {
         f(&mut argument.value, Position::Argument(argument.local));
     }
-    call.count.iter_mut().for_each(|count| f(count, Position::Other));
+    call.count.iter_mut().for_each(|count| f(count, Position::Count));
 }
 
 fn nc(nc: &mut Nc, f: &mut Each<'_>) {
@@ -325,7 +327,7 @@ pub(super) fn statement(kind: &mut StmtKind, f: &mut Each<'_>) {
         StmtKind::Nc(block) => nc(block, f),
         StmtKind::ModalCall(c) => call(c, f),
         StmtKind::Alarm { number, .. } | StmtKind::StopMessage { number, .. } => {
-            f(number, Position::Other);
+            f(number, Position::Count);
         }
         StmtKind::Output(parts) => {
             for part in parts {
@@ -342,7 +344,7 @@ pub(super) fn statement(kind: &mut StmtKind, f: &mut Each<'_>) {
             }
         }
         StmtKind::Input { target, .. } => place(target, f),
-        StmtKind::LimitLookahead(blocks) => f(blocks, Position::Other),
+        StmtKind::LimitLookahead(blocks) => f(blocks, Position::Count),
         _ => {}
     }
 }
@@ -351,9 +353,9 @@ pub(super) fn statement(kind: &mut StmtKind, f: &mut Each<'_>) {
 pub(super) fn terminator(kind: &mut TermKind, f: &mut Each<'_>) {
     match kind {
         TermKind::Branch { cond, .. } => condition(cond, f),
-        TermKind::Computed { value, .. } => f(value, Position::Other),
+        TermKind::Computed { value, .. } => f(value, Position::Jump),
         TermKind::Call { call: c, .. } => call(c, f),
-        TermKind::Return { to: Some(to) } => f(to, Position::Other),
+        TermKind::Return { to: Some(to) } => f(to, Position::Jump),
         _ => {}
     }
 }

@@ -10,5 +10,6 @@ mod domain;
 mod dwell;
 mod functions;
 mod harness;
+mod operands;
 mod oversize;
 mod truth;

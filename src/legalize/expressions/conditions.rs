@@ -10,7 +10,7 @@
 
 use super::split;
 use crate::canon::Func;
-use crate::dialect::Question;
+use crate::dialect::{OperandPlace, Question};
 use crate::ir::{
     BinOp, BlockId, Builder, Class, Cond, Expr, Place, Program, Relation, SourceInfo, StmtKind, TermKind,
     Terminator, Var,
@@ -24,7 +24,8 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let joined = context.target.is(Question::ConditionAndOr);
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
-    let room = split::room(context.target).saturating_sub("WHILE [] DO1".len());
+    let (beside, _) = split::beside(context.target, OperandPlace::Loop);
+    let room = context.target.room(OperandPlace::Loop).saturating_sub(beside);
     let fits = |cond: &Cond| {
         let size = measure.cond(cond).bracketed();
         size.depth <= depth && size.length <= room

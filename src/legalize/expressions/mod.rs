@@ -4,5 +4,6 @@ pub(in crate::legalize) mod conditions;
 pub(in crate::legalize) mod constants;
 pub(in crate::legalize) mod cost;
 pub(in crate::legalize) mod functions;
+pub(in crate::legalize) mod operands;
 pub(in crate::legalize) mod split;
 pub(in crate::legalize) mod truth;

@@ -6,7 +6,7 @@
 //! Operands are taken out from the inside, so that each piece is as large as the target takes.
 
 use crate::canon::{Func, Sys};
-use crate::dialect::Control;
+use crate::dialect::{Control, OperandPlace};
 use crate::ir::{
     Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
@@ -14,35 +14,48 @@ use crate::legalize::context::Context;
 use crate::legalize::expressions::cost::{Measure, REGISTER, Size};
 use crate::legalize::rewrite::{self, Position, highest_temp};
 
-/// Characters that stand before a block's own: a block skip, a sequence number.
-const HEAD: usize = 9;
+/// Characters that stand beside an operand in its place, and the brackets that it stands in there.
+pub(in crate::legalize) fn beside(control: &Control, place: OperandPlace) -> (usize, u32) {
+    control.form(place).map_or((0, 0), |form| (form.beside(), form.brackets()))
+}
 
-/// What a line takes besides its head.
-pub(in crate::legalize) fn room(control: &Control) -> usize {
-    control.text().line.map_or(usize::MAX, |line| (line as usize).saturating_sub(HEAD))
+/// The place in the tables of an operand.
+pub(in crate::legalize) fn place_of(position: Position) -> OperandPlace {
+    match position {
+        Position::Word(_) => OperandPlace::Word,
+        Position::Code => OperandPlace::Code,
+        Position::Argument(_) => OperandPlace::Argument,
+        Position::Value => OperandPlace::Assignment,
+        Position::Subscript => OperandPlace::Subscript,
+        Position::Condition => OperandPlace::Condition,
+        Position::Output => OperandPlace::Output,
+        Position::Count => OperandPlace::Count,
+        Position::Jump => OperandPlace::Jump,
+    }
 }
 
 /// True where a line of the target has room for a condition and the statement behind its THEN.
 pub fn shares_line(control: &Control, cond: &Cond, stmt: &StmtKind) -> bool {
     let measure = Measure::new(control);
-    let mut length = "IF [] THEN ".len() + measure.cond(cond).length;
+    let (before, _) = beside(control, OperandPlace::Then);
+    let mut length = before + measure.cond(cond).length;
     if let StmtKind::Nc(nc) = stmt {
         length += 4 * nc.items.len();
     }
     stmt.exprs(&mut |e| length += measure.expr(e).length + 2);
-    length + REGISTER <= room(control)
+    length + REGISTER <= control.room(OperandPlace::Then)
 }
 
 /// Takes operands out of expressions that the target has no room for.
 pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
-    let room = room(context.target);
-    if depth == u32::MAX && room == usize::MAX {
+    let endless = |place: OperandPlace| context.target.room(place) == usize::MAX;
+    if depth == u32::MAX && endless(OperandPlace::Word) && endless(OperandPlace::Assignment) {
         return false;
     }
     let highest = highest_temp(program);
-    let mut cutter = Cutter { measure, depth, room, highest, before: Vec::new() };
+    let mut cutter = Cutter { control: context.target, measure, depth, highest, before: Vec::new() };
     for block in &mut program.blocks {
         cutter.block(block);
     }
@@ -50,9 +63,9 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
 }
 
 struct Cutter<'c> {
+    control: &'c Control,
     measure: Measure<'c>,
     depth: u32,
-    room: usize,
     highest: u32,
     before: Vec<(Var, Expr)>,
 }
@@ -106,15 +119,11 @@ impl Cutter<'_> {
     }
 
     fn most(&self, position: Position) -> Most {
-        let (brackets, beside) = match position {
-            Position::Value | Position::Output => (0, REGISTER + 1),
-            Position::Condition => (1, "IF [] GOTO 99999".len()),
-            Position::Subscript => (1, REGISTER + 4),
-            _ => (1, "X[]".len()),
-        };
+        let place = place_of(position);
+        let (beside, brackets) = beside(self.control, place);
         Most {
             depth: self.depth.saturating_sub(brackets),
-            length: self.room.saturating_sub(beside),
+            length: self.control.room(place).saturating_sub(beside),
             word: matches!(position, Position::Word(_)),
         }
     }
@@ -175,11 +184,12 @@ impl Cutter<'_> {
 
     /// Takes the longest values out of a block that is longer than a line.
     fn words(&mut self, items: &mut [NcItem]) {
+        let room = self.control.room(OperandPlace::Word);
         let most = items.iter().map(|item| match item {
             NcItem::Word(_, value) => self.measure.bound(value).length + 4,
             _ => 4,
         });
-        if most.sum::<usize>() <= self.room {
+        if most.sum::<usize>() <= room {
             return;
         }
         loop {
@@ -187,7 +197,7 @@ impl Cutter<'_> {
                 NcItem::Word(_, value) => self.measure.expr(value).length + 4,
                 _ => 4,
             });
-            if lengths.sum::<usize>() <= self.room {
+            if lengths.sum::<usize>() <= room {
                 return;
             }
             let mut longest: Option<(usize, usize)> = None;
@@ -237,7 +247,7 @@ impl Cutter<'_> {
     }
 }
 
-fn is_leaf(e: &Expr) -> bool {
+pub(super) fn is_leaf(e: &Expr) -> bool {
     matches!(e, Expr::Number(_) | Expr::Increments(_) | Expr::Vacant | Expr::Var(_))
 }
 
@@ -250,7 +260,7 @@ fn is_free(e: &Expr, word: bool) -> bool {
     }
 }
 
-fn is_free_all(e: &Expr, word: bool) -> bool {
+pub(super) fn is_free_all(e: &Expr, word: bool) -> bool {
     let mut free = true;
     e.walk(&mut |e| free &= is_free(e, word));
     free

@@ -8,7 +8,7 @@ use crate::legalize::codes::{
     beside_moves, by_number, lookahead, machine_codes, missing, pauses, substitutes,
 };
 use crate::legalize::cycles::{cycle_here, cycle_words, dwell, tapping};
-use crate::legalize::expressions::{conditions, constants, functions, split, truth};
+use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth};
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, program_numbers, sequence_numbers};
 use crate::legalize::moves::{
@@ -283,8 +283,15 @@ const EXPRESSIONS: &[Pass] = &[
     Pass::each("printed-values", "values to be printed go to temporaries", questions::hold_values)
         .when(|c, _| c.has(Feature::Print)),
     Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
+    Pass::each(
+        "operands",
+        "operands are computed before where the target takes no expression",
+        operands::run,
+    )
+    .when(operands::concerns)
+    .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
         .when(|c, _| c.has(Feature::Computed))
-        .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
+        .needs(&["operands"]),
 ];
 
 const ENTRY: &[Pass] = &[
