@@ -3,6 +3,7 @@
 mod support;
 
 use macroglot::dialect::registry;
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use support::{rust_files, text};
 
@@ -56,6 +57,97 @@ fn only_its_own_modules_name_a_dialect() {
         }
     }
     assert!(found.is_empty(), "dialects are named outside their modules:\n{}", found.join("\n"));
+}
+
+/// The rooms that hold no spelling of a control: they ask its table.
+const SPELL_NOTHING: &[&str] = &["src/legalize/", "src/verify/", "src/library/", "src/report/", "src/opt/"];
+
+/// Where a sign that is also a name of variables or programs stands for something else.
+const OTHER_SIGNS: &[(&str, &str)] = &[
+    ("src/legalize/operator/letters.rs", "signs of texts: what stands behind the sign of a diameter"),
+    ("src/legalize/operator/questions.rs", "signs of texts that formatted output reads as something else"),
+    ("src/verify/letters.rs", "letters of texts, as operators read them"),
+    ("src/verify/texts.rs", "signs of texts that read alike"),
+    ("src/report/markdown.rs", "the sign of a heading"),
+    ("src/report/html.rs", "a number of a character"),
+    ("src/report/plot.rs", "colours"),
+    ("src/report/plot/view.rs", "colours"),
+];
+
+#[test]
+fn shared_rooms_spell_no_names_and_no_flow() {
+    let (sigils, words) = spellings();
+    let mut found = Vec::new();
+    let files = rust_files("src").into_iter().filter(|(path, _)| {
+        let shared = SPELL_NOTHING.iter().any(|room| path.starts_with(room));
+        shared && !is_test(path) && !OTHER_SIGNS.iter().any(|(other, _)| path == other)
+    });
+    for (path, source) in files {
+        for (number, line) in without_tests(&source).lines().enumerate() {
+            let all = literals(code_of(line));
+            if all.iter().any(|literal| spells(literal, &sigils, &words)) {
+                found.push(format!("{path}:{}: {}", number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "ask the control's table (`names`, `variables`, `forms`):\n{}",
+        found.join("\n")
+    );
+}
+
+/// The names before numbers of variables and programs, and the words that stand beside operands, of all controls.
+fn spellings() -> (BTreeSet<String>, BTreeSet<String>) {
+    let (mut sigils, mut found) = (BTreeSet::new(), BTreeSet::new());
+    for dialect in registry::all().iter().filter_map(|entry| entry.dialect().ok()) {
+        sigils.extend(dialect.variables.iter().map(|row| row.name.clone()));
+        sigils.extend(dialect.names.program.iter().chain(&dialect.names.numbered).cloned());
+        for written in dialect.forms.iter().map(|row| row.written.as_str()) {
+            let words =
+                words(written).into_iter().map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()));
+            let is_word =
+                |word: &&str| word.len() > 1 && word.bytes().all(|letter| letter.is_ascii_uppercase());
+            found.extend(words.filter(is_word).map(str::to_owned));
+        }
+    }
+    (sigils, found)
+}
+
+/// True for a literal that is a name before numbers, has one before a number, or has a word of a statement.
+fn spells(literal: &str, sigils: &BTreeSet<String>, statements: &BTreeSet<String>) -> bool {
+    let numbered = |sigil: &String| {
+        literal.match_indices(sigil.as_str()).any(|(at, _)| {
+            let before = literal[..at].chars().next_back();
+            let behind = literal[at + sigil.len()..].chars().next();
+            !before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '{' | ':'))
+                && behind.is_some_and(|c| c == '{' || c.is_ascii_digit())
+        })
+    };
+    sigils.contains(literal)
+        || sigils.iter().any(numbered)
+        || words(literal).iter().any(|word| statements.contains(*word))
+}
+
+/// The texts and characters that stand in a line of code.
+fn literals(line: &str) -> Vec<String> {
+    let signs: Vec<char> = line.chars().collect();
+    let (mut out, mut at) = (Vec::new(), 0);
+    while at < signs.len() {
+        let quote = signs[at];
+        let is_char = quote == '\'' && (signs.get(at + 2) == Some(&'\'') || signs.get(at + 1) == Some(&'\\'));
+        at += 1;
+        if quote != '"' && !is_char {
+            continue;
+        }
+        let start = at;
+        while at < signs.len() && signs[at] != quote {
+            at += if signs[at] == '\\' { 2 } else { 1 };
+        }
+        out.push(signs[start..at.min(signs.len())].iter().collect());
+        at += 1;
+    }
+    out
 }
 
 #[test]
@@ -123,6 +215,15 @@ fn the_rules_have_teeth() {
     assert!(may_name_dialects("src/lower/fadal/block.rs") && may_name_dialects("src/emit/macro_b/mod.rs"));
     assert!(!may_name_dialects("src/legalize/fadal/x.rs") && !may_name_dialects("src/lower/common/mod.rs"));
     assert!(is_test("src/syntax/testing.rs") && !is_test("src/syntax/file.rs"));
+    let line = r##"f("a\"b", 'c', b'"', x::<'t>('\'', "#"))"##;
+    assert_eq!(literals(line), ["a\\\"b", "c", "\"", "\\'", "#"]);
+    let (sigils, statements) = spellings();
+    for literal in ["#", "V", "O", "leaves #{number}", "#100", "IF [] GOTO 99999", "THEN", "O{:04}"] {
+        assert!(spells(literal, &sigils, &statements), "{literal}");
+    }
+    for literal in ["if", "V is", "NO.", "{name}(..)", "IO7"] {
+        assert!(!spells(literal, &sigils, &statements), "{literal}");
+    }
     assert!(declares("pub mod fadal;", "fadal") && !declares("use super::fadal;", "fadal"));
     assert_eq!(code_of("let a = 1; // .unwrap() is not code"), "let a = 1; ");
     assert_eq!(code_of(r#"let a = "https://x"; b"#), r#"let a = "https://x"; b"#);

@@ -182,7 +182,7 @@ impl<'a> Context<'a> {
     /// Says, once a program, that it rests on which state a numbered variable is, where no maker's text confirms that.
     pub fn rests_on_number(&mut self, side: Side, program: usize, span: Span, number: u32) {
         let control = if side == Side::Source { self.source } else { self.target };
-        let row = control.read_system("#", Some(number)).filter(|(.., row)| !row.origin.confirmed);
+        let row = control.numbered_state(number).filter(|(.., row)| !row.origin.confirmed);
         if let Some((.., row)) = row {
             let finding = control.unconfirmed(side, &row.fact(), row.origin.note.as_deref(), span);
             self.add_once(program, &format!("{side} {}", row.fact()), finding);

@@ -50,10 +50,7 @@ pub(super) fn links(module: &Module, origins: &[usize]) -> Vec<Link> {
         let at = *by_name.get(name)?;
         let callee = *origins.get(at).filter(|callee| **callee != caller)?;
         let primary = first.get(&callee).copied().unwrap_or(at);
-        let name = match module.programs.get(primary)?.name.as_ref()? {
-            ProgramName::Number(number) => format!("O{number}"),
-            ProgramName::Name(name) => name.clone(),
-        };
+        let name = module.programs.get(primary)?.name.as_ref()?.short().into_owned();
         Some(Linked::Program { at: callee, name, made: primary != at })
     };
     let mut links = Vec::new();

@@ -3,11 +3,13 @@
 use super::inputs::{InputError, slashed};
 use super::outputs::SIDECARS;
 use super::{Lock, Manifest, Project};
+use crate::dialect::registry;
 use ignore::WalkBuilder;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// A file or folder that was not read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -133,13 +135,23 @@ fn is_output(path: &Path) -> bool {
     path.join(Manifest::NAME).is_file()
 }
 
+/// What stands before the numbers of programs, on any control.
+fn program_marks() -> &'static [&'static str] {
+    static MARKS: OnceLock<Vec<&str>> = OnceLock::new();
+    MARKS.get_or_init(|| {
+        let dialects = registry::all().iter().filter_map(|entry| entry.dialect().ok());
+        dialects.filter_map(|dialect| dialect.names.program.as_deref()).collect()
+    })
+}
+
 fn is_program(path: &Path, endings: &[String]) -> bool {
     match path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()) {
         Some(ending) => ENDINGS.contains(&ending.as_str()) || endings.contains(&ending),
         // Controls write O1234 and the like; build files and licences have no ending either.
         None => path.file_name().is_some_and(|name| {
             let name = name.to_string_lossy().to_ascii_uppercase();
-            name.strip_prefix('O').unwrap_or(&name).bytes().all(|b| b.is_ascii_digit())
+            let number = program_marks().iter().find_map(|mark| name.strip_prefix(mark)).unwrap_or(&name);
+            number.bytes().all(|b| b.is_ascii_digit())
         }),
     }
 }

@@ -9,6 +9,7 @@
 use super::{BinaryOp, Expr, VarRef, Word};
 use crate::diag::Diagnostic;
 use crate::text::Span;
+use std::borrow::Cow;
 
 /// One block (what the control executes at once), with everything on it.
 ///
@@ -223,6 +224,21 @@ pub enum ProgramName {
     Number(u32),
     /// `O<NAME>`, `<NAME>`.
     Name(String),
+}
+
+impl ProgramName {
+    /// As short as people write it: `O12`, or the name itself.
+    pub fn short(&self) -> Cow<'_, str> {
+        match self {
+            ProgramName::Number(number) => format!("O{number}").into(),
+            ProgramName::Name(name) => name.into(),
+        }
+    }
+
+    /// What is left of a name as people write it without what stands before a number: `12` of `O0012`.
+    pub fn digits(shown: &str) -> &str {
+        shown.trim_start_matches(['O', '0'])
+    }
 }
 
 impl std::fmt::Display for ProgramName {

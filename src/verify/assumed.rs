@@ -116,10 +116,11 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         Predicate::Unseen => Held::Untried,
         Predicate::Subscripts(subscripts) => {
             let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
+            let name = of.0.control.numbered().unwrap_or_default();
             judged(
                 here,
                 |number| subscripts.safe.contains(*number),
-                |n| format!("computes the variable #{n}"),
+                |n| format!("computes the variable {name}{n}"),
             )
         }
         Predicate::Arguments { function, places, domain } => {

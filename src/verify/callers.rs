@@ -151,7 +151,7 @@ pub fn ways(run: &Run, file: usize) -> impl Iterator<Item = (Spot, i64)> + '_ {
 /// the circumstances that a caller makes.
 pub fn implicate<'c>(certificates: impl Iterator<Item = &'c mut Certificate>) {
     let mut all: Vec<&mut Certificate> = certificates.collect();
-    let number = |name: &str| name.trim_start_matches(['O', '0']).to_owned();
+    let number = |name: &str| ProgramName::digits(name).to_owned();
     let place = |program: &ProgramCertificate| {
         let named = program.program.as_deref().unwrap_or_default();
         (program.source.clone(), number(named))
@@ -253,8 +253,7 @@ fn comes_to(run: &Run, spot: Option<Spot>) -> bool {
 
 fn name(job: &Job<'_>, program: ProgramRef) -> String {
     match job.source.name(program) {
-        Some(ProgramName::Number(number)) => format!("O{number:04}"),
-        Some(ProgramName::Name(name)) => name.clone(),
+        Some(name) => name.to_string(),
         None => job.source.files.get(program.file).map_or_else(String::new, |file| file.name.to_owned()),
     }
 }

@@ -167,8 +167,5 @@ fn rotary_in(blocks: &[Block]) -> [bool; 3] {
 
 /// A program's name as runs have it.
 fn as_run(name: &ProgramName) -> String {
-    match name {
-        ProgramName::Number(number) => format!("O{number}"),
-        ProgramName::Name(name) => name.clone(),
-    }
+    name.short().into_owned()
 }

@@ -7,6 +7,7 @@ use super::side::Side as Library;
 use crate::canon::{Group, Op, Running, Sys};
 use crate::control::Run;
 use crate::control::trace::{Event, EventKind, Side, Spindle, Told};
+use crate::dialect::Control;
 use std::borrow::Cow;
 
 /// Something that an observer could tell.
@@ -179,7 +180,7 @@ impl<'r> Observer<'_, 'r> {
             EventKind::Message { text } => {
                 let room = room("message", text);
                 let asks = next.is_some_and(|next| matches!(next.what, EventKind::Asked { .. }));
-                match asks.then(|| prompt(text)) {
+                match asks.then(|| prompt(text, self.side.control)) {
                     Some("") => return,
                     Some(text) => (Cow::Owned(EventKind::Output { text: text.to_owned() }), room),
                     None => (Cow::Borrowed(&event.what), room),
@@ -196,9 +197,9 @@ impl<'r> Observer<'_, 'r> {
 }
 
 /// The question in a message that names the variable of the answer first: `#100 DEPTH`, `SET #100`.
-fn prompt(text: &str) -> &str {
+fn prompt<'t>(text: &'t str, control: &Control) -> &'t str {
     let rest = text.trim().trim_start_matches("SET ").trim_start();
-    match rest.strip_prefix('#') {
+    match control.numbered().and_then(|name| rest.strip_prefix(name)) {
         Some(rest) => rest.trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start(),
         None => rest,
     }

@@ -194,7 +194,7 @@ fn written(place: &Place) -> Option<u32> {
 
 /// The numbers that locals have on a control.
 pub fn numbers(control: &Control) -> Numbers {
-    let rows = control.classes().iter().filter(|row| row.class == "local" && row.name == "#");
+    let rows = control.classes().iter().filter(|row| row.class == "local");
     let (first, last) =
         rows.fold((u32::MAX, 0), |(first, last), row| (first.min(row.first), last.max(row.last)));
     first..=last

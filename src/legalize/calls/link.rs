@@ -50,9 +50,10 @@ fn check(
 ) {
     match callee {
         Callee::Program(name) if known.contains(name) => {}
-        Callee::Program(ProgramName::Number(n)) => {
+        Callee::Program(name @ ProgramName::Number(_)) => {
             let what = format!(
-                "O{n} is not in the library: the target needs a program of that number that does the same"
+                "{} is not in the library: the target needs a program of that number that does the same",
+                name.short()
             );
             context.add_once(index, &what, Diagnostic::new(Code::OutsideLibrary, span, what.clone()));
         }

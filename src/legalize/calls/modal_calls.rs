@@ -325,10 +325,7 @@ impl Expansion {
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
             }
             Some((at, name)) if calls.len() < DEEPEST => {
-                let written = |name: &ProgramName| match name {
-                    ProgramName::Number(n) => format!("O{n}"),
-                    ProgramName::Name(name) => name.clone(),
-                };
+                let written = |name: &ProgramName| name.short().into_owned();
                 let under: Vec<String> = calls
                     .iter()
                     .map(|call| match &call.callee {

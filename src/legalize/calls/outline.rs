@@ -116,8 +116,7 @@ fn called(program: &Program, entry: BlockId) -> ThinVec<Remark> {
 /// A name that no program in any source has: the parent's and the label.
 fn sub_name(program: &Program, entry: BlockId) -> ProgramName {
     let parent = match &program.name {
-        Some(ProgramName::Number(n)) => format!("O{n}"),
-        Some(ProgramName::Name(name)) => name.clone(),
+        Some(name) => name.short().into_owned(),
         None => format!("FILE{}", program.file),
     };
     let label = match program.block(entry).and_then(|block| block.labels.first()) {

@@ -118,6 +118,6 @@ fn is_computed(e: &Expr, source: &Control) -> bool {
         return position(e).is_some_and(|axis| axis.constant().is_none());
     };
     let start = constant_part(number).and_then(whole);
-    let first = start.and_then(|start| source.read_system("#", Some(start.saturating_add(1))));
+    let first = start.and_then(|start| source.numbered_state(start.saturating_add(1)));
     first.is_some_and(|(state, ..)| is_position(state))
 }

@@ -13,7 +13,7 @@ use crate::ir::analysis::Numbers;
 use crate::ir::{Bank, Module, Var};
 use crate::legalize::Context;
 use crate::legalize::registers::map::Registers;
-use crate::legalize::registers::names::{members, name_of, run_name};
+use crate::legalize::registers::names::{members, name_of, pool_name, run_name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// No names.
@@ -112,7 +112,7 @@ fn conflicts(
         found.extend(holders.chain(scratch).map(conflict));
     }
     for bank in banks {
-        let base = locked.variables.get(&run_name(*bank));
+        let base = locked.variables.get(&run_name(*bank, context.source));
         for (number, name) in members(*bank, module, context) {
             let Some(&register) = locked.variables.get(&name) else { continue };
             if base.is_none_or(|base| base + number != register) {
@@ -132,11 +132,12 @@ fn give_up(module: &Module, conflict: &Conflict, effective: &mut Effective, cont
     };
     effective.variables.remove(name);
     effective.freed.insert(name.clone());
+    let register = format!("{}{number}", pool_name(context.target));
     let why = match wants {
-        Wants::Own(_) => format!("a program has #{number} itself"),
-        Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank)),
+        Wants::Own(_) => format!("a program has {register} itself"),
+        Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank, context.source)),
     };
-    let what = format!("{name} leaves #{number}, where an earlier run had it: {why}");
+    let what = format!("{name} leaves {register}, where an earlier run had it: {why}");
     let help = "what the machine keeps in the old register is not moved; macroglot.lock has the new one";
     let place = module.programs.first().map(|program| program.site.span).unwrap_or_default();
     context.add_once(0, &what, Diagnostic::new(Code::LockChanged, place, what.clone()).with_help(help));
@@ -150,11 +151,12 @@ fn refuse(module: &Module, conflict: &Conflict, others: &[String], context: &mut
         None => "for values in between".into(),
     };
     let others = others.join(", ");
+    let register = format!("{}{number}", pool_name(context.target));
     let why = match wants {
-        Wants::Own(_) => format!("this program has #{number} itself"),
-        Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank)),
+        Wants::Own(_) => format!("this program has {register} itself"),
+        Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank, context.source)),
     };
-    let what = format!("macroglot.lock keeps #{number} {holder}, on which {others} relies, and {why}");
+    let what = format!("macroglot.lock keeps {register} {holder}, on which {others} relies, and {why}");
     let help = "delete macroglot.lock in the output folder, and convert all of these files in one run";
     for (index, program) in module.programs.iter().enumerate() {
         let mut concerned = matches!(wants, Wants::Row(_));

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A register of the target: its name before the number, and its number.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Register {
-    /// `#`, `V`.
+    /// Its name before the number.
     pub name: String,
     /// Its number.
     pub number: u32,

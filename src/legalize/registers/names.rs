@@ -10,11 +10,10 @@ pub(super) fn class_of(bank: Bank) -> Class {
 }
 
 /// What the run of registers of a bank is called in the lock.
-pub(in crate::legalize) fn run_name(bank: Bank) -> String {
-    match bank {
-        Bank::Parametric => "R(..)".into(),
-        Bank::Global | Bank::Numbered => "V(..)".into(),
-    }
+pub(in crate::legalize) fn run_name(bank: Bank, source: &Control) -> String {
+    let row = source.classes().iter().find(|row| Some(row.class.as_str()) == bank.class());
+    let name = row.map(|row| row.name.as_str()).or(source.numbered()).unwrap_or_default();
+    format!("{name}(..)")
 }
 
 /// The variables of a bank of its own: their numbers and names.
@@ -55,7 +54,8 @@ pub(in crate::legalize) fn name_of(var: Var, module: &Module, source: &Control) 
     let row = row.or_else(|| {
         rows.iter().find(|row| row.class != "letter" && (row.first..=row.last).contains(&var.number))
     });
-    Some(format!("{}{}", row.map_or("#", |row| row.name.as_str()), var.number))
+    let name = row.map(|row| row.name.as_str()).or(source.numbered()).unwrap_or_default();
+    Some(format!("{name}{}", var.number))
 }
 
 /// True for a variable whose number the target has too.
@@ -69,5 +69,5 @@ pub(super) fn keeps_number(var: Var, context: &Context<'_>) -> bool {
 /// The name that the target's registers have before their number.
 pub(super) fn pool_name(target: &Control) -> String {
     let shared = target.classes().iter().find(|row| row.class != "local" && row.class != "letter");
-    shared.map_or_else(|| "#".into(), |row| row.name.clone())
+    shared.map(|row| row.name.as_str()).or(target.numbered()).unwrap_or_default().to_owned()
 }

@@ -44,7 +44,7 @@ pub(super) fn run_of(
     if bank == Bank::Numbered {
         return None;
     }
-    let (class, name) = (class_of(bank), run_name(bank));
+    let (class, name) = (class_of(bank), run_name(bank, context.source));
     let numbers: Vec<u32> =
         users.keys().filter(|var| var.class == class).map(|var| var.number).filter(|n| *n <= 100).collect();
     let (first, last) = (*numbers.first()?, *numbers.last()?);

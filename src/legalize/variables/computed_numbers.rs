@@ -203,7 +203,7 @@ impl Finding {
             ),
             Finding::Alike(first, last) => (
                 Code::Conditional,
-                must_stay(first, last)
+                must_stay(context.source, first, last)
                     + &format!(", outside of which numbers mean other variables on {title}"),
             ),
             Finding::Shifted(state, first, last, by) => {
@@ -211,20 +211,21 @@ impl Finding {
                 (
                     Code::Conditional,
                     format!(
-                        "{} ('{state}'), which are #{} to #{} on {title}",
-                        must_stay(first, last),
-                        there(first),
-                        there(last)
+                        "{} ('{state}'), which are {} to {} on {title}",
+                        must_stay(context.source, first, last),
+                        named(context.target, there(first)),
+                        named(context.target, there(last))
                     ),
                 )
             }
             Finding::Counted(state, first, last, _) => {
-                (Code::Conditional, format!("{} ('{state}')", must_stay(first, last)))
+                (Code::Conditional, format!("{} ('{state}')", must_stay(context.source, first, last)))
             }
             Finding::Other(number) => (
                 Code::NoEquivalent,
                 format!(
-                    "the number of a variable is computed, and #{number}, which it starts from or may be, is not the same variable on {title}"
+                    "the number of a variable is computed, and {}, which it starts from or may be, is not the same variable on {title}",
+                    named(context.source, number.into())
                 ),
             ),
             Finding::Any => (
@@ -237,6 +238,12 @@ impl Finding {
     }
 }
 
-fn must_stay(first: u32, last: u32) -> String {
-    format!("the number of a variable is computed: it must stay in #{first} to #{last}")
+fn must_stay(source: &Control, first: u32, last: u32) -> String {
+    let [first, last] = [first, last].map(|number| named(source, number.into()));
+    format!("the number of a variable is computed: it must stay in {first} to {last}")
+}
+
+/// A variable of the space that computed numbers reach, as the control writes it.
+fn named(control: &Control, number: i64) -> String {
+    format!("{}{number}", control.numbered().unwrap_or_default())
 }

@@ -73,7 +73,9 @@ impl Iterator for Pieces<'_> {
 /// True for a line that names an interpolation, false for one that leaves it in force; none where a look at its bytes
 /// cannot tell: comments, skipped blocks, heads of programs, codes that are unknown or belong to cycles.
 fn names_interpolation(line: &[u8], control: &Control) -> Option<bool> {
-    if line.iter().any(|byte| matches!(byte, b'(' | b'/' | b'%' | b':' | b'O' | b'o')) {
+    let head = control.names().program.as_deref().and_then(|name| name.bytes().next());
+    let begins = |byte: &u8| head.is_some_and(|head| byte.eq_ignore_ascii_case(&head));
+    if line.iter().any(|byte| matches!(byte, b'(' | b'/' | b'%' | b':') || begins(byte)) {
         return None;
     }
     let mut named = false;

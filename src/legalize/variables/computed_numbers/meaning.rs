@@ -13,16 +13,17 @@ pub(super) enum Meaning {
 
 /// What a control means by a number.
 pub(super) fn meaning(control: &Control, number: u32) -> Option<Meaning> {
-    if let Some(row) = control.variable_class("#", number) {
+    if let Some(row) = control.numbered_class(number) {
         return Some(if row.class == "local" { Meaning::Local } else { Meaning::Shared });
     }
-    control.read_system("#", Some(number)).map(|(state, subscripts, _)| Meaning::State(state, subscripts))
+    control.numbered_state(number).map(|(state, subscripts, _)| Meaning::State(state, subscripts))
 }
 
 /// The largest number that the control has.
 pub(super) fn last_number(control: &Control) -> u32 {
-    let dialect = control.dialect();
-    let system = dialect.system.iter().filter(|row| row.name == "#").filter_map(SystemVariable::last);
-    let own = control.classes().iter().filter(|row| row.name == "#").map(|row| row.last);
+    let Some(name) = control.numbered() else { return 0 };
+    let system = control.dialect().system.iter().filter(|row| row.name == name);
+    let system = system.filter_map(SystemVariable::last);
+    let own = control.classes().iter().filter(|row| row.name == name).map(|row| row.last);
     system.chain(own).max().unwrap_or(0).min(100_000)
 }

@@ -47,7 +47,7 @@ impl<'c> Numbers<'c> {
         let same = |number: u32| {
             let (here, there) = (meaning(source, number), meaning(target, number));
             let access = |control: &'c Control| {
-                control.read_system("#", Some(number)).map_or("", |(.., row)| row.access.as_str())
+                control.numbered_state(number).map_or("", |(.., row)| row.access.as_str())
             };
             match &here {
                 None if there.is_none() => None,
@@ -56,7 +56,7 @@ impl<'c> Numbers<'c> {
                 Some(Meaning::State(..)) => {
                     Some(here == there && access(source).chars().all(|c| access(target).contains(c)))
                 }
-                _ => Some(here == there && !target.is_reserved("#", number)),
+                _ => Some(here == there && !target.is_numbered_reserved(number)),
             }
         };
         (0..=last_number(source)).map(same).collect()
@@ -130,7 +130,7 @@ impl<'c> Numbers<'c> {
     /// The run of a state that is counted by one number.
     fn counted(&self, number: u32) -> Option<Finding> {
         let (state, _, row) =
-            self.source.read_system("#", Some(number)).filter(|(state, ..)| *state != Sys::Other)?;
+            self.source.numbered_state(number).filter(|(state, ..)| *state != Sys::Other)?;
         let (first, last) = (row.first?, row.last()?);
         match row.subscripts.as_slice() {
             [one] if one.step == 1 && !one.axis => Some(Finding::Counted(state, first, last, one.from)),
@@ -140,19 +140,20 @@ impl<'c> Numbers<'c> {
 
     /// True for the first number of a run, false for another one in it; none outside of all.
     fn begins(&self, number: u32) -> Option<bool> {
-        if let Some(row) = self.source.variable_class("#", number) {
+        if let Some(row) = self.source.numbered_class(number) {
             return Some(row.first == number);
         }
-        self.source.read_system("#", Some(number)).map(|(.., row)| row.first == Some(number))
+        self.source.numbered_state(number).map(|(.., row)| row.first == Some(number))
     }
 
     /// The run of a state as far as the target has it at one distance.
     fn distance(&self, number: u32) -> Option<Finding> {
-        let (state, _, row) = self.source.read_system("#", Some(number))?;
+        let (state, _, row) = self.source.numbered_state(number)?;
         let (first, last) = (row.first?, row.last()?);
         let distance = |number: u32| {
             let (name, there, found) = self.target.system_address(state, &row.subscripts_of(number)?)?;
-            let fits = name == "#" && row.access.chars().all(|c| found.access.contains(c));
+            let fits =
+                Some(name) == self.target.numbered() && row.access.chars().all(|c| found.access.contains(c));
             Some(i64::from(there.filter(|_| fits)?) - i64::from(number))
         };
         let by = distance(first)?;
