@@ -172,6 +172,7 @@ questions! {
     CallModalBlockCalls "call.modal.block.calls" YES, "the block that starts a modal call calls at once", if "statement:call.modal";
     CallModalSetsLocalsOnce "call.modal.sets.locals.once" YES, "a modal call sets its arguments in its own block only", if "statement:call.modal and statement:call.macro";
     CallModalNested "call.modal.nested" YES, "modal calls nest: the inner runs for moves of the outer macro", if "statement:call.modal";
+    CallModalOffAlone "call.modal.off.alone" YES, "the end of a modal call does nothing where none is open", if "op:call.modal.off";
     CallAliasNested "call.alias.nested" YES, "codes that call programs do so inside such programs too", if "statement:call.macro";
     LocalsSharedBySubprogram "locals.shared.by.subprogram" YES, "a subprogram sees and changes its caller's locals", if "class:local";
     ComparisonIsValue "comparison.is.value" YES, "a comparison is a value, one or zero";
@@ -251,6 +252,7 @@ questions! {
     ScaleReachesCycle "scale.reaches.cycle" YES, "scaling reaches the planes and the pecks of a drilling cycle", if "op:scale.on";
     ShiftLocalIsExternal "shift.local.is.external" YES, "the local shift and the shift of all work offsets are one register", if "op:wcs.local";
     SetPositionEndsLocal "set.position.ends.local" YES, "a code that sets the position ends the local shift of its axes", if "op:wcs.local";
+    SelectEndsSetPosition "select.ends.set.position" YES, "the choice of a work offset ends a position that was set", if "op:wcs.set.position";
     EndClearsLocal "end.clears.local" YES, "the end of the program clears the local shift", if "behaviour:shift.local.is.external";
     ReferenceAllAxes "reference.all.axes" YES, "a return to the reference position without axes moves all of them", if "op:reference.return";
     IntegerDivides "integer.divides" YES, "the quotient of two whole-number constants is cut to a whole number";
@@ -274,6 +276,7 @@ questions! {
     AlarmOffset "alarm.offset" NUMBER, "what is added to the number of an alarm on the screen", if "statement:alarm";
     AlarmMax "alarm.max" NUMBER, "the largest number of an alarm", if "statement:alarm";
     LookaheadRunsEarly "lookahead.runs.early" YES, "macro statements run while earlier moves are still to come";
+    EmptyBlockHolds "empty.block.holds" YES, "an empty block holds back reading ahead";
     SystemReadWaits "system.read.waits" YES, "reading a position waits until the machine is there";
     EndCancelsLength "end.cancels.length" YES, "the end of the program cancels length offsets";
     IndexOfFraction "index.of.fraction" OneOf(&["round", "truncate", "unknown"]), "what a computed subscript with a fraction means";

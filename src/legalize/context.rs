@@ -82,9 +82,22 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// True where both controls are of one family.
-    pub fn same_family(&self) -> bool {
-        self.source.dialect().family == self.target.dialect().family
+    /// True where both controls are known to give one answer, or have what is known by one row of a base.
+    pub fn agree(&self, question: Question) -> bool {
+        let (ours, theirs) = (self.source.behaviour(question), self.target.behaviour(question));
+        ours.zip(theirs).is_some_and(|(ours, theirs)| {
+            let one_row = ours.origin.table.is_some() && ours.origin.table == theirs.origin.table;
+            ours.value == theirs.value && (one_row || ours.value != "unknown")
+        })
+    }
+
+    /// True where both controls number the codes of a letter by one scheme: rows of one base.
+    pub fn number_alike(&self, letter: char) -> bool {
+        let [ours, theirs] = [self.source, self.target].map(|control| {
+            let rows = control.dialect().codes.iter().filter(|row| row.code.starts_with(letter));
+            rows.filter_map(|row| row.origin.table.as_deref()).collect::<BTreeSet<&str>>()
+        });
+        !ours.is_disjoint(&theirs)
     }
 
     /// Adds a finding to a program.

@@ -127,7 +127,7 @@ pub fn convert(
             let start = text.len();
             if outcome != Outcome::Refused || options.draft {
                 // Nothing else shows where a program without a number begins.
-                if framed && written[index].is_none() && text.len() > head && same_family(source, target) {
+                if framed && written[index].is_none() && text.len() > head && both_nameless(source, target) {
                     text.push_str("%\n");
                 }
                 for part in std::mem::take(&mut parts[index]) {
@@ -161,8 +161,9 @@ pub fn convert(
     Conversion { programs: reports, texts, lock, taken, states_reserved: target.states_reserved(), links }
 }
 
-pub(super) fn same_family(source: &Control, target: &Control) -> bool {
-    source.dialect().family == target.dialect().family
+/// True where a program without a number begins behind a `%` on both controls, and stays what it is.
+pub(super) fn both_nameless(source: &Control, target: &Control) -> bool {
+    source.names().nameless && target.names().nameless
 }
 
 pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {
@@ -173,9 +174,9 @@ pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {
     }
 }
 
-/// Whether the file is framed by `%`: as the source was within a family, else as the target's files are.
+/// Whether the file is framed by `%`: as the source was where files mean the same on both, else as the target's files are.
 pub(super) fn frames(source: &Control, target: &Control, tape: bool) -> bool {
-    tape || !same_family(source, target)
+    target.names().tape && (tape || !both_nameless(source, target))
 }
 
 /// From a machine to itself: the text stays as it is, byte for byte.

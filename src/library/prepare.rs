@@ -1,7 +1,7 @@
 //! A library as the passes get it: all files lowered into one module, with what was found in them.
 
 use super::chunks::lower::lower;
-use super::convert::same_family;
+use super::convert::both_nameless;
 use super::names::report_duplicates;
 use super::{Input, machine_kind};
 use crate::diag::Diagnostic;
@@ -53,9 +53,9 @@ pub(super) fn prepare(inputs: &[Input], source: &Control, target: &Control) -> P
 }
 
 /// On a control that knows programs by number each needs one. Programs without a name get that of their
-/// file, and a number by it; within a family a program without a number stays what it is.
+/// file, and a number by it; where both controls have programs without a number, it stays what it is.
 fn name_the_nameless(module: &mut Module, inputs: &[Input], source: &Control, target: &Control) {
-    if same_family(source, target) {
+    if both_nameless(source, target) {
         return;
     }
     for program in module.programs.iter_mut().filter(|program| program.name.is_none()) {

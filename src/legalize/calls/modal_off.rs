@@ -1,7 +1,7 @@
 //! The end of a modal call where none is open.
 //!
-//! Law: there the code ends nothing, and is left out: a control may take it for a fault. Side conditions: no modal call is
-//! open on any way there, and nothing that the library does not have calls the program: one that returns may be called
+//! Law: there the code ends nothing, and is left out: a control may take it for a fault. Side conditions: the source is known
+//! to take it for nothing, no modal call is open on any way there, and nothing that the library does not have calls the program: one that returns may be called
 //! from anywhere. Counter-example: a subprogram that ends its caller's modal call.
 
 use crate::ir::{Module, Program, StmtKind, TermKind};

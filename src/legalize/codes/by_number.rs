@@ -2,7 +2,7 @@
 //!
 //! Law: a number means the same on both controls where both tables give it the same operation with the same fixed
 //! operands. Every number that the value may be is looked up; where that set is not known, the code is a
-//! condition that a reviewer must accept within a family of controls, and an error across families. So is a code that
+//! condition that a reviewer must accept where both controls number their codes by one scheme, else an error. So is a code that
 //! the program may have found in force, which only one that runs before it can have put there. A computed code
 //! is a whole number: where both controls round it, what they round it to is looked up.
 //! Counter-example: `G#1` with `#1` = 47, which offsets on one control and engraves on the other.
@@ -46,14 +46,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
             }
             Finding::Read(code) => {
-                let same = context.same_family();
+                let same = context.number_alike(*letter);
                 let what = format!(
                     "puts in force again what was read: {code} is not known to mean the same on the target, and must not be in force where it is read"
                 );
                 (if same { Code::Conditional } else { Code::NoEquivalent }, what)
             }
             Finding::Any(letter) => {
-                let same = context.same_family();
+                let same = context.number_alike(*letter);
                 let what = format!(
                     "which {letter} code is computed here is not known: each that it may be must mean the same on the target"
                 );

@@ -1,7 +1,7 @@
-//! Empty blocks of another family of controls.
+//! Empty blocks that hold nothing back.
 //!
-//! Law: an empty block does nothing. Within a family it may hold back a control that reads ahead, and stays; what an
-//! empty block or a statement without effect of another control leaves behind is left out.
+//! Law: an empty block does nothing. On a control where it holds back reading ahead it may stand there for that, and
+//! stays; what an empty block or a statement without effect of another control leaves behind is left out.
 
 use crate::ir::{Module, StmtKind};
 use crate::legalize::Context;

@@ -4,14 +4,15 @@
 //! profile or a check of the unit says it), the target is told at the head of each main program that comes to a length
 //! before it names a unit, itself or in what it calls. Side conditions: where it is not known, the target must be set
 //! as the source was; where the target is set to the other unit, its tables must be kept for this one. Both are a
-//! review diagnostic. Two controls of one family that are set alike need nothing.
+//! review diagnostic. Where programs of the source can select a unit, what runs before one that names none does so on both
+//! controls: those that are set alike need nothing.
 
 pub(in crate::legalize) mod exit;
 
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Units;
+use crate::dialect::{Control, Units};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Lattice, reached};
@@ -44,8 +45,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let checked: Vec<Option<Units>> =
         module.programs.iter_mut().map(|program| take_checks(program, &mut changed)).collect();
     let (ours, theirs) = (context.source.units(), context.target.units());
-    let same_family = context.same_family();
-    if same_family && ours.is_some() && ours == theirs {
+    if ours.is_some() && ours == theirs && selects_unit(context.source) {
         return changed;
     }
     let mut entry = context.entry.clone();
@@ -87,6 +87,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         changed = true;
     }
     changed
+}
+
+/// True where a program can select the unit.
+fn selects_unit(control: &Control) -> bool {
+    [Op::Inch, Op::Metric].iter().any(|op| control.code_for(*op, &Default::default()).is_some())
 }
 
 /// Takes the checks of the unit out of a program; the unit that all of them check.

@@ -15,8 +15,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let answer = |control: &crate::dialect::Control| {
         control.behaviour(FACT).filter(|row| row.value != "unknown").map(|row| row.value.clone())
     };
-    let same_family = context.same_family();
-    if same_family || answer(context.source).is_some_and(|value| Some(value) == answer(context.target)) {
+    if context.agree(FACT) {
         return;
     }
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);

@@ -1,14 +1,22 @@
 //! Work offsets that are selected behind a position that the program set.
 //!
 //! Law: the code that says where the tool stands shifts all work offsets on some controls until it is taken back, and on
-//! others lasts until an offset is selected. Of controls of two families it is not known that they do the same, so a
-//! selection that may come behind such a code is told. Side condition: an offset that is selected before is meant alike.
+//! others lasts until an offset is selected. Where it is not known that both controls do the same, a selection that may come
+//! behind such a code is told. Side condition: an offset that is selected before is meant alike.
 
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::Module;
 use crate::ir::analysis::behind::behind;
 use crate::legalize::Context;
+use crate::legalize::features::Features;
+
+/// True where there may be such a selection, and it is not known that both controls do the same then.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let both = features.op(Op::SetPosition) && features.op(Op::SelectWork);
+    both && !context.agree(Question::SelectEndsSetPosition)
+}
 
 /// Reports selections behind a set position.
 pub fn run(module: &Module, context: &mut Context<'_>) {

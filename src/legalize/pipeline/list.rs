@@ -2,6 +2,7 @@
 
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
+use crate::dialect::Question;
 use crate::legalize::assumptions::{facts, runtime};
 use crate::legalize::calls::{chain, link, modal_calls, modal_off, nesting, outline, repeats};
 use crate::legalize::codes::{
@@ -88,8 +89,8 @@ const SOURCE: &[Pass] = &[
 ];
 
 const STRUCTURE: &[Pass] = &[
-    Pass::rewrites("blanks", "empty blocks of another family go", blanks::run)
-        .when(|_, context| !context.same_family()),
+    Pass::rewrites("blanks", "empty blocks that hold nothing back go", blanks::run)
+        .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits("link", "tells calls that leave the library", link::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::Chain)),
     Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)
@@ -122,7 +123,7 @@ const CALLS: &[Pass] = &[
         .when(|c, _| c.role(Role::Repeat))
         .changes_flow(),
     Pass::rewrites("modal-off", "ends of modal calls where none is open go", modal_off::run)
-        .when(|c, context| c.has(Feature::Modal) && !context.same_family())
+        .when(|c, context| c.has(Feature::Modal) && context.source.is(Question::CallModalOffAlone))
         .needs(&["chain"]),
     Pass::rewrites("modal-calls", "modal calls become a call after each move", modal_calls::run)
         .when(|c, _| c.has(Feature::Modal))
@@ -154,7 +155,7 @@ const MOVES: &[Pass] = &[
     )
     .when(|c, _| c.has(Feature::System)),
     Pass::reports("set-position", "looks at work offsets selected after a set position", set_position::run)
-        .when(|c, context| c.op(Op::SetPosition) && c.op(Op::SelectWork) && !context.same_family()),
+        .when(set_position::concerns),
     Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
@@ -282,7 +283,6 @@ const EXPRESSIONS: &[Pass] = &[
         .needs(&["functions"]),
     Pass::each("printed-values", "values to be printed go to temporaries", questions::hold_values)
         .when(|c, _| c.has(Feature::Print)),
-    Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
     Pass::each(
         "operands",
         "operands are computed before where the target takes no expression",
@@ -290,6 +290,7 @@ const EXPRESSIONS: &[Pass] = &[
     )
     .when(operands::concerns)
     .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
+    Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
         .when(|c, _| c.has(Feature::Computed))
         .needs(&["operands"]),
 ];

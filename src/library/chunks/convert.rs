@@ -4,18 +4,18 @@
 //! starts in the modal state that the last one left. What a word means never depends on a block of another piece: they
 //! are cut before blocks that name an interpolation, and where none comes, the block that named the one in force
 //! is read once more at the head of the piece, and left out of it. Side conditions, looked for in every piece: plain words,
-//! comments and program ends only; one control family, because other conversions add to the head of a program.
+//! comments and program ends only; controls on which programs begin alike, because other conversions add to the head of a program.
 //! A file that breaks one of them is converted whole.
 
 use super::cut::{Piece, Pieces};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::Numbers;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::library::compile::{Made, make};
-use crate::library::convert::{ProgramReport, frames, outcome};
+use crate::library::convert::{ProgramReport, both_nameless, frames, outcome};
 use crate::library::{Conversion, Input, Lock, Options, Outcome};
 use crate::lower::Lowered;
 use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word};
@@ -56,12 +56,21 @@ fn convert_in(
     options: Options,
 ) -> Option<Conversion> {
     let [input] = inputs else { return None };
-    let family = source.dialect().family == target.dialect().family;
-    if input.bytes.len() < sizes.long || options.draft || !family {
+    if input.bytes.len() < sizes.long || options.draft || !begin_alike(source, target) {
         return None;
     }
     // All of it on threads of the pool: going there for each batch takes longer than some pieces.
     rayon::scope(|_| convert_pieces(sizes, input, source, target, lock, options))
+}
+
+/// True where programs begin in the same state on both controls, so that nothing is added to their head.
+fn begin_alike(source: &Control, target: &Control) -> bool {
+    let same = |question: Question| {
+        let [ours, theirs] =
+            [source, target].map(|control| control.behaviour(question).map(|row| &row.value));
+        ours.is_some() && ours == theirs
+    };
+    both_nameless(source, target) && same(Question::Vacancy) && same(Question::InitialValue)
 }
 
 fn convert_pieces(
