@@ -70,6 +70,10 @@ impl From<Format> for TraceFormat {
 /// How many pieces of a trace wait for being printed; the run waits while there are more.
 const WAITING: usize = 4;
 
+/// Bytes of programs whose blocks are held while they run; those of longer ones are read so many bytes at a time.
+const HELD: usize = 1 << 20;
+const PIECE: usize = 32 << 10;
+
 pub fn run(arguments: &Arguments) -> u8 {
     match work(arguments) {
         Ok(code) | Err(code) => code,
@@ -125,12 +129,19 @@ fn print_run(
         return Err(complain(format!("there is no emulated control for {}", entry.name)));
     };
     be_open()?;
-    let parsed: Vec<ParsedFile<'_>> =
-        inputs.iter().map(|input| parse_file(&input.bytes, entry.parse)).collect();
+    let by_need = entry.by_need && inputs.iter().map(|input| input.bytes.len()).sum::<usize>() > HELD;
+    let read = |input| match by_need {
+        true => ParsedFile::unread(input),
+        false => parse_file(input, entry.parse_items),
+    };
+    let parsed: Vec<ParsedFile<'_>> = inputs.iter().map(|input| read(&input.bytes)).collect();
     let files: Vec<LoadedFile<'_>> = (inputs.iter().zip(&parsed))
         .map(|(input, parsed)| LoadedFile { name: &input.name, parsed })
         .collect();
-    let library = Library::new(&files);
+    let library = match by_need {
+        true => Library::read_by_need(&files, entry.parse_items, PIECE),
+        false => Library::new(&files),
+    };
     let format = arguments.trace.into();
     if arguments.plot.is_some() {
         let run = execute(&library, ProgramRef::FIRST, control, scenario);

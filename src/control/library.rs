@@ -1,10 +1,11 @@
 //! The programs of several files, as calls find them.
 
+use super::by_need::{ByNeed, Stretch};
 use super::kept::{EditedShelf, Shelf};
 use super::machine::Rules;
 use super::trace::{Event, Program};
 use crate::dialect::Control;
-use crate::syntax::{Block, ItemKind, ParsedFile, ProgramName};
+use crate::syntax::{Block, ItemKind, ParsedFile, Parser, ProgramName};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -28,6 +29,8 @@ pub struct Library<'f> {
     pub sections: Arc<Sections>,
     /// Who is told of a run's events while it goes on; else its [`super::Run`] has them all.
     pub listener: Option<&'f SyncSender<Heard>>,
+    /// How blocks are read where a run comes to them; none where the files have them.
+    by_need: Option<Arc<ByNeed>>,
     bound: Option<Arc<Bound<'f>>>,
     edited: Option<Edited<'f>>,
 }
@@ -62,7 +65,37 @@ impl<'f> Library<'f> {
     /// Finds the programs of files.
     pub fn new(files: &'f [LoadedFile<'f>]) -> Self {
         let sections = Arc::new(Sections::new(files));
-        Self { files, sections, listener: None, bound: None, edited: None }
+        Self { files, sections, listener: None, by_need: None, bound: None, edited: None }
+    }
+
+    /// The same of files whose blocks are not held, but read `size` bytes at a time where a run comes to them. Only an
+    /// interpreter that prepares programs can run them.
+    pub fn read_by_need(files: &'f [LoadedFile<'f>], parser: Parser, size: usize) -> Self {
+        let (by_need, sections) = ByNeed::new(files, parser, size);
+        let (sections, by_need) = (Arc::new(sections), Some(Arc::new(by_need)));
+        Self { files, sections, listener: None, by_need, bound: None, edited: None }
+    }
+
+    /// The stretches in which the blocks of the program at a place are read.
+    pub(super) fn stretches(&self, place: usize) -> Vec<Stretch> {
+        let section = self.sections.all().get(place);
+        match (&self.by_need, section) {
+            (Some(by_need), Some(section)) => by_need.stretches(section),
+            _ => vec![Stretch::held(self.blocks(place).len())],
+        }
+    }
+
+    /// Calls somebody with the blocks of such a stretch.
+    pub(super) fn with_stretch<T>(
+        &self,
+        place: usize,
+        stretch: &Stretch,
+        take: impl FnOnce(&[Block]) -> T,
+    ) -> T {
+        match &self.by_need {
+            Some(by_need) => by_need.with_stretch(self.source(place), stretch, take),
+            None => take(self.blocks(place)),
+        }
     }
 
     /// The same, to be run on one control again and again: what its interpreter makes of programs is kept.
@@ -185,18 +218,32 @@ impl Sections {
     /// empty lines) before the first program word belong to no program; a file without a
     /// program word is one program. Of two programs with one name the first counts.
     pub fn new(library: &[LoadedFile<'_>]) -> Self {
+        let files = library.len();
+        Self::by(files, |file, out| {
+            let blocks = library.get(file).map(|loaded| loaded.parsed.blocks.as_slice());
+            cut(file, blocks.unwrap_or_default(), out);
+        })
+    }
+
+    /// Those of files that are read by `read`, which is called for each.
+    pub(super) fn by(files: usize, mut read: impl FnMut(usize, &mut Vec<Section>)) -> Self {
         let mut sections = Sections::default();
-        for (file, loaded) in library.iter().enumerate() {
+        for file in 0..files {
             let first = sections.all.len();
-            cut(file, &loaded.parsed.blocks, &mut sections.all);
-            for (at, section) in sections.all.iter().enumerate().skip(first) {
-                if let Some(name) = &section.name {
-                    sections.names.entry(name.clone()).or_insert(at);
-                }
-            }
-            sections.files.push(first..sections.all.len());
+            read(file, &mut sections.all);
+            sections.end_file(first);
         }
         sections
+    }
+
+    /// Notes the programs of a file, which are those from `first` on.
+    fn end_file(&mut self, first: usize) {
+        for (at, section) in self.all.iter().enumerate().skip(first) {
+            if let Some(name) = &section.name {
+                self.names.entry(name.clone()).or_insert(at);
+            }
+        }
+        self.files.push(first..self.all.len());
     }
 
     /// All programs; what finds one gives its place in here.
@@ -228,25 +275,51 @@ impl Sections {
 }
 
 fn cut(file: usize, blocks: &[Block], out: &mut Vec<Section>) {
-    let mut open: Option<Section> = None;
-    for (at, block) in blocks.iter().enumerate() {
+    let mut cutter = Cutter { file, at: 0, open: None };
+    cutter.cut(blocks, out);
+    cutter.end(out);
+}
+
+/// Cuts a file into programs, some blocks after the others.
+pub(super) struct Cutter {
+    pub file: usize,
+    /// How many blocks were seen.
+    pub at: usize,
+    pub open: Option<Section>,
+}
+
+impl Cutter {
+    /// Takes the next blocks.
+    pub fn cut(&mut self, blocks: &[Block], out: &mut Vec<Section>) {
+        for block in blocks {
+            self.take(block, out);
+            self.at += 1;
+        }
+    }
+
+    /// After the last block.
+    pub fn end(self, out: &mut Vec<Section>) {
+        out.extend(self.open);
+    }
+
+    fn take(&mut self, block: &Block, out: &mut Vec<Section>) {
+        let (file, at) = (self.file, self.at);
         let name = block.items.iter().find_map(|item| match &item.kind {
             ItemKind::Program(name) => Some(name.clone()),
             _ => None,
         });
         let tape = block.items.iter().any(|item| item.kind == ItemKind::Tape);
         if name.is_some() || tape {
-            out.extend(open.take());
+            out.extend(self.open.take());
         }
         let code = block
             .items
             .iter()
             .any(|item| !matches!(item.kind, ItemKind::Comment(_) | ItemKind::EndOfBlock | ItemKind::Tape));
-        match &mut open {
+        match &mut self.open {
             Some(section) => section.blocks.end = at + 1,
-            None if code => open = Some(Section { file, name, blocks: at..at + 1 }),
+            None if code => self.open = Some(Section { file, name, blocks: at..at + 1 }),
             None => {}
         }
     }
-    out.extend(open);
 }

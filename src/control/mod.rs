@@ -13,6 +13,7 @@
 //!
 //! Every run ends: it is bounded in steps, in events and in time.
 
+mod by_need;
 pub mod cc100;
 pub mod entry;
 pub mod fadal;

@@ -112,12 +112,12 @@ impl<'r, 'f> Session<'r, 'f> {
 
     /// How many blocks a section has.
     pub fn length(&self, section: usize) -> usize {
-        self.library.blocks(section).len()
+        self.sections.all().get(section).map_or(0, |section| section.blocks.len())
     }
 
-    /// The blocks of a section.
-    pub fn blocks(&self, section: usize) -> &'r [Block] {
-        self.library.blocks(section)
+    /// The library.
+    pub fn library(&self) -> &'r Library<'f> {
+        self.library
     }
 
     /// The bytes of the file that holds a section.

@@ -32,6 +32,8 @@ pub struct Entry {
     pub emit: Option<Emit>,
     /// Runs programs as its control would; absent where there is no emulated control.
     pub execute: Option<Execute>,
+    /// True where the emulated control reads blocks when a run comes to them, if they are not held.
+    pub by_need: bool,
     loaded: OnceLock<Result<Dialect, Vec<Diagnostic>>>,
 }
 
@@ -42,7 +44,7 @@ struct Head {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $parse_items:expr, $is_sound:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr) => {
+    ($name:literal, $parse:expr, $parse_items:expr, $is_sound:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr, $by_need:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
@@ -54,6 +56,7 @@ macro_rules! entry {
             cuts: $cuts,
             emit: $emit,
             execute: $execute,
+            by_need: $by_need,
             loaded: OnceLock::new(),
         }
     };
@@ -68,7 +71,8 @@ static ENTRIES: [Entry; 4] = [
         lower::fadal::lower,
         |_, _| Vec::new(),
         None,
-        Some(control::fadal::execute)
+        Some(control::fadal::execute),
+        false
     ),
     entry!(
         "fanuc",
@@ -78,7 +82,8 @@ static ENTRIES: [Entry; 4] = [
         lower::fanuc::lower,
         lower::fanuc::cuts,
         Some(emit::fanuc::emit),
-        Some(control::fanuc::execute)
+        Some(control::fanuc::execute),
+        true
     ),
     entry!(
         "haas",
@@ -88,7 +93,8 @@ static ENTRIES: [Entry; 4] = [
         lower::haas::lower,
         lower::haas::cuts,
         Some(emit::haas::emit),
-        Some(control::haas::execute)
+        Some(control::haas::execute),
+        true
     ),
     entry!(
         "cc100",
@@ -98,7 +104,8 @@ static ENTRIES: [Entry; 4] = [
         lower::cc100::lower,
         |_, _| Vec::new(),
         None,
-        Some(control::cc100::execute)
+        Some(control::cc100::execute),
+        false
     ),
 ];
 

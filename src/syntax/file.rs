@@ -27,7 +27,12 @@ pub struct ParsedFile<'s> {
     pub blocks: Vec<Block>,
 }
 
-impl ParsedFile<'_> {
+impl<'s> ParsedFile<'s> {
+    /// A file whose lines nobody has read yet.
+    pub fn unread(source: &'s [u8]) -> Self {
+        Self { source, before: 0, lines: Vec::new(), blocks: Vec::new() }
+    }
+
     /// The line that a place of it stands in, from 1.
     pub fn line_of(&self, at: u32) -> usize {
         self.before + self.lines.partition_point(|line| line.text.start <= at).max(1)
@@ -67,7 +72,7 @@ const CHUNK: usize = 256 * 1024;
 /// Reads all blocks of `source`.
 pub fn parse_file(source: &[u8], parser: Parser) -> ParsedFile<'_> {
     let parts: Vec<(Vec<Line>, Vec<Block>)> =
-        chunks(source).into_par_iter().map(|chunk| read_lines(source, chunk, parser)).collect();
+        chunks(source, CHUNK).into_par_iter().map(|chunk| read_lines(source, chunk, parser)).collect();
     let (lines, blocks) =
         (parts.iter().map(|(l, _)| l.len()).sum(), parts.iter().map(|(_, b)| b.len()).sum());
     let mut file = ParsedFile {
@@ -143,7 +148,7 @@ fn fold_lines<T: Send>(
         }
         out
     };
-    chunks(source).into_par_iter().map(fold).reduce(&none, &join)
+    chunks(source, CHUNK).into_par_iter().map(fold).reduce(&none, &join)
 }
 
 impl ParseTotals {
@@ -176,12 +181,12 @@ impl ParseTotals {
     }
 }
 
-/// Cuts `source` behind line ends into pieces of about [`CHUNK`] bytes.
-fn chunks(source: &[u8]) -> Vec<Span> {
+/// Cuts `source` after line ends into pieces of about so many bytes.
+pub fn chunks(source: &[u8], size: usize) -> Vec<Span> {
     let mut out = Vec::new();
     let mut start = 0;
     while start < source.len() {
-        let from = (start + CHUNK).min(source.len());
+        let from = (start + size).min(source.len());
         let end = Lines::behind_line_end(source, from);
         out.push(Span::new(start as u32, end as u32));
         start = end;

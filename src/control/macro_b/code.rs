@@ -1,6 +1,7 @@
 //! Programs prepared to be run: variables and codes looked up once, loops and labels matched.
 
 use crate::canon::{Func, Role, Sys};
+use crate::control::by_need::Stretch;
 use crate::control::outcome::Stop;
 use crate::dialect::{Alias, CodePlace};
 use crate::syntax::BinaryOp;
@@ -11,14 +12,56 @@ use std::sync::Arc;
 /// A program.
 #[derive(Default)]
 pub struct Program {
-    pub blocks: Vec<Block>,
+    pub parts: Vec<CodePart>,
+    /// How many blocks it has.
+    pub count: usize,
     /// Blocks of each sequence number, in order.
     pub labels: HashMap<u32, Vec<usize>>,
-    /// The innermost loop that each block stands in, as a place in `loops`.
+    /// The innermost loop that each block stands in, as a place in `loops`; empty where there are none.
     pub loop_of: Vec<Option<usize>>,
     pub loops: Vec<Loop>,
+    /// Where the heads and ends of loops lead, by block.
+    pub ends: HashMap<usize, Ends>,
     /// Where its branches stand.
     pub branches: Vec<Span>,
+}
+
+/// Some blocks of a program.
+pub struct CodePart {
+    pub stretch: Stretch,
+    /// The first of their branches.
+    pub branches: usize,
+    /// They, where they are held; else they are made anew where a run comes to them.
+    pub held: Option<Vec<Block>>,
+}
+
+/// Where the head or the end of a loop leads.
+#[derive(Default)]
+pub struct Ends {
+    pub tail: Option<usize>,
+    pub head: Option<usize>,
+    /// Why it is an alarm.
+    pub fault: Option<&'static str>,
+}
+
+/// Where a block of a program is.
+pub enum At<'c> {
+    Held(&'c Block),
+    /// At this place of this part, which is not held.
+    Made(usize, usize),
+}
+
+impl Program {
+    /// Finds a block; none after the last.
+    pub fn find(&self, at: usize) -> Option<At<'_>> {
+        let index = self.parts.partition_point(|part| part.stretch.first + part.stretch.count <= at);
+        let part = self.parts.get(index)?;
+        let place = at - part.stretch.first;
+        match &part.held {
+            Some(blocks) => blocks.get(place).map(At::Held),
+            None => Some(At::Made(index, place)),
+        }
+    }
 }
 
 /// A loop that has its end.

@@ -3,7 +3,9 @@
 use super::Style;
 use super::code::*;
 use super::expressions::Expressions;
+use super::loops::{Mark, match_loops, set_ends};
 use super::meaning;
+use crate::control::library::Library;
 use crate::control::outcome::Stop;
 use crate::diag::{Code, Severity};
 use crate::dialect::{Control, Question, Row};
@@ -21,8 +23,10 @@ pub struct Compiler<'c> {
     pub style: &'static Style,
     /// The bytes that the blocks are read from.
     pub source: &'c [u8],
-    /// Where the branches of the program stand.
+    /// Where the branches stand that were met.
     pub branches: Vec<Span>,
+    /// How many stand before those.
+    pub before: usize,
     /// What words without a code mean, by their letters.
     pub plain: HashMap<Shape, Option<Arc<Meaning>>>,
 }
@@ -35,35 +39,60 @@ struct Gather {
     shown: Option<String>,
 }
 
-/// A loop head or end met so far.
-struct Open {
-    number: u32,
-    block: usize,
-    index: Option<usize>,
+impl<'c> Compiler<'c> {
+    /// One that has met nothing yet.
+    pub fn new(control: &'c Control, style: &'static Style, source: &'c [u8]) -> Self {
+        Self { control, style, source, branches: Vec::new(), before: 0, plain: HashMap::new() }
+    }
 }
 
 impl Compiler<'_> {
-    /// Prepares a program.
-    pub fn program(&mut self, blocks: &[syntax::Block]) -> Program {
-        let mut program = Program {
-            blocks: Vec::with_capacity(blocks.len()),
-            labels: HashMap::new(),
-            loop_of: Vec::new(),
-            loops: Vec::new(),
-            branches: Vec::new(),
-        };
-        for block in blocks {
-            let at = program.blocks.len();
-            let sequence = self.sequence(&block.items);
-            if let Some(number) = sequence {
-                program.labels.entry(number).or_default().push(at);
+    /// Prepares the program at a place of a library.
+    pub fn program(&mut self, library: &Library<'_>, place: usize) -> Program {
+        let mut program = Program::default();
+        let mut marks = Vec::new();
+        for stretch in library.stretches(place) {
+            let branches = self.branches.len();
+            let blocks = library.with_stretch(place, &stretch, |blocks| self.blocks(blocks));
+            for (at, block) in (stretch.first..).zip(&blocks) {
+                if let Some(number) = block.sequence {
+                    program.labels.entry(number).or_default().push(at);
+                }
+                marks.extend(Mark::of(at, block));
             }
-            let compiled = self.block(block, sequence);
-            program.blocks.push(compiled);
+            program.count += blocks.len();
+            let held = stretch.is_held().then_some(blocks);
+            program.parts.push(CodePart { stretch, branches, held });
         }
-        match_loops(&mut program, self.style);
+        match_loops(&mut program, &marks);
+        let Program { parts, ends, .. } = &mut program;
+        for CodePart { stretch, held, .. } in parts {
+            held.iter_mut().for_each(|blocks| set_ends(blocks, stretch.first, ends, self.style));
+        }
         program.branches = std::mem::take(&mut self.branches);
         program
+    }
+
+    /// Prepares blocks of a program that are not held.
+    pub fn part(
+        &mut self,
+        library: &Library<'_>,
+        place: usize,
+        program: &Program,
+        part: &CodePart,
+    ) -> Vec<Block> {
+        self.before = part.branches;
+        let mut blocks = library.with_stretch(place, &part.stretch, |blocks| self.blocks(blocks));
+        set_ends(&mut blocks, part.stretch.first, &program.ends, self.style);
+        blocks
+    }
+
+    fn blocks(&mut self, blocks: &[syntax::Block]) -> Vec<Block> {
+        let made = blocks.iter().map(|block| {
+            let sequence = self.sequence(&block.items);
+            self.block(block, sequence)
+        });
+        made.collect()
     }
 
     /// The block's sequence number, where a jump finds it: at its head, on some controls anywhere.
@@ -296,7 +325,7 @@ impl Compiler<'_> {
 
     fn branch(&mut self, span: Span) -> usize {
         self.branches.push(span);
-        self.branches.len() - 1
+        self.before + self.branches.len() - 1
     }
 
     /// What words mean. Without a code among them their letters say it, so that the many blocks of plain moves share
@@ -320,70 +349,5 @@ impl Compiler<'_> {
         let meaning = self.meaning(&words);
         gather.facts.extend(meaning.iter().flat_map(|meaning| meaning.facts.iter().cloned()));
         gather.steps.push(Step::Words(Words { words, meaning, shown: gather.shown.clone() }));
-    }
-}
-
-/// Finds the ends of loops. A loop without its end, and an end without its loop, is an alarm where it is met.
-fn match_loops(program: &mut Program, style: &Style) {
-    let mut open: Vec<Open> = Vec::new();
-    let mut faults: Vec<(usize, &'static str)> = Vec::new();
-    program.loop_of = vec![None; program.blocks.len()];
-    for at in 0..program.blocks.len() {
-        let mut head = None;
-        let mut end = None;
-        for step in &program.blocks[at].steps {
-            match step {
-                Step::While { tail, .. } => head = Some(*tail as u32),
-                Step::Repeat { head } => end = Some(*head as u32),
-                _ => {}
-            }
-        }
-        if let Some(number) = head {
-            if open.iter().any(|loop_| loop_.number == number) {
-                faults.push((at, "a loop of this number is open already"));
-            }
-            let outer = open.last().and_then(|open| open.index);
-            program.loops.push(Loop { head: at, tail: usize::MAX, outer });
-            open.push(Open { number, block: at, index: Some(program.loops.len() - 1) });
-        }
-        program.loop_of[at] = open.last().and_then(|open| open.index);
-        if let Some(number) = end {
-            match open.iter().rposition(|loop_| loop_.number == number) {
-                None => faults.push((at, "END without DO")),
-                Some(place) => {
-                    if place + 1 != open.len() {
-                        faults.push((at, "loops cross"));
-                    }
-                    if let Some(loop_) =
-                        open.remove(place).index.and_then(|index| program.loops.get_mut(index))
-                    {
-                        loop_.tail = at;
-                    }
-                }
-            }
-        }
-    }
-    faults.extend(open.iter().map(|open| (open.block, "DO without END")));
-    for loop_ in program.loops.iter().filter(|loop_| loop_.tail != usize::MAX) {
-        let (head, tail) = (loop_.head, loop_.tail);
-        set_ends(&mut program.blocks, head, tail);
-    }
-    for (at, text) in faults {
-        if let Some(block) = program.blocks.get_mut(at) {
-            block.steps = vec![Step::Alarm(Stop::alarm(style.alarms.loops, text))];
-        }
-    }
-}
-
-fn set_ends(blocks: &mut [Block], head_block: usize, tail_block: usize) {
-    for step in blocks.get_mut(head_block).into_iter().flat_map(|block| &mut block.steps) {
-        if let Step::While { tail, .. } = step {
-            *tail = tail_block;
-        }
-    }
-    for step in blocks.get_mut(tail_block).into_iter().flat_map(|block| &mut block.steps) {
-        if let Step::Repeat { head } = step {
-            *head = head_block;
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Runs programs, block by block.
 
 use super::calls::{Frame, ModalCall};
-use super::code::{Goto, Program, Step};
+use super::code::{At, Block, Goto, Program, Step};
 use super::commands::place_of;
 use super::compile::Compiler;
 use super::memory::{Locals, Memory};
@@ -17,7 +17,8 @@ use crate::control::scenario::Scenario;
 use crate::control::session::{Halt, Session};
 use crate::control::trace::{EventKind, Place};
 use crate::dialect::{CodeMeaning, CodePlace, Control};
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
+use std::rc::Rc;
 use std::sync::LazyLock;
 
 /// A program and its number among those that ran.
@@ -25,6 +26,7 @@ use std::sync::LazyLock;
 pub struct Loaded<'c> {
     pub code: &'c Program,
     pub number: u32,
+    section: usize,
     /// The first of its branches and of its blocks among those of all programs that ran.
     branches: usize,
     blocks: usize,
@@ -48,6 +50,8 @@ pub struct Runner<'c> {
     pub numeric: Numeric<'c>,
     kept: Kept<'c, Made, Program>,
     loaded: HashMap<usize, Loaded<'c>>,
+    /// Parts of programs that are not held, with their sections; the one that was used last comes last.
+    pub made: VecDeque<(usize, usize, Rc<[Block]>)>,
     /// Where the branches of the programs stand, and the ways each went: bit 0 for false, bit 1 for true.
     pub branches: Vec<Place>,
     ways: Vec<u8>,
@@ -113,6 +117,7 @@ impl<'c> Runner<'c> {
             numeric: Numeric::new(&kept.rules.answers, scenario),
             kept,
             loaded: HashMap::new(),
+            made: VecDeque::new(),
             branches: Vec::new(),
             ways: Vec::new(),
             told: Vec::new(),
@@ -150,16 +155,15 @@ impl<'c> Runner<'c> {
         }
         let number = self.session.program_number(section);
         let (control, style) = (self.session.control, self.style);
-        let (blocks, source) = (self.session.blocks(section), self.session.source(section));
-        let code = self.kept.program(section, blocks.len(), || {
-            let (branches, plain) = (Vec::new(), HashMap::new());
-            Compiler { control, style, source, branches, plain }.program(blocks)
+        let (library, source) = (self.session.library(), self.session.source(section));
+        let code = self.kept.program(section, self.session.length(section), || {
+            Compiler::new(control, style, source).program(library, section)
         });
         let code = code.unwrap_or(&EMPTY);
-        let loaded = Loaded { code, number, branches: self.branches.len(), blocks: self.told.len() };
+        let loaded = Loaded { code, number, section, branches: self.branches.len(), blocks: self.told.len() };
         self.branches.extend(code.branches.iter().map(|span| Place { program: number, span: *span }));
         self.ways.resize(self.branches.len(), 0);
-        self.told.resize(loaded.blocks + code.blocks.len(), false);
+        self.told.resize(loaded.blocks + code.count, false);
         self.loaded.insert(section, loaded);
         loaded
     }
@@ -177,8 +181,17 @@ impl<'c> Runner<'c> {
     /// Executes one block and goes to the next.
     fn block(&mut self) -> Result<(), Halt> {
         let Some(frame) = self.frames.last() else { return Err(Halt::Ended(Op::End)) };
-        let (Loaded { code, number, blocks, .. }, at) = (frame.program, frame.at);
-        let Some(block) = code.blocks.get(at) else {
+        let (Loaded { code, number, section, blocks, .. }, at) = (frame.program, frame.at);
+        let made;
+        let block = match code.find(at) {
+            Some(At::Held(block)) => Some(block),
+            Some(At::Made(part, place)) => {
+                made = self.part(section, code, part);
+                made.get(place)
+            }
+            None => None,
+        };
+        let Some(block) = block else {
             return self.runs_out();
         };
         self.session.trace.at = Place { program: number, span: block.span };
