@@ -2,9 +2,10 @@
 //! environment, and tells what it used.
 
 use std::ffi::OsStr;
-use std::io;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
+use std::{fs, io};
 
 /// Says which case a process is to run.
 const CASE: &str = "MACROGLOT_CASE";
@@ -68,4 +69,20 @@ fn used() -> Option<(f64, f64)> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some((nanoseconds / 1e9, peak.trim().trim_end_matches(" kB").trim().parse::<f64>().ok()? * 1024.0))
+}
+
+/// A folder with a file for each program of a text.
+///
+/// # Errors
+///
+/// If it cannot be written.
+#[allow(dead_code, reason = "as above")]
+pub fn files(text: &str, folder: &Path) -> io::Result<PathBuf> {
+    fs::create_dir_all(folder)?;
+    let programs = text.trim_matches(['%', '\n']).split("\nO").enumerate();
+    for (at, program) in programs {
+        let program = program.strip_prefix('O').unwrap_or(program);
+        fs::write(folder.join(format!("o{:04}.nc", at + 1)), format!("%\nO{program}\n%\n"))?;
+    }
+    Ok(folder.into())
 }

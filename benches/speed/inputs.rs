@@ -96,6 +96,23 @@ pub fn macros(size: usize) -> String {
     out + "%\n"
 }
 
+/// Assignments no two of which differ in digits alone, of about `size` bytes: what was read before is of no use for the
+/// next.
+pub fn unlike(size: usize) -> String {
+    let mut m = Macros(Random(SEEDS[1].1));
+    let mut out = String::from("%\nO1\n");
+    let mut seen = std::collections::HashSet::new();
+    while out.len() < size {
+        let line = format!("#{}={}\n", 100 + m.0.below(60), m.expr(4));
+        let shape: String = line.split(|sign: char| sign.is_ascii_digit()).collect();
+        // Longer ones are no line of a program.
+        if line.len() < 120 && seen.insert(shape) {
+            out += &line;
+        }
+    }
+    out + "M30\n%\n"
+}
+
 struct Macros(Random);
 
 impl Macros {

@@ -9,6 +9,10 @@ extern crate alloc; // what pest derives names it
 mod inputs;
 #[path = "../measured/mod.rs"]
 mod measured;
+#[allow(dead_code, reason = "the other bench measures the rest")]
+#[path = "../shapes/inputs.rs"]
+mod shapes;
+mod targets;
 
 use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::Control;
@@ -40,16 +44,22 @@ const CASES: &[(&str, &str, &[&str])] = &[
     ("newlines", "macros.nc", &[]),
     ("parse", "surface.nc", &["parse", "--dialect", "fanuc"]),
     ("parse", "macros.nc", &["parse", "--dialect", "fanuc"]),
+    ("parse", "unlike.nc", &["parse", "--dialect", "fanuc"]),
     ("grammar alone", "surface.nc", &[]),
     ("grammar alone", "macros.nc", &[]),
     ("convert to haas", "surface.nc", &["convert", "--from", "fanuc", "--to", "haas"]),
     ("convert to haas", "macros.nc", &["convert", "--from", "fanuc", "--to", "haas"]),
     ("convert to fanuc", "fadal.nc", &["convert", "--from", "fadal", "--to", "fanuc"]),
+    ("verify", "small", &["convert", "--from", "fanuc", "--to", "haas"]),
     ("run", "counting-100k.nc", &[]),
     ("run", "counting-1M.nc", &[]),
     ("run", "moving-100k.nc", &[]),
     ("run", "moving-1M.nc", &[]),
+    ("print", "moving-1M.nc", &["run", "--dialect", "fanuc", "--steps", "10000000"]),
 ];
+
+/// A folder with files to measure in the place of those that are written here, by the same names.
+const FILES: &str = "MACROGLOT_FILES";
 
 const ROUNDS: usize = 3;
 /// How often lines are counted in a round: once is too short for the clock.
@@ -73,10 +83,16 @@ fn main() -> ExitCode {
 
 fn generate(folder: &Path) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
-    let write = |name: &str, text: String| fs::write(folder.join(name), text);
+    let given = std::env::var_os(FILES).map(PathBuf::from);
+    let write = |name: &str, text: String| match given.as_ref().map(|given| given.join(name)) {
+        Some(given) if given.is_file() => fs::copy(given, folder.join(name)).map(drop),
+        _ => fs::write(folder.join(name), text),
+    };
     write("surface.nc", inputs::surface(50_000_000))?;
     write("macros.nc", inputs::macros(10_000_000))?;
+    write("unlike.nc", inputs::unlike(10_000_000))?;
     write("fadal.nc", inputs::fadal(2_000_000))?;
+    measured::files(&shapes::library(targets::SMALL), &folder.join("small"))?;
     for (name, steps) in [("100k", 100_000), ("1M", 1_000_000)] {
         write(&format!("counting-{name}.nc"), inputs::counting(steps))?;
         write(&format!("moving-{name}.nc"), inputs::moving(steps))?;
@@ -101,15 +117,16 @@ fn measure(folder: &Path) -> std::io::Result<()> {
     );
     println!("|---|---|---|---|---|---|");
     let mut floor = 0.0;
-    let mut runs = Vec::new();
+    let (mut runs, mut reached) = (Vec::new(), Vec::new());
     for ((name, input, _), [one, all]) in CASES.iter().zip(&found) {
-        let length = fs::metadata(folder.join(input))?.len() as f64 / 1e6;
+        let length = length(&folder.join(input))? as f64 / 1e6;
         let median = |rounds: &[Use], of: fn(&Use) -> f64| {
             let mut all: Vec<f64> = rounds.iter().map(of).collect();
             all.sort_by(f64::total_cmp);
             all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
         };
         let (cpu, peak, steps) = (median(one, |u| u.cpu), median(one, |u| u.peak), median(one, |u| u.steps));
+        reached.push((*name, *input, Use { cpu, peak, steps, wall: length }));
         if steps > 0.0 {
             runs.push(format!("| {input} | {:.2} | {:.0} |", steps / cpu / 1e6, peak / 1e6));
             continue;
@@ -128,7 +145,16 @@ fn measure(folder: &Path) -> std::io::Result<()> {
     }
     println!("\n| run | million blocks/s a core | peak memory, MB |\n|---|---|---|");
     runs.iter().for_each(|row| println!("{row}"));
+    targets::print(&reached);
     Ok(())
+}
+
+/// The bytes of a file, or of the files in a folder.
+fn length(path: &Path) -> std::io::Result<u64> {
+    if !path.is_dir() {
+        return Ok(fs::metadata(path)?.len());
+    }
+    fs::read_dir(path)?.map(|file| Ok(file?.metadata()?.len())).sum()
 }
 
 /// Runs a case in a process of its own.
@@ -141,9 +167,10 @@ fn run(name: &str, input: &Path, arguments: &[&str], threads: usize) -> std::io:
         }
     };
     if name.starts_with("convert") {
-        all.extend(
-            ["--no-verify", "--format", "json", "--out"].map(OsStr::new).into_iter().chain([out.as_os_str()]),
-        );
+        all.push(OsStr::new("--no-verify"));
+    }
+    if arguments.first() == Some(&"convert") {
+        all.extend(["--format", "json", "--out"].map(OsStr::new).into_iter().chain([out.as_os_str()]));
     }
     measured::run(name, &all, threads)
 }
