@@ -125,7 +125,7 @@ pub fn own_profile(named: Option<&str>, inputs: &[Input]) -> Result<Option<PathB
 pub fn doubt(name: &str, inputs: &[Input]) -> Option<String> {
     let told = looks_like(inputs, name).map(|told| {
         format!(
-            "the programs are read as {name}, and {told}. Name the right control with --from or --dialect"
+            "the programs are read as {name}, but {told}. Name the right control with --from or --dialect"
         )
     });
     if let Some(told) = &told {
@@ -144,14 +144,16 @@ pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
     }
     match detect(inputs) {
         Detected::Mixed(most, file, like) => Err(complain(format!(
-            "the files are not all written for one control: most look like {}, and {file} looks like {}. Name the files of one control, or say with --from or --dialect how to read all of them",
+            "the files are for different controls: most look like {}, and {file} looks like {}. Name the \
+             files of one control only, or name one control for all of them with --from or --dialect",
             most.name, like.name
         ))),
         Detected::Sure(entry) => Ok(entry.name.into()),
         Detected::Unsure(entries) => {
             let likely = entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(" or ");
             Err(complain(format!(
-                "which control the programs are written for is not certain: it may be {likely}. Say it with --from or --dialect"
+                "the control of the programs is not certain: it may be {likely}. Name it with --from or \
+                 --dialect"
             )))
         }
     }

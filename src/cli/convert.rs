@@ -9,10 +9,10 @@ use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Files, folders, or - for standard input; the project file's libraries where none is given
+    /// Files, folders, or - for standard input; without one, the project file's libraries
     #[arg(value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// The control the programs are written for; recognized where it is left out
+    /// The control the programs are written for; recognized if it is left out
     #[arg(long, value_name = "D")]
     from: Option<String>,
     /// The control they are to run on

@@ -5,7 +5,7 @@ use crate::diag::{ALL, Code};
 
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The code, MG0301 or 0301; all codes where none is given
+    /// The code, MG0301 or 0301; without it, all codes
     code: Option<String>,
 }
 

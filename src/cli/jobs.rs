@@ -100,7 +100,8 @@ fn apart(jobs: &[Job]) -> Result<(), u8> {
     let (mut spots, mut taken) = (Spots::default(), BTreeSet::new());
     for place in jobs.iter().filter_map(|job| job.out.as_ref()).flat_map(Out::places) {
         if !taken.insert(spots.of(&place)) {
-            let what = "two libraries would both be written there; nothing was written. Give each a folder of its own";
+            let what = "two libraries would be written there; nothing was written. Give each a folder of \
+                        its own";
             return Err(complain(format!("{}: {what}", place.display())));
         }
     }
@@ -111,7 +112,7 @@ fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let (inputs, left_out) = read_all(wish.paths)?;
     let from = dialect_of(wish.from, &inputs)?;
     let Some(to) = wish.to else {
-        return Err(complain(format!("say the control to convert for with --to: one of {}", names())));
+        return Err(complain(format!("name the control to convert for with --to: one of {}", names())));
     };
     let own = own_profile(wish.from, &inputs)?;
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
@@ -140,9 +141,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
         return Err(complain(what));
     };
     if !wish.machines.is_empty() {
-        return Err(complain(
-            "the machines of a project are those of its macroglot.toml: leave --machine out",
-        ));
+        return Err(complain("a project takes its machines from macroglot.toml: leave --machine out"));
     }
     read_too.push(project.root.join(Project::NAME));
     let profiles = project.machines.values().filter_map(|machine| machine.profile.as_ref());
@@ -165,7 +164,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
         }
     }
     if ways.is_empty() {
-        return Err(complain("macroglot.toml names no library with a target that fits"));
+        return Err(complain("macroglot.toml has no library for this target"));
     }
     let mut held = hold_all(&ways)?;
     let planned = ways.into_iter().map(|way| {
@@ -191,15 +190,15 @@ fn hold_all(ways: &[Way<'_>]) -> Result<BTreeMap<PathBuf, Held>, u8> {
 
 /// Takes an output folder for this run.
 fn hold(folder: &Path) -> Result<Held, u8> {
-    let wait = || remark(format!("another run writes to {}; waiting for its end", folder.display()));
+    let wait = || remark(format!("another run is writing to {}; waiting for it to end", folder.display()));
     let (held, recovered) = Held::take(folder, wait).map_err(complain)?;
     let what = match recovered {
         Recovered::Nothing => return Ok(held),
         Recovered::Finished => {
-            "an earlier run was interrupted while it wrote; what it had ready is in its place now"
+            "an earlier run was interrupted while it wrote; its finished files are in place now"
         }
         Recovered::TakenBack => {
-            "an earlier run was interrupted before it wrote anything; its leavings are gone now"
+            "an earlier run was interrupted before it wrote anything; its temporary files are removed now"
         }
     };
     remark(format!("{}: {what}", folder.display()));
@@ -231,7 +230,7 @@ fn planned(
             (Some(Out { held, names, keeps_lock, manifest }), lock)
         }
         None if inputs.len() > 1 => {
-            return Err(complain("several programs need a folder to go to: give --out DIR"));
+            return Err(complain("several programs need an output folder: give --out DIR"));
         }
         None => (None, fresh),
     };

@@ -14,7 +14,7 @@ pub struct Arguments {
     /// Files, folders, or - for standard input
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// The control the programs are written for; recognized where it is left out
+    /// The control the programs are written for; recognized if it is left out
     #[arg(long, short, value_name = "D")]
     dialect: Option<String>,
     /// How to print the counts

@@ -19,7 +19,7 @@ use std::sync::mpsc::sync_channel;
 pub struct Arguments {
     /// A file, or - for standard input; its first program runs
     file: PathBuf,
-    /// The control the program is written for; recognized where it is left out
+    /// The control the program is written for; recognized if it is left out
     #[arg(long, short, value_name = "D")]
     dialect: Option<String>,
     /// The machine's profile
@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn work(arguments: &Arguments) -> Result<u8, u8> {
     let mut inputs = read(std::slice::from_ref(&arguments.file))?;
     if inputs.len() > 1 {
-        return Err(complain("one program is run at a time: name its file, and the others with --library"));
+        return Err(complain("run takes one program: name its file, and name the others with --library"));
     }
     let name = dialect_of(arguments.dialect.as_deref(), &inputs)?;
     let own = own_profile(arguments.dialect.as_deref(), &inputs)?;

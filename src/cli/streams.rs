@@ -48,7 +48,7 @@ pub fn answer(answer: &clap::Error) -> u8 {
 fn judge(printed: io::Result<()>) -> Result<(), u8> {
     match printed {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(complain(format!("standard output cannot be written: {error}; what it has got is not whole")))
+            Err(complain(format!("standard output cannot be written: {error}; the output is incomplete")))
         }
         _ => Ok(()),
     }
@@ -108,7 +108,7 @@ pub fn complain_lines(drawn: impl std::fmt::Display) -> u8 {
 /// The exit code for it.
 pub fn be_open() -> Result<(), u8> {
     if was_closed() {
-        return Err(complain("standard output is closed: what would be printed there is lost"));
+        return Err(complain("standard output is closed: the rest of the output is lost"));
     }
     Ok(())
 }

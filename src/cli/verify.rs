@@ -17,10 +17,10 @@ pub struct Arguments {
     source: PathBuf,
     /// Its conversion: a file or a folder. The macroglot.lock of its output folder says which register is which
     target: PathBuf,
-    /// The control the source is written for; recognized where it is left out
+    /// The control the source is written for; recognized if it is left out
     #[arg(long, value_name = "D")]
     from: Option<String>,
-    /// The control the target is written for; recognized where it is left out
+    /// The control the target is written for; recognized if it is left out
     #[arg(long, value_name = "D")]
     to: Option<String>,
     /// A machine profile of the source or the target (it names its dialect); may be given twice
@@ -77,19 +77,19 @@ fn folder_of(target: &Path) -> &Path {
 /// Says which files were changed since macroglot wrote them: the certificates beside them are of another text.
 fn tell_changed(home: &Home, theirs: &[Input]) -> Result<(), u8> {
     if is_pending(&home.folder) {
-        let what = "a run that wrote here was interrupted: convert again, which begins with mending that";
+        let what = "a run was interrupted while it wrote here: convert again, which restores the files first";
         return Err(complain(format!("{}: {what}", home.folder.display())));
     }
     let named: BTreeMap<String, &Input> =
         theirs.iter().map(|input| (home.name(&input.name), input)).collect();
     let texts = named.iter().map(|(name, input)| (name.as_str(), input.bytes.as_slice()));
     for name in home.manifest.changed(texts) {
-        let what = "was changed since macroglot wrote it; its certificate is of the text before";
+        let what = "was changed since macroglot wrote it; its certificate is about the earlier text";
         remark(format!("{name}: {what}"));
     }
     let outdated = home.manifest.outdated_in(&home.folder);
     for (name, outdated) in outdated.into_iter().filter(|(name, _)| named.contains_key(name)) {
-        let what = "its certificate was made when what it calls, or is called by, was another text";
+        let what = "a program that it calls, or that calls it, has changed since its certificate was made";
         remark(format!("{name}: {what}: {}", outdated.others.join(", ")));
     }
     Ok(())

@@ -65,19 +65,19 @@ codes! {
 Correct the block; the place shown is where reading stopped."
 
     "0111" NestedComment Error "comment inside a comment"
-"A comment ends at the first `)`. A second `(` inside it opens nothing, so that what stands behind the first `)` is read as code.
+"A comment ends at its first `)`. A second `(` inside it opens nothing, so the control reads what follows the first `)` as code.
 
 Use other signs inside the comment."
 
     "0112" UnbalancedBracket Error "brackets do not match"
-"A `[` is never closed, or a `]` closes nothing. Which expression was meant cannot be known.
+"A `[` is never closed, or a `]` closes nothing. The text does not show which expression was meant.
 
 Add or remove the bracket shown."
 
-    "0114" BracketDepth Error "too many brackets inside one another"
-"The control allows only so many levels of brackets, those of functions included, and stops with an alarm at one more.
+    "0114" BracketDepth Error "too many nested brackets"
+"The control takes only so many levels of brackets, functions included. One more is an alarm.
 
-Compute a part of the expression in a block before."
+Compute part of the expression in an earlier block."
 
     "0115" TooManyDigits Error "too many digits"
 "The number has more digits than the control takes. Leading zeros count, the decimal point does not.
@@ -85,7 +85,7 @@ Compute a part of the expression in a block before."
 Write fewer digits, or compute the value from two constants."
 
     "0116" NotInteger Error "number must be whole"
-"This word takes a whole number only. A control stops with an alarm at a fraction that is written out, though it rounds the value of a variable or a bracket.
+"This word takes a whole number only. The control rounds the value of a variable or a bracket there, but stops with an alarm at a written fraction.
 
 Write a whole number, or put the value in brackets if rounding is meant."
 
@@ -95,17 +95,17 @@ Write a whole number, or put the value in brackets if rounding is meant."
 Write the number."
 
     "0118" NullAssigned Error "#0 cannot be written"
-"#0 is always vacant: it can be read, and assigning to it is an alarm.
+"#0 is always vacant. It can be read, but an assignment to it is an alarm.
 
 Assign to another variable."
 
     "0119" LoopNumber Error "loop number is not 1, 2 or 3"
-"DO and END take the numbers 1, 2 and 3. A number may be used again for loops that do not stand in one another.
+"DO and END take the numbers 1, 2 and 3. Loops that are not nested may share a number.
 
 Use a number that is free here, or jumps."
 
     "0120" AtanDivision Error "second argument of ATAN is not in brackets"
-"A slash behind ATAN[..] makes it the function of two arguments, and the second must stand in brackets too; the control stops with an alarm.
+"A slash after ATAN[..] makes it the function of two arguments. The second must stand in brackets too, or the control stops with an alarm.
 
 Write `ATAN[a]/[b]` for the angle of a point, `[ATAN[a]]/b` for a quotient."
 
@@ -115,12 +115,12 @@ Write `ATAN[a]/[b]` for the angle of a point, `[ATAN[a]]/b` for a quotient."
 Write the word."
 
     "0122" DivisionByZero Error "division by zero"
-"The divisor is the constant 0, at which the control stops with an alarm.
+"The divisor is the constant 0. The control stops with an alarm here.
 
 Correct the divisor."
 
     "0123" FunctionDomain Error "argument is outside the function's domain"
-"The function has no value for this constant, and the control stops with an alarm.
+"The function has no value for this constant. The control stops with an alarm here.
 
 Correct the argument."
 
@@ -135,37 +135,37 @@ Put the other words into a block of their own."
 Move the call to the head of the block."
 
     "0126" RoundBrackets Error "round brackets are comments"
-"Parentheses hold comments here, also inside expressions. What stands in them is not computed.
+"Parentheses hold comments here, also inside expressions. The control does not compute what is in them.
 
 Write `[` and `]`."
 
     "0128" BareIndirection Error "## needs brackets"
-"The number of a variable that is itself a variable stands in brackets.
+"A variable that gives the number of a variable stands in brackets.
 
 Write `#[#1]`."
 
     "0129" LoopWordSlip Error "D and a zero in place of DO"
-"The word behind WHILE is DO, with the letter O. With a zero it is a D word, and the control stops with an alarm.
+"The word after WHILE is DO, with the letter O. With a zero it is a D word, and the control stops with an alarm.
 
 Write `DO`."
 
-    "0130" NothingConditional Error "condition without a consequence"
-"Nothing stands behind the condition, so nothing depends on it.
+    "0130" NothingConditional Error "nothing follows the condition"
+"The block ends after the condition, so the condition decides nothing.
 
 Add the statement, or remove the condition."
 
     "0131" OutputFormat Error "output format is wrong"
-"A value that is put out needs two digits in brackets: places before the point and behind it, one at least and eight at most together.
+"A value that is put out needs two digits in brackets: the places before and after the decimal point. Together they are 1 to 8.
 
 Correct the format."
 
     "0132" LoopsCross Error "loops cross"
-"An END closes a loop that is not the innermost one that is open. Loops may stand in one another; they may not overlap.
+"An END closes a loop other than the innermost open one. Loops may nest; they may not overlap.
 
 Put the ENDs in the opposite order of their DOs."
 
     "0133" LoopNotPaired Error "DO without END, or END without DO"
-"Each DO needs an END with its number behind it in the same program.
+"Each DO needs an END with the same number after it, in the same program.
 
 Add the missing one."
 
@@ -181,7 +181,7 @@ Remove the G67 if no modal call of a calling program is meant."
 
     "0136" AlarmIfRun Review "an alarm if this statement runs"
 "The statement divides by the constant 0, or gives a function a constant that it has no value for. The control stops with
-an alarm where it runs; a condition before it decides whether it does.
+an alarm if the statement runs; a condition before it decides that.
 
 Make sure that the condition never holds, or that the alarm is meant."
 
@@ -191,19 +191,19 @@ Make sure that the condition never holds, or that the alarm is meant."
 Divide the statement into steps with variables between them; give each block a line of its own."
 
     "0151" MixedLine Error "NC words and a macro statement on one line"
-"On this control a line holds either NC words or a macro statement behind its `#`, never both.
+"On this control a line holds either NC words, or a `#` and a macro statement, never both.
 
 Put the macro statement on a line of its own."
 
     "0152" MacroLineTooLong Review "macro line is longer than the control takes"
-"A macro line of this control holds 63 characters, the `#`, blanks and the comment counted. What it does with a longer one is not known.
+"A macro line of this control holds 63 characters, counting the `#`, blanks and the comment. It is not known what the control does with a longer line.
 
 Shorten the comment, or divide the statement."
 
     "0153" LabelNotAlone Error "a label does not stand alone"
-"A label has its line to itself: no statement, no word, and on some controls not even a comment may stand beside it.
+"A label has its line to itself: no statement, no word, and on some controls not even a comment.
 
-Move what stands beside the label to the next line."
+Move the rest of the line to the next one."
 
     "0154" ExponentForm Error "number in exponent form"
 "This control has no exponent form of numbers.
@@ -216,27 +216,27 @@ Write the number out: 123000 for 1.23 times ten to the fifth."
 Write `'` in front of the comment."
 
     "0156" SemicolonInMacro Error "semicolon on a macro line"
-"A macro line knows no semicolon. The parts of a PRINT list are divided by commas.
+"A macro line has no semicolons. Commas divide the parts of a PRINT list.
 
 Write a comma, or take the semicolon away."
 
     "0157" UnterminatedText Error "text without its closing quotation mark"
-"Text stands between two quotation marks on one line. Without the second one it is not known where it ends.
+"A text stands between two quotation marks on one line. The second one is missing, so it is not known where the text ends.
 
 Add the quotation mark."
 
     "0158" ConditionExpected Error "a comparison is expected"
-"IF, AND, OR and NOT want a comparison. What a number means there is not stated by any source; most often an operator was lost on the way, as in `IF V19 THEN` for `IF V1<=9 THEN`.
+"IF, AND, OR and NOT take a comparison. No source says what a number means there. Most often an operator was lost on the way, as in `IF V19 THEN` for `IF V1<=9 THEN`.
 
 Write the comparison out, such as `V1<>0`."
 
-    "0159" ComparisonAsValue Error "a comparison stands where a value is expected"
-"A comparison has no value on this control that could be computed with, assigned or printed.
+    "0159" ComparisonAsValue Error "a comparison in place of a value"
+"A comparison has no value on this control: it cannot be computed with, assigned or printed.
 
 Use IF to choose between two assignments."
 
-    "0160" VariableOnNcLine Error "variable may not stand among NC words"
-"NC words of this control can take R variables only. A V variable has to be handed over on a macro line first.
+    "0160" VariableOnNcLine Error "V variable among NC words"
+"NC words of this control take R variables only. Copy the V variable to an R variable on a macro line first.
 
 Write `#R9=V1` on the line before, and `X+R9` here."
 
@@ -246,12 +246,12 @@ Write `#R9=V1` on the line before, and `X+R9` here."
 Write `R9+1.` here, or `#R9=1.` on a macro line."
 
     "0162" SignMissing Error "sign is missing between letter and variable"
-"A word takes its value from an R variable only with a sign between them, which multiplies: `X+R2`, `X-R2`.
+"A word takes its value from an R variable only with a sign between the two: `X+R2`, `X-R2`. The sign multiplies.
 
 Write the sign."
 
-    "0163" TextBehindComment Review "text behind a comment's closing bracket"
-"On this control a comment runs from its opening bracket to the end of the line. Words behind the closing bracket are comment, and the control does not carry them out, whatever the programmer had in mind.
+    "0163" TextBehindComment Review "text after a comment's closing bracket"
+"On this control a comment runs from its opening bracket to the end of the line. Words after the closing bracket are part of the comment, and the control does not carry them out, whatever the programmer meant.
 
 Put the comment at the end of the line, or take the words away."
 
@@ -266,12 +266,12 @@ Write `#` in front of it."
 Correct the number."
 
     "0168" UnclosedComment Error "comment is not closed"
-"A comment of this control ends at its closing bracket. Without it there is no telling where the words begin again.
+"A comment of this control ends at its closing bracket. The bracket is missing, so it is not known where the words begin again.
 
 Add the bracket."
 
     "0169" WordWithoutValue Error "word without a value"
-"An address letter needs a number or a variable behind it.
+"An address letter needs a number or a variable after it.
 
 Add the value, or take the letter away."
 
@@ -296,12 +296,12 @@ Divide the statement into steps with variables between them."
 Compute it from the functions that are there: the tangent as sine divided by cosine."
 
     "0174" ConstantInWord Error "constant in a parametric word"
-"Behind the `=` of a word stands a variable. A constant is written without `=`, and then the block may not hold parametric words.
+"A variable follows the `=` of a word. A constant is written without `=`, and then the block may not hold parametric words.
 
 Put the constant into a variable."
 
-    "0175" UnshownOperand Review "form of an operand that no manual shows"
-"The manual shows a variable as the first operand of an operation and as the argument of a function. Whether a constant is taken there is not known.
+    "0175" UnshownOperand Review "no manual shows this operand"
+"The manual shows a variable as the first operand of an operation and as the argument of a function. It is not known whether a constant may stand there.
 
 Put the constant into a variable first."
 
@@ -311,15 +311,15 @@ Put the constant into a variable first."
 Keep the value in a variable of its own where it is set."
 
     "0177" SignedVariable Error "sign in front of a variable"
-"This control takes no sign in front of a variable.
+"This control does not take a sign in front of a variable.
 
 Multiply by -1 in a step of its own: `V1=V2* -1`."
 
     // ---- 02: dialects and machine profiles ----
-    "0201" UnconfirmedFact Review "rests on an unconfirmed fact"
-"The conversion depends on how a control behaves in a place where no maker's text says so. The message names the fact and where it is recorded in `dialects/`.
+    "0201" UnconfirmedFact Review "no manual confirms this"
+"The conversion depends on how a control behaves here, and no maker's text confirms it. The message names the fact and the control; the fact's row is in `dialects/`.
 
-Check it on the machine or in its manual. A machine profile states it for good: a fact by its name in `confirm`, and the answer to a question under `[behaviours]`, as `divide.by.zero = \"alarm\"`."
+Check it on the machine or in its manual, then put it into the machine profile: a fact by its name in `confirm`, the answer to a question under `[behaviours]`, such as `divide.by.zero = \"alarm\"`."
 
     "0202" DialectTable Error "a table of `dialects/` is wrong"
 "A table of facts about a control contradicts itself, names something that does not exist, or has a key that nothing reads. Nothing is converted with a table that is wrong.
@@ -327,128 +327,128 @@ Check it on the machine or in its manual. A machine profile states it for good: 
 Correct the row shown. `dialects/README.md` says what the columns mean."
 
     "0203" MachineProfile Error "the machine profile is wrong"
-"The profile of a machine has a key that nothing reads, a value that its control cannot have, or names a fact that its table does not hold. A setting that was not understood would make every conversion for that machine doubtful, so none is made.
+"The profile of a machine has a key that nothing reads, a value that its control cannot have, or names a fact that its table does not hold. A setting that is not understood would make every conversion for that machine doubtful, so nothing is converted.
 
 Correct the line shown. The profiles in `machines/` are examples; `macroglot dialects` lists what a control can be set to."
 
     // ---- 03: lowering ----
-    "0301" NotUnderstood Error "meaning is not known"
+    "0301" NotUnderstood Error "unknown meaning"
 "The block can be read, but the table of its control in `dialects/` has no meaning for this word or statement. Nothing is guessed: the program is refused.
 
 If a machine builder defined the word, give its meaning in the machine profile."
 
     "0310" TargetMissing Error "no block has this label"
-"A jump goes to a sequence number or a label that no block of the program has. The control would stop there with an alarm, so there is nothing to convert it to.
+"A jump goes to a sequence number or a label that no block of the program has. The control would stop there with an alarm.
 
 Correct the jump or add the label."
 
     "0311" TargetTwice Review "several blocks have this sequence number"
-"A jump goes to a sequence number that stands more than once in the program. The conversion takes the one that the control's table says it finds (the message names its line), and the first where no source says.
+"A jump goes to a sequence number that more than one block of the program has. The conversion takes the block that the control finds by its table, or the first one if no source says which. The message names its line.
 
-Make the numbers differ."
+Give the blocks different numbers."
 
-    "0312" ModalConflict Error "modal state differs from path to path"
-"The meaning of the block depends on what was set before it: the motion mode, the angle unit, the places of rounding. The ways that lead here set different ones, or none is known, so the block has no one translation.
+    "0312" ModalConflict Error "modal state depends on the path"
+"The meaning of the block depends on what was set before it: the motion mode, the angle unit, the places of rounding. The paths to this block set different ones, or none is known, so no single translation is right.
 
 State it in the block or just before it."
 
-    "0313" ModalAssumed Review "rests on modal state from outside the program"
-"The block depends on a mode that the program did not set itself: its caller or a program that it called did. The conversion takes it that the called program leaves the mode as it was, and that the caller is not in an arc mode.
+    "0313" ModalAssumed Review "uses a mode set outside the program"
+"The block depends on a mode that the program did not set itself: its caller set it, or a program that it called. The conversion supposes that a called program leaves the mode as it was, and that the caller is not in an arc mode.
 
 State the mode in the block, or check the programs that are named."
 
-    "0314" EarlyRead Review "may be read before the moves ahead of it are done"
-"The control reads ahead: a position, an input or a counter that a statement reads may be the one before the last moves. The conversion reads it when they are done. Where the program means that too, nothing changes.
+    "0314" EarlyRead Review "may be read before earlier moves are done"
+"The control reads ahead: a statement that reads a position, an input or a counter may get its value from before the last moves. The conversion reads it after they are done. If the program means that too, nothing changes.
 
-Put a wait before the statement to say so."
+If it does, put a wait before the statement."
 
     "0315" Indexer Error "sends code to the maker's indexer"
-"The statement passes text to a device that only this maker's controls have. Its text is for the indexer and has no meaning elsewhere.
+"The statement sends text to a device that only this maker's controls have. The text has no meaning elsewhere.
 
 Program the axis directly."
 
-    "0316" FixedSubroutine Review "calls a subroutine that the maker keeps in the control"
-"The subroutine is not part of the library, and what it does is not in any program here. Controls of other makers do not have it.
+    "0316" FixedSubroutine Review "calls a fixed subroutine of the maker"
+"The maker keeps the subroutine in the control. It is not part of the library, so no program here shows what it does, and other makers' controls do not have it.
 
 Write the routine as a program of the library."
 
     "0317" SpeedRange Review "a fraction of the spindle speed picks a belt range"
-"On this control the digit behind the point of a spindle speed is no part of the speed: it picks the belt range. The speed is converted without it, and the range is left to the other control.
+"On this control the digit after the point of a spindle speed is not part of the speed: it picks the belt range. The speed is converted without it, and the target picks the range.
 
-Check that the other machine picks the same range."
+Check that the target picks the same range."
 
-    "0318" SubroutineArea Error "subroutines at the head of the program are not closed"
-"The program defines subroutines at its head, but the code that ends their area is missing, so nobody can tell where its main part begins.
+    "0318" SubroutineArea Error "the subroutines at the head are not closed"
+"The program defines subroutines at its head, but the code that ends their area is missing, so it is not known where its main part begins.
 
 Add the code that closes the area."
 
-    "0319" SubroutineLeft Review "control leaves a subroutine without its end"
-"A jump goes out of a subroutine or into one, or a subroutine runs into the end of its area. What the control does with the return that is still open is in no source.
+    "0319" SubroutineLeft Review "a subroutine is left without its end"
+"A jump goes out of a subroutine or into one, or a subroutine runs into the end of its area. No source says what the control does with the return that is still open.
 
 End the subroutine by its own code, and jump within it only."
 
     "0330" RegisterUnset Error "the condition register is not set here"
-"The jump looks at the condition register, but on one of the ways that lead here nothing in the program has set it: neither arithmetic nor a test, or a cycle ran in between that may have changed it. No source says what it holds then.
+"The jump looks at the condition register. On one path to it nothing has set the register, neither arithmetic nor a test, or a cycle ran in between and may have changed it. No source says what it holds then.
 
-Put a test of the variable that is meant before the jump."
+Test the variable that is meant just before the jump."
 
-    "0331" CodeByVariable Review "a code is given by a variable"
-"The G or M code, or the label, stands in a variable. Every assignment to that variable in the program gives it the same number, so the conversion takes that number. It does not look whether another program or the operator changes the variable.
+    "0331" CodeByVariable Review "a variable gives the code"
+"The G or M code, or the label, comes from a variable. Every assignment to that variable in the program gives it the same number, and the conversion uses that number. It does not check whether another program or the operator changes the variable.
 
-Write the code itself, or check that nobody else writes the variable."
+Write the code itself, or check that nothing else writes the variable."
 
     "0343" ArgumentsMixed Error "arguments of both kinds are mixed"
-"The call has repeated or unordered I, J and K, which count by place, beside letters that have locals of their own. This control takes one kind in a call, and what it does with both is not known.
+"The call has repeated or unordered I, J and K, which count by place, and also letters that have locals of their own. This control takes one kind in a call. It is not known what it does with both.
 
 Use each letter once, in order, or only A, B, C and sets of I, J, K."
 
     "0344" RepeatKeepsLocals Review "repeats of a call do not set its arguments again"
-"On this control the arguments are set before the first pass only; each later pass begins with what the pass before left in the locals. A macro that changes its arguments runs differently the second time.
+"This control sets the arguments before the first pass only. Each later pass begins with the locals as the pass before left them, so a macro that changes its arguments runs differently the second time.
 
-Look whether the macro assigns to its arguments. If it does not, nothing changes."
+Check whether the macro assigns to its arguments. If it does not, nothing changes."
 
-    "0345" SkipUnclear Error "the block skip has no one meaning here"
-"The block-skip sign stands with a loop's end or beginning, or twice in its block. What the control then leaves out cannot be said for sure.
+    "0345" SkipUnclear Error "unclear block skip"
+"The block-skip sign is in a block that begins or ends a loop, or it stands twice in its block. It is not certain what the control then skips.
 
-Give the words that are skipped a block of their own."
+Put the words to be skipped into a block of their own."
 
     "0346" ThenMissing Review "THEN is missing"
-"A statement follows the condition without THEN. Programs are seen that do so, and the conversion takes it that the statement is done when the condition holds; the maker's text has no such form.
+"A statement follows the condition without THEN. Some programs are written so, but the maker's text does not have this form. The conversion supposes that the statement runs when the condition holds.
 
 Write THEN before the statement."
 
     "0347" OutputBlank Review "a blank in formatted output"
-"The text that a program puts out has a blank in it. The sign that is sure to print a blank is '*'; some controls leave blanks out. The conversion prints it.
+"The text that the program puts out has a blank in it. Some controls leave blanks out; only '*' is certain to print one. The conversion prints the blank.
 
 Write '*' for each blank that must be printed."
 
     "0348" NotWritable Error "cannot be assigned to"
-"The variable can be read only. The control stops with an alarm at the assignment."
+"The variable is read-only. The control stops with an alarm at the assignment."
 
     "0349" LatheProgram Error "looks like a lathe program"
-"The table for milling machines gives this word another meaning than a lathe does, or none, and the block looks like one for a lathe. Read as a milling program it would move otherwise than it was meant to.
+"The block looks like one for a lathe: the table for mills gives this word another meaning, or none. Read as a mill program, it would make moves that nobody meant.
 
-Programs that such a program calls or that call it, those of its file, and in a library without mill programs all others, go with it, unless their own text is a mill's (Y, a length offset, M6). The message names the file and line where the sign was seen.
+The programs that this one calls or that call it, those of its file, and in a library without mill programs all others, count as lathe programs too, unless their own text is a mill's (Y, a length offset, M6). The message names the file and line where the sign was seen.
 
-Name a machine profile with 'machine = \"lathe\"', or with 'machine = \"mill\"' if it is a mill's after all."
+Name a machine profile with 'machine = \"lathe\"', or with 'machine = \"mill\"' if the program is for a mill after all."
 
-    "0350" ComputedCode Note "a code is known only at run time"
-"The number of the G or M code is computed. What it does depends on the value when the program runs, so only a control with the same codes can do the same, and a code that ends or calls would not be followed.
+    "0350" ComputedCode Note "computed code"
+"The number of the G or M code is computed, so its meaning depends on the value when the program runs. Only a control with the same codes can do the same. A code that ends or calls a program is not followed.
 
-Write the codes out, each behind its condition."
+Write the codes out, each after its condition."
 
     "0351" GroupTwice Review "two codes of one group in a block"
-"Codes of one group exclude one another. Most controls let the last one of a block count; both are converted in their order.
+"Codes of one group exclude each other. On most controls the last one of the block counts; both are converted in their order.
 
 Leave one of them out."
 
     "0352" WordTwice Review "a word stands twice in its block"
-"Two words of the block mean the same thing. Most controls let the last one count; both are converted in their order.
+"Two words of the block mean the same thing. On most controls the last one counts; both are converted in their order.
 
 Leave one of them out."
 
     "0353" MCodes Review "more M codes than the control takes"
-"The block has more M codes than its control accepts in one block. It may stop with an alarm there, or do only some of them.
+"The block has more M codes than its control accepts in one block. The control may stop with an alarm, or do only some of them.
 
 Put each into a block of its own."
 
@@ -457,76 +457,76 @@ Put each into a block of its own."
 
 Leave the point out."
 
-    "0355" WordsBesideCall Review "words stand beside the end of a modal call"
-"No source says whether the words of that block act before the modal call ends or after it. They are taken to act after it.
+    "0355" WordsBesideCall Review "words beside the end of a modal call"
+"No source says whether the words of this block act before the modal call ends or after it. The conversion takes them to act after it.
 
 Put them into a block of their own."
 
     // ---- 04: legalization ----
     "0401" NoEquivalent Error "the target control has no such function"
-"The target control lacks the function, and none of the emulations gives it exactly. The message says which function and why."
+"The target control does not have the function, and no emulation gives it exactly. The message names the function and the reason."
 
-    "0402" NearlyEqual Review "the same within a bound"
-"The target lacks the function, or has it with another range, and an emulation stands in its place that agrees inside a stated domain or within a stated bound. The message says which.
+    "0402" NearlyEqual Review "equivalent within a bound"
+"The target does not have the function, or has it with another range. The conversion emulates it, within the domain or the error bound that the message names.
 
-Look whether the program can leave the domain, or is so fine that the bound matters."
+Check that the program stays in the domain, and that the part tolerates the error."
 
     "0403" OutOfRegisters Error "no register left"
-"Every variable of the library needs a register of its own on the target, and the target (as the machine profile describes it) has too few, or too few in a row where variables are reached by computed numbers.
+"Every variable of the library needs a register of its own on the target. The target, as the machine profile describes it, has too few, or too few in a row for variables with computed numbers.
 
-Free registers by the profile's `reserved` list, buy the option for more variables, or convert a smaller library."
+Shorten the profile's `reserved` list, get the option for more variables, or convert a smaller library."
 
     "0404" OtherRetention Review "a variable lives longer or shorter"
-"A variable keeps its value over power-off on one of the controls and loses it on the other, and the program reads it before it writes it.
+"A variable keeps its value over power-off on one control and loses it on the other, and the program reads it before it writes it.
 
-If nobody relies on the value from before power-off, nothing needs doing. Else move it by hand to a register that lives as long as it did."
+If nobody relies on the value from before power-off, nothing needs to be done. Otherwise move it by hand to a register that lasts as long as on the source."
 
-    "0405" Conditional Review "the same under a condition"
-"The target does the same only if something holds that the text of the programs does not say: what the operator does at a stop, how inputs are wired, which unit the control is set to. The message names the condition.
+    "0405" Conditional Review "equivalent only if this holds on your machine"
+"The target does the same only if something is true that the programs do not say: what the operator does at a stop, how inputs are wired, which unit the control is set to. The message names it.
 
-See that it holds on the machine; where a machine profile can state it, state it there."
+Check it on the machine. If a machine profile can state it, state it there."
 
-    "0406" MessageCut Note "message is shown in part"
-"The target shows fewer characters of a message than the source. The message is cut, and the whole of it stands in a comment beside it."
+    "0406" MessageCut Note "message is cut"
+"The target shows fewer characters of a message than the source. The message is cut, and a comment beside it has the whole text."
 
-    "0407" LettersReplaced Note "letters that the target lacks are replaced"
-"A message, a line of output or a comment has letters or signs that the target control is not known to show, as those with accents. What looks like them stands in their place: UE for Ü, C for Ç, EUR for €. Round brackets inside a message become square ones, and a per cent sign becomes PCT. It is said once a program, at the first of them.
+    "0407" LettersReplaced Note "letters are replaced"
+"A message, a line of output or a comment has letters or signs that the target is not known to show, such as accented ones. Similar ones take their place: UE for Ü, C for Ç, EUR for €. Round brackets inside a message become square ones, and a per cent sign becomes PCT. This is reported once per program, at the first of them.
 
-Nothing needs doing. A letter in a message for which nothing stands is told by MG0507."
+Nothing needs to be done. If a letter of a message has no substitute, MG0507 says so."
 
     // ---- 05: emission ----
     "0501" Unmapped Error "the target has no spelling for this"
 "The table of the target control in `dialects/` has no row for something that the program needs: a code, a letter, a function, a register. Nothing is written in its place, so the program is refused.
 
-The message names what is missing. Where the machine has it, say so in its profile or in the table; where it has not, the conversion should have replaced it earlier, which is a fault of this program worth reporting."
+The message names what is missing. If the machine has it, say so in its profile or in the table. If not, macroglot should have replaced it earlier: please report that."
 
     "0502" NestsTooDeep Error "brackets nest too deep"
-"The expression needs more brackets inside one another than the target control takes, those of functions and of conditions counted.
+"The expression needs more levels of brackets than the target control takes, counting those of functions and conditions.
 
 Split the expression over two assignments in the source."
 
     "0503" NumberTooLong Error "the number has too many digits"
-"The number cannot be written with the digits that the target control takes without changing its value.
+"The number has more digits than the target control takes, so it cannot be written without changing its value.
 
 Round it in the source to what the machine needs."
 
     "0504" LineTooLong Error "the block is too long"
-"The block has more characters than a line of the target control may have, its comments aside, which are put on lines of their own.
+"The block has more characters than a line of the target control takes. Comments do not count: they get lines of their own.
 
 Split the block in the source."
 
-    "0505" NoSequenceNumber Error "a sequence number cannot be given"
-"A block that is jumped to needs a sequence number that only it has. Either all numbers that the control takes are used, or the number is fixed, by a computed jump or by a return to it, and two blocks would need it.
+    "0505" NoSequenceNumber Error "no sequence number can be given"
+"A block that a jump goes to needs a sequence number of its own. Either all numbers that the control takes are used, or two blocks need the same number, because a computed jump or a return fixes it.
 
 Renumber the blocks of the source."
 
     "0506" TextUnwritable Error "the text cannot be written on the target"
-"A line of output or a name holds characters that the target control cannot write. What the receiver reads would change.
+"A line of output or a name has characters that the target control cannot write. The receiver would read something else.
 
 Write it without these characters."
 
     "0507" MessageAltered Review "the message looks different on the target"
-"A message to the operator holds characters that the target control cannot write, for which others stand, or it has more characters than the control shows, and its end may be missing on the screen.
+"A message to the operator has characters that the target control cannot write, and others take their place; or it is longer than the screen shows, and its end may be missing.
 
 Check that the operator still understands it, or shorten it in the source."
 
@@ -537,37 +537,37 @@ Please report the program with this message."
 
     // ---- 06: libraries and projects ----
     "0601" OutsideLibrary Review "calls a program outside the library"
-"The program calls one that was not among the files converted, or one that is refused, for which nothing is written. The call keeps its number, but nothing is known of what it does: which variables it changes, which modes it leaves in force, whether it exists on the target.
+"The program calls one that is not among the converted files, or one that is refused and so not written. The call keeps its number. It is not known what the called program does: which variables it changes, which modes it leaves in force, whether it exists on the target.
 
-Convert the whole library in one run, mend what is refused, or check the program on the target by hand."
+Convert the whole library in one run, correct what is refused, or check the program on the target by hand."
 
-    "0602" TwinProgram Review "a program number stands twice"
-"Two programs of the library have one number. A control holds one program of a number, so the shop loads one of them or the other; the conversion cannot tell which.
+    "0602" TwinProgram Review "two programs have one number"
+"Two programs of the library have the same number. A control holds only one program of a number, so the shop loads one or the other; the conversion cannot tell which.
 
 Convert them apart, or give one another number."
 
-    "0603" AmbiguousCall Error "calls a program that stands twice"
-"The program calls a number that two programs of the library have. Which one runs decides what the machine does, so nothing is guessed.
+    "0603" AmbiguousCall Error "calls a number that two programs have"
+"The program calls a number that two programs of the library have. The conversion cannot tell which one runs, and does not guess.
 
 Convert the two in separate runs, each with its own callers."
 
     "0604" OutOfNumbers Error "no program number is free"
-"A program that has no number on the source, or a subroutine that becomes a program of its own, needs a number on the target, and none is free."
+"A program that has no number on the source, or a subroutine that becomes a program of its own, needs a number on the target, and no number is free."
 
     "0605" Renumbered Note "a program gets another number"
 "The number of the program is larger than the target control takes, so the program gets one that is free there. Calls in the library that name it get the new number too; `macroglot.lock` keeps it for later runs.
 
 Whoever selects the program at the machine, or calls it from outside the library, must use the new number."
 
-    "0606" CalleeWithdrawn Error "calls a program that is withdrawn"
-"The program calls one whose conversion does something else than its source, by what their runs on the emulated controls show (MG0801). That one is not written, so what calls it is not written either: it would run something else, or stop with an alarm. Other programs of the file and of the library are written.
+    "0606" CalleeWithdrawn Error "calls a withdrawn program"
+"The conversion of the called program does not do what its source does, as runs on the emulated controls show (MG0801). It is not written, and neither are its callers: they would run something else, or stop with an alarm. Other programs of the file and of the library are written.
 
-Look at the program that is named first; what calls it comes back with it."
+Look at the named program first. Once it converts, so do its callers."
 
     "0610" LockConflict Error "an earlier conversion has this register"
-"`macroglot.lock` in the output folder keeps registers for programs that were converted before and are not part of this run. A program of this run needs one of them for itself: its variable has that number on both controls, or variables whose numbers are computed need a row of registers.
+"`macroglot.lock` in the output folder keeps registers for programs that were converted before and are not part of this run. A program of this run needs one of them for itself: its variable has that number on both controls, or variables with computed numbers need a row of registers.
 
-Delete `macroglot.lock`, and convert the files that the message names and these in one run."
+Delete `macroglot.lock`, and convert the files that the message names together with these, in one run."
 
     "0611" LockChanged Note "a variable gets another register than before"
 "An earlier run chose a register that a program of the library now needs for itself. All programs that rely on the choice are part of this run, so the variable gets another one, and all of them are written anew.
@@ -577,33 +577,33 @@ Load all of the programs into the machine. If a value in the old register matter
     // ---- 07: the command line ----
 
     // ---- 08: emulated controls and verification ----
-    "0801" VerifiedDifferent Error "the conversion does something else"
-"Source and conversion were run on their emulated controls, and the machine would not do the same. The message names the first difference; the certificate has the circumstances, both blocks and both events. Nothing of the program is written, and nothing of what calls it (MG0606); other programs of its file are. The certificate stands in the output folder as `NAME.not-written.json`, never beside a text under the name of one that is.
+    "0801" VerifiedDifferent Error "the conversion differs from its source"
+"Source and conversion were run on their emulated controls, and they do not do the same. The message names the first difference; the certificate has the start values, both blocks and both events. The program is not written, and neither are its callers (MG0606); other programs of its file are. The certificate is `NAME.not-written.json` in the output folder.
 
-One of three is at fault: the conversion, one of the emulated controls, or a table in `dialects/`. Please report the program with its certificate."
+The fault is in the conversion, in one of the emulated controls, or in a table of `dialects/`. Please report the program with its certificate."
 
-    "0802" NotDecided Review "verification did not decide"
-"Source and conversion were run on their emulated controls and no difference was found, but not everything was seen: a branch that no scenario reached, a run that came to no end, a called program that is not in the library, an unconfirmed fact that mattered. The message says which.
+    "0802" NotDecided Review "verification is not complete"
+"Source and conversion were run on their emulated controls, and no difference was found. But part of the program was not decided: a branch that no scenario reached, a run that did not end, a called program that is not in the library, an unconfirmed fact that mattered. The message says which.
 
-Look at the places named, or give the machine profile what it lacks, and verify again with `macroglot verify`."
+Check the places that the message names, or add what is missing to the machine profile, and run `macroglot verify` again."
 
-    "0803" RoundingSensitive Review "rounding decides what the machine does"
-"When the target's arithmetic keeps a few digits less, or errs in the last of them, the machine does something else: a comparison of computed values is so close that the last digit decides it. Two controls of one make can differ there.
+    "0803" RoundingSensitive Review "rounding may decide a comparison"
+"A comparison of computed values is so close that the last digit decides it. If the target computes with fewer digits, or errs in the last one, the machine does something else. Two controls of the same make can differ here.
 
-Compare with a small margin, or round before comparing, in the source."
+Add a tolerance to the comparison in the source, or round before it."
 
     "0804" AlarmRaised Error "the program ends in an alarm"
-"The program was run on its emulated control, which stopped with an alarm here. The message has the alarm's number on the control, where a source names it, and its text; a number that the program gave itself stands with what the control adds to it.
+"The program was run on its emulated control, which stopped with an alarm here. The message has the alarm's text, and its number on the control if a source names it. If the program itself gave the number, it is shown with what the control adds to it.
 
-Where the alarm is the program's own check, run it with the values that it wants: `--set '#1=2.5'`."
+If the alarm is the program's own check, run it with the values that it wants: `--set '#1=2.5'`."
 
-    "0805" NoEnd Error "the program does not come to its end"
-"The program was run on its emulated control and used up the blocks, events or time that it was given; the place is where it was then. A loop that waits for an input, or a main program that begins again, runs for ever without a person at the machine.
+    "0805" NoEnd Error "the program does not end"
+"The program was run on its emulated control and used up its limit of blocks, events or time. The place shows where it was then. A loop that waits for an input, or a main program that starts again, runs for ever without a person at the machine.
 
-Look for the loop at this place; a scenario file can set inputs. A program that is only long is run to its end with `--steps`."
+Look for the loop at this place; a scenario file can set inputs. If the program is only long, raise the limit with `--steps`."
 
     "0806" CannotRun Error "the program cannot be run"
-"The emulated control came to a block that it cannot read or does not know how to run, or to a call of a program that it does not have.
+"The emulated control met a block that it cannot read or run, or a call of a program that it does not have.
 
-Give the files of called programs with `--library`."
+Name the files of called programs with `--library`."
 }

@@ -172,7 +172,7 @@ fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
     for placed in rows {
         let Behaviour { question, value, one_of, .. } = &placed.row;
         for value in [value].into_iter().chain(one_of).filter(|value| !question.answers().admits(value)) {
-            let message = format!("'{value}' is no value of {question}");
+            let message = format!("'{value}' is not a value of {question}");
             reader.fault_at(placed.place.clone(), message, format!("it is {}", question.answers()));
         }
         let open = |value: &str| ["unknown", "setting"].contains(&value);
@@ -180,9 +180,13 @@ fn answers(reader: &mut Reader, rows: &[Placed<Behaviour>]) {
             one_of.iter().enumerate().any(|(at, one)| one_of.iter().take(at).any(|other| other == one));
         if !one_of.is_empty() && (one_of.len() < 2 || twice || one_of.iter().any(|one| open(one))) {
             let help = "'one_of' lists two answers or more, each once, and none of them 'unknown'";
-            reader.fault_at(placed.place.clone(), format!("{question} is left open between nothing"), help);
+            reader.fault_at(
+                placed.place.clone(),
+                format!("{question} is left open, but 'one_of' has no answers"),
+                help,
+            );
         } else if !one_of.is_empty() && value != "unknown" {
-            let help = "write value = \"unknown\", or take 'one_of' out";
+            let help = "write value = \"unknown\", or remove 'one_of'";
             reader.fault_at(placed.place.clone(), format!("{question} has an answer and is left open"), help);
         }
     }

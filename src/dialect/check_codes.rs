@@ -10,7 +10,7 @@ pub(super) fn check(reader: &mut Reader, rows: &[Placed<CodeMeaning>]) {
         let place = || placed.place.clone();
         let (Some(head), Some(_)) = (row.head(), row.beside()) else {
             let help = "write a letter and a number, then words: 'G10 L2', 'G17 Q', 'G54.1 P'";
-            reader.fault_at(place(), format!("'{}' is no code", row.code), help);
+            reader.fault_at(place(), format!("'{}' is not a code", row.code), help);
             continue;
         };
         if row.through.is_some_and(|last| last < head.whole() || last > head.whole() + 1000) {

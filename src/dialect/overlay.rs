@@ -106,7 +106,7 @@ impl Overlay {
             self.fault(
                 "machine",
                 message,
-                format!("the codes of a {name} are not known for this control: leave its programs out"),
+                format!("the codes of a {name} are not known for this control: leave out its programs"),
             );
         }
     }
@@ -188,7 +188,7 @@ impl Overlay {
                 Some(run) => runs.push(run),
                 None => self.fault(
                     &format!("{section}:{text}"),
-                    format!("'{text}' is no variable and no run of variables"),
+                    format!("'{text}' is not a variable or a run of variables"),
                     "write '#500', '#500-#549' or 'VX'".into(),
                 ),
             }
@@ -218,7 +218,7 @@ impl Overlay {
         for site in self.profile.site.clone() {
             let row = site.row();
             let (Some(head), Some(_)) = (row.head(), row.beside()) else {
-                let message = format!("'{}' is no code", site.code);
+                let message = format!("'{}' is not a code", site.code);
                 self.fault(
                     &format!("site:{}", site.code),
                     message,

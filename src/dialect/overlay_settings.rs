@@ -29,7 +29,7 @@ impl Overlay {
             match dialect.settings.iter().find(|row| row.covers(&name)) {
                 Some(row) if !row.values.is_empty() && !row.values.contains(&value) => {
                     let help = format!("{}: one of {}", row.meaning, row.values.join(", "));
-                    self.fault(&place, format!("'{value}' is no value of {name}"), help);
+                    self.fault(&place, format!("'{value}' is not a value of {name}"), help);
                 }
                 Some(_) => {
                     self.stated.insert(name.clone());
@@ -108,7 +108,7 @@ impl Overlay {
 /// Notes that a row rests on a setting that nobody stated.
 fn assume(origin: &mut Origin, setting: &str) {
     origin.confirmed = false;
-    let reason = format!("the machine profile does not state {setting}");
+    let reason = format!("the machine profile does not give {setting}");
     origin.note = Some(match origin.note.take() {
         Some(note) if note.contains(&reason) => note,
         Some(note) => format!("{note}; {reason}"),

@@ -148,25 +148,30 @@ questions! {
     Vacancy "vacancy" YES, "a variable may be vacant, which is not zero";
     VacantWordDropped "vacant.word.dropped" YES, "a word whose value is a vacant variable counts as not programmed", if "behaviour:vacancy";
     VacantEqZero "vacant.eq.zero" YES, "a vacant variable equals zero under EQ and NE", if "behaviour:vacancy";
-    VacantComparesAsZero "vacant.compares.as.zero" YES, "GT, GE, LT and LE take a vacant variable for zero", if "behaviour:vacancy";
-    VacantArithmeticZero "vacant.arithmetic.zero" YES, "arithmetic takes a vacant operand for zero", if "behaviour:vacancy";
-    BracketVacantWord "bracket.vacant.word" OneOf(&["dropped", "zero", "unknown"]), "what a word does whose bracket holds one vacant variable", if "behaviour:vacancy";
+    VacantComparesAsZero "vacant.compares.as.zero" YES, "GT, GE, LT and LE take a vacant variable as zero", if "behaviour:vacancy";
+    VacantArithmeticZero "vacant.arithmetic.zero" YES, "arithmetic takes a vacant operand as zero", if "behaviour:vacancy";
+    BracketVacantWord "bracket.vacant.word" OneOf(&["dropped", "zero", "unknown"]), "what a word does if its bracket holds one vacant variable", if "behaviour:vacancy";
     BracketCopiesVacancy "bracket.copies.vacancy" YES, "#2=[#1] copies vacancy as #2=#1 does", if "behaviour:vacancy";
     GotoForwardFirst "goto.forward.first" YES, "a jump looks forward first, then from the head of the program";
     GotoComputed "goto.computed" YES, "a jump may go to a computed number";
     GotoMissingAlarms "goto.missing.alarms" YES, "a jump to a label or number that no block has stops the program with an alarm", if "statement:goto.label";
-    GotoFirstLabel "goto.first.label" YES, "of labels that stand twice a jump always finds the first one", if "statement:goto.label";
+    GotoFirstLabel "goto.first.label" YES, "a jump to a repeated label always finds the first one", if "statement:goto.label";
     SequenceAnywhere "sequence.anywhere" YES, "N may stand anywhere in its block";
     SubEndsAtNext "sub.ends.at.next" YES, "a subroutine at the head of a program ends where the next one begins", if "op:sub.area.end";
-    SubAreaEntered "sub.area.entered" YES, "what stands before the subroutines at the head runs, then the main part", if "op:sub.area.end";
+    SubAreaEntered "sub.area.entered" YES, "blocks before the subroutines at the head run first, then the \
+                                            main part", if "op:sub.area.end";
     EndAlone "end.alone" YES, "the code that closes the subroutines ends a program that has none", if "op:sub.area.end";
     CycleEndEndsProgram "cycle.end.ends.program" YES, "the code that ends a called cycle ends any other program too", if "op:call.cycle";
     CallAfterWords "call.after.words" YES, "a subroutine that is called beside words runs when the words are done";
-    M99PJumpsHere "m99.p.jumps.here" YES, "M99 P jumps in the running program; false where it returns to that block of the caller", if "statement:return.to.sequence";
+    M99PJumpsHere "m99.p.jumps.here" YES, "M99 P jumps in the running program; false if it returns to \
+                                           that block of the caller", if "statement:return.to.sequence";
     M99MainRestarts "m99.main.restarts" YES, "M99 in the main program starts it again", if "statement:return.to.sequence";
     M99BlockMovesFirst "m99.block.moves.first" YES, "the words beside M99 act before the return", if "statement:call.macro";
-    ArgumentsMixedLaterWins "arguments.mixed.later.wins" YES, "of arguments of both kinds for one local variable the later one counts", if "statement:call.macro";
-    ArgumentsOrderIjk "arguments.order.ijk" OneOf(&["true", "repeated", "false", "unknown"]), "I, J and K go by place: where they are repeated or out of order, only where one of them stands twice, or never", if "statement:call.macro";
+    ArgumentsMixedLaterWins "arguments.mixed.later.wins" YES, "if arguments of both kinds set one local \
+                                                               variable, the later one counts", if "statement:call.macro";
+    ArgumentsOrderIjk "arguments.order.ijk" OneOf(&["true", "repeated", "false", "unknown"]), "when I, J and K count by place: if they are \
+                                                                                               repeated or out of order, only if one of them is \
+                                                                                               repeated, or never", if "statement:call.macro";
     ArgumentsRepeatedOrder "arguments.repeated.order" OneOf(&["place", "count", "unknown"]), "which local a repeated I, J or K sets: the next of its column after the letter before it, or that of the set that its own count gives", if "statement:call.macro";
     CallRepeatReloadsArguments "call.repeat.reloads.arguments" YES, "each repeat of a call sets the arguments again", if "statement:call.macro";
     CallModalBlockCalls "call.modal.block.calls" YES, "the block that starts a modal call calls at once", if "statement:call.modal";
@@ -179,14 +184,14 @@ questions! {
     NumberIsCondition "number.is.condition" YES, "a number is a condition: true when it is not zero";
     ConditionAndOr "condition.and.or" YES, "AND, OR and XOR join conditions";
     ConditionRegister "condition.register" YES, "jumps test a register that arithmetic and tests set";
-    ThenWords "then.words" YES, "words of NC code may stand behind THEN";
+    ThenWords "then.words" YES, "words of NC code may follow THEN";
     StatementSharesBlock "statement.shares.block" YES, "several statements, or a statement and words, may share a block";
     AssignSharesBlock "assign.shares.block" YES, "several assignments may share a block";
     ModRoundsOperands "mod.rounds.operands" YES, "MOD rounds its operands to whole numbers first", if "operator:modulo";
     ModSign "mod.sign" OneOf(&["dividend", "unknown"]), "whose sign the remainder has", if "operator:modulo";
     BitsOfFraction "bits.of.fraction" OneOf(&["round", "truncate", "unknown"]), "what bit operators do with a fraction", if "operator:and.bits";
     BitsWidth "bits.width" OneOf(&["32", "unknown"]), "how many bits bit operators have", if "operator:and.bits";
-    EqualTolerance "equal.tolerance" NUMBER, "how far apart numbers may be that count as equal";
+    EqualTolerance "equal.tolerance" NUMBER, "how far apart numbers may be and still count as equal";
     RoundHalfAway "round.half.away" YES, "ROUND takes halves away from zero", if "function:round or function:round.places";
     RoundInAddress "round.in.address" OneOf(&["increment", "whole", "unknown"]), "to what ROUND rounds inside a word", if "function:round";
     RoundPlacesDefault "round.places.default" OneOf(&["unknown", "0", "1", "2", "3", "4", "5"]), "places that the rounding function keeps by default", if "function:round.places";
@@ -239,15 +244,17 @@ questions! {
     ChangeEndsCoolant "change.ends.coolant" YES, "a tool change leaves coolant off";
     EndEndsSpindle "end.ends.spindle" YES, "the end of the program stops the spindle";
     EndEndsCoolant "end.ends.coolant" YES, "the end of the program switches coolant off";
-    OneGPerGroup "one.g.per.group" YES, "of the G codes of one group in a block the last counts, or it is an error";
-    WordTwice "word.twice" YES, "of a letter that stands twice in a block the last value counts";
+    OneGPerGroup "one.g.per.group" YES, "of G codes of one group in a block the last one counts, or it is \
+                                         an error";
+    WordTwice "word.twice" YES, "if a letter is in a block twice, the last value counts";
     BlockAssignsFirst "block.assigns.first" YES, "words use the values that their own block gave to variables before them";
     RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
     ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
     PositionLength "position.length" OneOf(&["added", "left.out", "unknown"]), "whether the present position and the touched one, read in the program's coordinates, hold the tool length too: the place of the spindle, or of the tip";
     CycleRWord "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
-    MirrorAbout "mirror.about" OneOf(&["word", "zero", "unknown"]), "about what an axis is mirrored: the coordinate in its word, or the work zero", if "op:mirror.on";
+    MirrorAbout "mirror.about" OneOf(&["word", "zero", "unknown"]), "the point about which an axis is mirrored: the \
+                                                                     coordinate in its word, or the work zero", if "op:mirror.on";
     ShapeFrameCodes "shape.frame.codes" OneOf(&["kept", "unknown"]), "whether a change of plane or of work offset, a set position, a move in machine coordinates and a return to the reference position may stand while coordinates are turned, scaled or mirrored, and do then what they do without", if "op:mirror.on or op:rotate.on";
     ScaleReachesCycle "scale.reaches.cycle" YES, "scaling reaches the planes and the pecks of a drilling cycle", if "op:scale.on";
     ShiftLocalIsExternal "shift.local.is.external" YES, "the local shift and the shift of all work offsets are one register", if "op:wcs.local";
@@ -258,7 +265,7 @@ questions! {
     IntegerDivides "integer.divides" YES, "the quotient of two whole-number constants is cut to a whole number";
     SkipMidblock "skip.midblock" YES, "a block skip in mid-block skips the rest of the block";
     SkipLevels "skip.levels" YES, "a block skip may have a number";
-    InitialValue "initial.value" OneOf(&["zero", "vacant", "kept", "unknown"]), "what a variable holds that nothing has set";
+    InitialValue "initial.value" OneOf(&["zero", "vacant", "kept", "unknown"]), "what a variable holds if nothing has set it";
     CommonAtPowerOn "common.at.power.on" OneOf(&["vacant", "kept", "unknown"]), "what common variables hold after power-on";
     PositionFrame "position.frame" OneOf(&["work", "machine", "unknown"]), "the frame of the position variables";
     RadiusOffsetTable "radius.offset.table" OneOf(&["radius", "diameter", "setting", "unknown"]), "what the cutter table holds";
@@ -268,11 +275,12 @@ questions! {
     ToolChangeWord "tool.change.word" OneOf(&["m6", "t", "unknown"]), "the word that changes the tool";
     ToolWordAgain "tool.word.again" OneOf(&["changes", "skipped", "unknown"]), "what a word that changes the tool does for the tool in the spindle", if "behaviour:tool.change.word=t";
     ToolWordSelectsLength "tool.word.selects.length" YES, "the tool word brings its length offset into force";
-    SpindleRangeSuffix "spindle.range.suffix" YES, "a fraction of S picks the gear range and is no speed";
+    SpindleRangeSuffix "spindle.range.suffix" YES, "a fraction of S picks the gear range and is not part \
+                                                    of the speed";
     ClearAll "clear.all" YES, "one statement clears all variables";
     OutputNeedsPort "output.needs.port" YES, "formatted output needs a port that is open", if "statement:output.formatted";
     TextLetters "text.letters" OneOf(&["ascii", "upper", "unknown"]), "the letters that a comment or a message may have: those of ASCII, or capitals alone";
-    MessageShowsComment "message.shows.comment" YES, "the comment behind a stop is shown to the operator";
+    MessageShowsComment "message.shows.comment" YES, "the comment after a stop is shown to the operator";
     AlarmOffset "alarm.offset" NUMBER, "what is added to the number of an alarm on the screen", if "statement:alarm";
     AlarmMax "alarm.max" NUMBER, "the largest number of an alarm", if "statement:alarm";
     LookaheadRunsEarly "lookahead.runs.early" YES, "macro statements run while earlier moves are still to come";

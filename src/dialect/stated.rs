@@ -21,7 +21,7 @@ impl Overlay {
             match stated(dialect, &name, &value) {
                 Ok(question) => match self.contradicted(dialect, question, &value) {
                     Some(setting) => {
-                        let message = format!("'{setting}' says otherwise of {name}");
+                        let message = format!("'{setting}' contradicts this about {name}");
                         self.fault(&format!("behaviours:{name}"), message, "keep one of the two".into());
                     }
                     None => answer(dialect, question, value),
@@ -81,13 +81,13 @@ fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (Strin
         return Err((format!("no behaviour is named '{name}'"), help));
     };
     if !question.answers().admits(value) {
-        return Err((format!("'{value}' is no value of {name}"), format!("it is {}", question.answers())));
+        return Err((format!("'{value}' is not a value of {name}"), format!("it is {}", question.answers())));
     }
     let row = dialect.behaviours.iter().find(|row| row.question == question);
     match row {
         None if question.needs() != Some("said") => {
             let message = format!("{} is not asked '{name}'", dialect.title);
-            Err((message, "it has nothing that the question is about: take it out".into()))
+            Err((message, "it has nothing that the question is about: remove the line".into()))
         }
         Some(row) if !row.one_of.is_empty() && !row.one_of.iter().any(|one| one == value) => {
             let message =
@@ -98,7 +98,7 @@ fn stated(dialect: &Dialect, name: &str, value: &str) -> Result<Question, (Strin
             let known =
                 row.map_or("as on most controls".into(), |row| format!("'{}' in the table", row.value));
             let message = format!("{name} is {known}, and '{value}' is not converted");
-            Err((message, "leave the programs out that hang on it".into()))
+            Err((message, "leave out the programs that depend on it".into()))
         }
         _ => Ok(question),
     }

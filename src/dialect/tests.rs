@@ -124,11 +124,11 @@ fn refuses_unknown_behaviours_and_values() {
     );
     refused(
         r#"behaviours = [{ name = "vacancy", value = "yes", source = "s" }]"#,
-        "'yes' is no value of vacancy",
+        "'yes' is not a value of vacancy",
     );
     refused(
         r#"behaviours = [{ name = "alarm.offset", value = "x", source = "s" }]"#,
-        "'x' is no value of alarm.offset (it is any number)",
+        "'x' is not a value of alarm.offset (it is any number)",
     );
     refused(r#"behaviours = [{ name = "alarm.max", value = "inf", source = "s" }]"#, "'inf' is no value");
     refused(
@@ -233,9 +233,9 @@ fn refuses_misspelt_codes_and_conditions() {
     let one = |code: &str, more: &str| {
         format!(r#"codes = [{{ code = "{code}", op = "stop", source = "s"{more} }}]"#)
     };
-    refused(&one("g0", ""), "'g0' is no code");
-    refused(&one("G0 10", ""), "'G0 10' is no code");
-    refused(&one("G", ""), "'G' is no code");
+    refused(&one("g0", ""), "'g0' is not a code");
+    refused(&one("G0 10", ""), "'G0 10' is not a code");
+    refused(&one("G", ""), "'G' is not a code");
     refused(&one("M9", ", through = 5"), "the run of codes is backwards");
     refused(&one("M9", r#", counted = "repeat""#), "nothing counts up");
     refused(&one("M9", r#", words = { PP = "repeat" }"#), "a word is one letter");

@@ -1,4 +1,4 @@
-//! How it is said that something rests on a fact which nothing confirms.
+//! The words for facts that no manual confirms.
 
 use super::{Control, Question, Setting};
 use crate::diag::{Code, Diagnostic};
@@ -29,16 +29,26 @@ impl Control {
     /// `behaviour:load.sets.condition`.
     pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {
         let title = &self.dialect().title;
-        let note = note.unwrap_or("no source says so");
-        let row = Question::of_fact(fact).and_then(|question| self.behaviour(question));
-        let note = match row.map(|row| row.one_of.join(" or ")).filter(|answers| !answers.is_empty()) {
-            Some(answers) => format!("{note}; it is {answers}"),
-            None => note.into(),
-        };
-        let what = format!("rests on the unconfirmed fact '{fact}' of the {side}, {title}: {note}");
+        let asked = Question::of_fact(fact).map(|question| self.taken(question));
+        let note = note.filter(|note| Question::of_fact(fact).is_none_or(|asked| asked.meaning() != *note));
+        let said: Vec<&str> = asked.as_deref().into_iter().chain(note).collect();
+        let said = if said.is_empty() { "no source says so".into() } else { said.join("; ") };
+        let what = format!("no manual confirms '{fact}' for the {side}, {title}: {said}");
         Diagnostic::new(Code::UnconfirmedFact, span, what)
             .with_help(self.to_settle(fact, side))
             .with_fact(fact)
+    }
+
+    /// A question, and what this control is taken to answer.
+    fn taken(&self, question: Question) -> String {
+        let meaning = question.meaning();
+        match self.behaviour(question) {
+            Some(row) if !row.one_of.is_empty() => format!("{meaning}: {}", row.one_of.join(" or ")),
+            Some(row) if !matches!(row.value.as_str(), "unknown" | "setting") => {
+                format!("{meaning}: taken as '{}'", row.value)
+            }
+            _ => meaning.to_owned(),
+        }
     }
 
     /// What to do about a fact of this control: to state the setting that it hangs on where there is one and nobody
@@ -54,9 +64,12 @@ impl Control {
         };
         match self.dialect().settings.iter().filter(|row| !row.values.is_empty()).find(sets) {
             Some(row) => {
+                let (section, name) = match row.name.strip_prefix("parameter.") {
+                    Some(number) => ("parameters", number),
+                    None => ("settings", row.name.trim_start_matches("setting.")),
+                };
                 format!(
-                    "check it on the machine, then state '{}' in the machine profile of the {side}",
-                    row.name
+                    "check it on the machine, then put '{name}' under [{section}] in the machine profile of the {side}"
                 )
             }
             None if row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {

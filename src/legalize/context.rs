@@ -168,7 +168,7 @@ impl<'a> Context<'a> {
             && ours != theirs
         {
             let what = format!(
-                "'{question}' is '{ours}' on the source and '{theirs}' on the target ({})",
+                "the controls differ in '{question}': '{ours}' on the source, '{theirs}' on the target ({})",
                 question.meaning()
             );
             let finding = Diagnostic::new(Code::NoEquivalent, span, what);

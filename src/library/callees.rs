@@ -124,7 +124,7 @@ impl Callees {
         let mut texts = BTreeSet::new();
         if let Some(Withdrawn::Calls(callee)) = self.withdrawn.get(&at) {
             texts.insert(format!(
-                "it calls {}, which is withdrawn, and is not written either",
+                "it calls {}, which is withdrawn, so it is not written either",
                 self.names[*callee]
             ));
         } else if !self.withdrawn.contains_key(&at) {
@@ -167,12 +167,16 @@ impl Callees {
         for (caller, callees) in faults {
             let (mut seen, mut work) = (BTreeSet::from([caller]), vec![caller]);
             while let Some(at) = work.pop() {
-                missing.entry(at).or_default().extend(callees.iter().map(|name| match name {
-                    Some(name) => {
-                        let by = if caller == at { "it" } else { &self.names[caller] };
-                        format!("{by} calls {name}, which is refused: it was not run with that")
+                missing.entry(at).or_default().extend(callees.iter().map(|name| {
+                    match name {
+                        Some(name) => {
+                            let by = if caller == at { "it" } else { &self.names[caller] };
+                            format!("{by} calls {name}, which is refused: it was not run with that")
+                        }
+                        None => "the number of the called program is computed, and some programs of the \
+                             library are refused"
+                            .into(),
                     }
-                    None => "which program is called is computed, and some programs of the library are refused".into(),
                 }));
                 // What is gone is not come through.
                 let ways = above.get(&at).into_iter().flatten();
@@ -187,7 +191,10 @@ impl Callees {
         let mut told = BTreeSet::new();
         for callee in self.withdrawn.keys() {
             let name = &self.names[*callee];
-            let what = format!("calls {name}, which is withdrawn because its conversion does something else");
+            let what = format!(
+                "calls {name}, which is withdrawn because its conversion differs from its \
+                                source"
+            );
             for (caller, span) in self.callers.get(callee).into_iter().flatten() {
                 if self.withdrawn.contains_key(caller) && told.insert((*caller, *callee)) {
                     let program = &mut conversion.programs[*caller];

@@ -130,7 +130,7 @@ fn emit(
     findings: &[Diagnostic],
 ) -> Result<Emitted, Vec<Diagnostic>> {
     let Some(write) = write else {
-        let what = format!("programs cannot be written for {}", target.dialect().title);
+        let what = format!("macroglot cannot write programs for {}", target.dialect().title);
         return Err(vec![Diagnostic::new(Code::NoEquivalent, program.program().site.span, what)]);
     };
     let mut emitted = write(program)?;

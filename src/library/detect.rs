@@ -176,7 +176,7 @@ mod tests {
             match detect(&inputs) {
                 Detected::Sure(found) => assert_eq!(found.name, entry.name),
                 Detected::Unsure(near) => assert!(near.iter().any(|near| near.name == entry.name)),
-                Detected::Mixed(_, file, like) => panic!("{file} is taken for {}", like.name),
+                Detected::Mixed(_, file, like) => panic!("{file} is taken as {}", like.name),
             }
         }
     }

@@ -30,7 +30,8 @@ pub enum InputError {
     Unreadable(PathBuf, io::Error),
     /// A folder in which nothing looks like a program.
     #[error(
-        "{0}: the folder has no program files (looked for {1}); name a file itself to read it whatever its ending"
+        "{0}: the folder has no program files (looked for {1}); to read a file with another ending, name \
+         the file itself"
     )]
     NoPrograms(PathBuf, String),
     /// A file of no bytes.

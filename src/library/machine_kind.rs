@@ -78,18 +78,18 @@ fn lathe_signs(nc: &Nc, source: &Control) -> impl Iterator<Item = (u32, &'static
     let listed = |axis| source.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
     let (u, w) = (has(nc, Role::U) && !listed(Axis::U), has(nc, Role::W) && !listed(Axis::W));
     let signs = [
-        (u, 2, "U, the increment of X, is a lathe's"),
-        (w, 2, "W, the increment of Z, is a lathe's"),
+        (u, 2, "U is the increment of X on a lathe"),
+        (w, 2, "W is the increment of Z on a lathe"),
         (
             nc.has(Op::ReferenceReturn) && (u || w),
             1,
-            "a return to the reference position by U or W is a lathe's",
+            "a return to the reference position by U or W belongs to a lathe program",
         ),
-        (nc.has(Op::SurfaceSpeed), 2, "constant surface speed is a lathe's"),
+        (nc.has(Op::SurfaceSpeed), 2, "constant surface speed belongs to a lathe program"),
         (
             nc.has(Op::SetPosition) && has(nc, Role::Feed),
             ENOUGH,
-            "a feed beside G92, for a thread, is a lathe's",
+            "a feed beside G92, for a thread, belongs to a lathe program",
         ),
     ];
     signs.into_iter().filter(|(there, _, _)| *there).map(|(_, weight, what)| (weight, what))
@@ -138,10 +138,11 @@ pub fn report(module: &Module, inputs: &[Input], source: &Control, found: &mut [
             format!("the program looks like a lathe program: {sign}")
         } else {
             let place = place(inputs, module.programs[seen].file, *span);
-            format!("the program goes with those of a lathe: in {place}, {sign}")
+            format!("the program belongs with lathe programs: in {place}, {sign}")
         };
         let span = if own { *span } else { module.programs[at].site.span };
-        let help = "name a machine profile with machine = \"lathe\"; if it is a mill's after all, one with machine = \"mill\"";
+        let help = "name a machine profile with machine = \"lathe\", or with machine = \"mill\" if the \
+                    program is for a mill";
         found.push(Diagnostic::new(Code::LatheProgram, span, what).with_help(help));
     }
 }

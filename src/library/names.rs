@@ -61,7 +61,7 @@ pub fn report_duplicates(module: &Module, inputs: &[Input], found: &mut [Vec<Dia
         for index in indexes {
             let others = places.iter().filter(|(other, count)| **other != place(index) || **count > 1);
             let others = others.map(|(other, _)| *other).collect::<Vec<_>>().join(", ");
-            let what = format!("{name} stands in {others} as well: a control can hold one of them");
+            let what = format!("{name} is also in {others}: a control can hold only one of them");
             found[*index].push(Diagnostic::new(Code::TwinProgram, module.programs[*index].site.span, what));
         }
     }
@@ -80,7 +80,7 @@ pub fn report_duplicates(module: &Module, inputs: &[Input], found: &mut [Vec<Dia
                     && let Some(places) = places.get(name)
                 {
                     let what =
-                        format!("calls {name}, which stands in {places}: which one is meant is not known");
+                        format!("calls {name}, which is in {places}: it is not known which one is meant");
                     found[index].push(Diagnostic::new(Code::AmbiguousCall, block.term.site.span, what));
                 }
             }

@@ -52,7 +52,7 @@ fn place_of(folder: &Path, name: &str) -> Result<PathBuf, OutputError> {
         return Err(OutputError::Outside(name.into()));
     }
     if parts.iter().any(|part| part.contains(':')) {
-        let why = "some file systems take what stands before a colon for a drive, or for another file";
+        let why = "some file systems read the part before a colon as a drive, or as another file";
         return Err(OutputError::Unfit(name.into(), why));
     }
     Ok(parts.iter().fold(folder.to_owned(), |path, part| path.join(part)))
@@ -67,7 +67,7 @@ pub(super) fn leads_out(folder: &Path, place: &Path) -> bool {
 
 /// What stands in a file of an output folder. A pipe in its place would never come to an end.
 pub(super) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    if fs::metadata(path)?.is_file() { fs::read(path) } else { Err(io::Error::other("it is no file")) }
+    if fs::metadata(path)?.is_file() { fs::read(path) } else { Err(io::Error::other("it is not a file")) }
 }
 
 /// The same, as text.

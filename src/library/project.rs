@@ -74,8 +74,9 @@ impl Project {
         for (name, library) in &project.libraries {
             for machine in std::iter::once(&library.machine).chain(library.targets.keys()) {
                 if !project.machines.contains_key(machine) {
-                    let message =
-                        format!("library '{name}' names machine '{machine}', which [machines] has not");
+                    let message = format!(
+                        "library '{name}' names machine '{machine}', but [machines] does not have it"
+                    );
                     return Err(fault(None, message));
                 }
             }

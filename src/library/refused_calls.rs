@@ -93,9 +93,8 @@ pub(super) fn report(links: &[Link], found: &mut [Vec<Diagnostic>]) {
                 changed |= refused.insert(link.caller);
                 (Code::NoEquivalent, format!("calls a copy of {name}, which is refused"))
             } else {
-                let what = format!(
-                    "{name} is refused: the target needs a program of that number that does the same"
-                );
+                let what =
+                    format!("{name} is refused: put a program {name} that does the same on the target");
                 (Code::OutsideLibrary, what)
             };
             found[link.caller].push(Diagnostic::new(code, link.span, what));

@@ -59,7 +59,11 @@ pub fn judge(
     };
     let long: Vec<bool> = inputs.iter().map(|input| input.bytes.len() > LONGEST).collect();
     open(conversion).filter(|program| long[program.file]).for_each(|program| {
-        undecided(program, "the file is too long to be verified on the way; run `macroglot verify` on it");
+        undecided(
+            program,
+            "the file is too long to be verified during the conversion: run `macroglot \
+                            verify` on it",
+        );
     });
     let refused: BTreeSet<usize> = refused(conversion).collect();
     let texts = (0..inputs.len()).filter(|at| !long[*at]);
@@ -204,9 +208,13 @@ fn wanted(conversion: &mut Conversion, all: &[ProgramRef], files: usize) -> Vec<
             let paired = reports.into_iter().zip(sections);
             wanted.extend(paired.filter(|(at, _)| conversion.programs[*at].outcome != Outcome::Refused));
         } else {
-            open(conversion)
-                .filter(|program| program.file == file)
-                .for_each(|program| undecided(program, "the emulated control divides the file otherwise"));
+            open(conversion).filter(|program| program.file == file).for_each(|program| {
+                undecided(
+                    program,
+                    "the emulated control divides the file into \
+                                                        programs differently",
+                )
+            });
         }
     }
     wanted
@@ -238,7 +246,7 @@ fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertific
                 format!("{}: {} against {}", witness.what, block(&witness.source), block(&witness.target))
             });
             let alone = if found.run_alone {
-                "; it was run by itself, as no run of what calls it comes to this"
+                "; it was run by itself, because no run of its callers reaches this"
             } else {
                 ""
             };
@@ -248,7 +256,8 @@ fn apply(program: &mut super::ProgramReport, span: Span, found: &ProgramCertific
         }
     }
     if found.rounding_sensitive == Some(true) {
-        let what = "the path changes when the target's arithmetic keeps fewer digits";
+        let what = "rounding may decide a comparison: the path changes if the target computes with fewer \
+                    digits. Add a tolerance";
         program.diagnostics.push(Diagnostic::new(Code::RoundingSensitive, span, what));
         program.outcome = program.outcome.max(Outcome::Review);
     }

@@ -47,7 +47,7 @@ impl WhyNot {
             Self::Hidden => "hidden",
             Self::Ignored => "ignored",
             Self::Link => "a link",
-            Self::Unknown => "of no known ending",
+            Self::Unknown => "with an unknown ending",
             Self::Empty => "empty",
             Self::Binary => "binary",
             Self::Written => "written by macroglot",

@@ -216,40 +216,37 @@ fn folder(out: &mut String, told: &Told) {
     for name in &told.removed {
         let _ = writeln!(
             out,
-            "removed    {}: an earlier run converted it, and it has no conversion now",
+            "removed    {}: an earlier run converted it, but it has no conversion now",
             shown(name)
         );
     }
     for (name, kept) in &told.kept {
         let _ = writeln!(
             out,
-            "kept       {} as {}: macroglot did not write what stood there",
+            "kept       {} as {}: macroglot did not write the earlier file",
             shown(name),
             shown(kept)
         );
     }
     for (name, at) in &told.replaced {
         let (name, at) = (shown(name), shown(at));
-        let _ = writeln!(out, "replaced   {name}: it was converted from {at}, which is still there");
+        let _ = writeln!(out, "replaced   {name}: it was converted from {at}, which still exists");
     }
     for (name, others) in &told.uncertified {
         let others: Vec<_> = others.iter().map(|other| shown(other)).collect();
         let _ = writeln!(
             out,
-            "unverified {}: what it calls, or is called by, is another now than when it was verified: {}; convert them together",
+            "unverified {}: programs that it calls, or that call it, have changed since it was verified: \
+             {}; convert them together",
             shown(name),
             others.join(", ")
         );
     }
     for name in &told.gone {
-        let _ = writeln!(
-            out,
-            "no source  {}: what it was converted from is gone; --prune removes it",
-            shown(name)
-        );
+        let _ = writeln!(out, "no source  {}: its source is gone; --prune removes it", shown(name));
     }
     for name in &told.pruned {
-        let _ = writeln!(out, "removed    {}: what it was converted from is gone", shown(name));
+        let _ = writeln!(out, "removed    {}: its source is gone", shown(name));
     }
 }
 

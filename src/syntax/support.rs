@@ -74,7 +74,7 @@ pub const LONGEST_LINE: usize = 256 * 1024;
 /// A line that is too long to be read, as a block that keeps its text.
 pub(super) fn too_long(line: Span) -> Option<Block> {
     let message =
-        || format!("the line has {} characters, more than any control takes; it is not read", line.len());
+        || format!("the line has {} characters, more than any control takes: it is not read", line.len());
     (line.len() > LONGEST_LINE).then(|| unparsed(line, fault(Code::TooComplex, line, message())))
 }
 

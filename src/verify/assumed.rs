@@ -102,7 +102,9 @@ pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Differen
         {
             // Levels count only where the target ran out of them.
             let counts = too_deep || !matches!(tried.assumption.predicate, Predicate::Nesting { .. });
-            counts.then(|| format!("a run {what}, but the conversion supposes: {}", tried.assumption.text))
+            counts.then(|| {
+                format!("a run {what}, against a condition of the conversion: {}", tried.assumption.text)
+            })
         }
         _ => None,
     })

@@ -71,13 +71,13 @@ impl Through {
         }
         let list = |all: &BTreeSet<String>| all.iter().cloned().collect::<Vec<_>>().join(", ");
         let mut text = format!(
-            "it does the same in {} runs that come to this place from {}; that these never give it anything else \
-             is not shown",
+            "it does the same in {} runs that reach this place from {}; these callers may still give it \
+             something else",
             self.reached,
             list(&self.callers)
         );
         if !self.absent.is_empty() {
-            text += &format!(", and {}, which calls it too, could not be run", list(&self.absent));
+            text += &format!(", and {}, which also calls it, could not be run", list(&self.absent));
         }
         Some(text)
     }

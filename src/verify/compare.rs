@@ -211,7 +211,7 @@ impl<'r> Pairs<'_, 'r> {
                 continue;
             }
             if self.runs[1].may_be_let_go(there, here) {
-                let text = "no source says whether a stop lets go of a spindle that is held";
+                let text = "no source says whether a stop releases a held spindle";
                 self.found.substituted.insert(text.to_owned());
                 b.into_iter().for_each(|b| self.moved(1, b));
                 j += 1;
@@ -310,8 +310,8 @@ impl<'r> Pairs<'_, 'r> {
         let allowed = self.tolerance.between(source.event.rounded, target.event.rounded);
         let same = allowed > self.tolerance.rounded && self.differ(source, target, allowed).is_none();
         if same {
-            let what =
-                "positions drift apart by more than a least increment: what incremental moves round adds up";
+            let what = "positions drift apart by more than a least increment: the rounding of incremental moves \
+                 adds up";
             self.found.substituted.insert(what.into());
         }
         same
@@ -370,7 +370,7 @@ pub fn is_cut(run: &Run) -> bool {
 
 fn end_differs(source: &End, target: &End) -> Option<String> {
     let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
-    (!same).then(|| "one of them ends with an alarm, the other does not".to_owned())
+    (!same).then(|| "one side ends with an alarm, the other does not".to_owned())
 }
 /// Texts that count as the same and are written differently.
 fn texts(source: &EventKind, target: &EventKind) -> Option<(String, String)> {

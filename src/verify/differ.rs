@@ -10,7 +10,7 @@ use crate::control::trace::{EventKind, Position};
 const LEAST_WAIT: f64 = 0.000_501;
 
 /// What differs where only the feed does.
-pub const ANOTHER_FEED: &str = "the feed is another";
+pub const ANOTHER_FEED: &str = "the feed differs";
 
 /// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
 /// is what the target's text could have had more.
@@ -47,60 +47,59 @@ pub fn differ(
                 Some("the arc ends elsewhere")
             } else if exceeds(arcs_apart(source, target), paths) {
                 Some(match exceeds((sweep - other_sweep).abs(), 90.0) {
-                    true => "the arc goes the other way or another number of turns",
-                    false => "the arc is another",
+                    true => "the arc goes the other way, or makes another number of turns",
+                    false => "the arc differs",
                 })
             } else {
                 (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
             }
         }
         (Thread { to, lead, .. }, Thread { to: other, lead: other_lead, .. }) => {
-            (beyond(far(to, other)) || about(*lead, *other_lead)).then_some("the thread is another")
+            (beyond(far(to, other)) || about(*lead, *other_lead)).then_some("the thread differs")
         }
         (
             Probe { aim, to, hit, feed, .. },
             Probe { aim: other_aim, to: other, hit: other_hit, feed: other_feed, .. },
         ) => {
             let apart = beyond(far(aim, other_aim)) || beyond(far(to, other));
-            (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move is another")
+            (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move differs")
         }
         (Dwell { seconds }, Dwell { seconds: other }) => {
-            exceeds((seconds - other).abs(), LEAST_WAIT).then_some("the wait is another")
+            exceeds((seconds - other).abs(), LEAST_WAIT).then_some("the wait differs")
         }
         (
             Spindle { direction, speed, surface },
             Spindle { direction: other, speed: other_speed, surface: other_surface },
         ) => (direction != other || exceeds((speed - other_speed).abs(), 0.5) || surface != other_surface)
-            .then_some("the spindle turns otherwise"),
-        (Coolant { state }, Coolant { state: other }) => (state != other).then_some("another coolant is on"),
+            .then_some("the spindle's direction or speed differs"),
+        (Coolant { state }, Coolant { state: other }) => (state != other).then_some("the coolant differs"),
         (ToolChange { tool }, ToolChange { tool: other })
-        | (ToolReady { tool }, ToolReady { tool: other }) => (tool != other).then_some("it is another tool"),
+        | (ToolReady { tool }, ToolReady { tool: other }) => (tool != other).then_some("the tool differs"),
         (ToolLength { value, .. }, ToolLength { value: other, .. }) => {
-            written(*value, *other).then_some("another tool length is in force")
+            written(*value, *other).then_some("the tool length in force differs")
         }
         (CutterRadius { side, value, .. }, CutterRadius { side: other_side, value: other, .. }) => {
-            (side != other_side || written(*value, *other)).then_some("another cutter radius is in force")
+            (side != other_side || written(*value, *other)).then_some("the cutter radius in force differs")
         }
         (WorkOffset { number }, WorkOffset { number: other }) => {
-            (number != other).then_some("another work offset is in force at the return")
+            (number != other).then_some("the work offset in force at the return differs")
         }
         (
             Write { state, subscripts, value },
             Write { state: other_state, subscripts: other_subscripts, value: other },
         ) => (state != other_state || subscripts != other_subscripts || written(*value, *other))
-            .then_some("another state of the machine is written"),
+            .then_some("the written state of the machine differs"),
         (Message { text }, Message { text: other }) | (Output { text }, Output { text: other }) => {
-            (!say_the_same(text, other, room)).then_some("the text is another")
+            (!say_the_same(text, other, room)).then_some("the text differs")
         }
         // The operator is shown more than before.
         (Stop, Message { .. }) => None,
         (Asked { answer }, Asked { answer: other }) => {
-            differs(*answer, *other).then_some("the answer is another")
+            differs(*answer, *other).then_some("the answer differs")
         }
         (Alarm(stop), Alarm(other)) => alarm_differs(stop, other, room),
-        (End { .. }, End { .. }) => {
-            (returns(source) != returns(target)).then_some("one ends, the other returns to its caller")
-        }
+        (End { .. }, End { .. }) => (returns(source) != returns(target))
+            .then_some("one ends the program, the other returns to its caller"),
         (Alarm(_), _) => Some("the source stops with an alarm, the target goes on"),
         (_, Alarm(_)) => Some("the target stops with an alarm, the source goes on"),
         _ => (source != target).then_some("they do different things"),
@@ -113,13 +112,13 @@ fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'
     match (source.program_number, target.program_number) {
         (None, None) => None,
         (Some(number), Some(other)) if exceeds((number - other).abs(), 1e-6) => {
-            Some("the alarm has another number")
+            Some("the alarm's number differs")
         }
         (Some(_), Some(_)) => {
-            (!say_the_same(&source.text, &target.text, room)).then_some("the alarm's text is another")
+            (!say_the_same(&source.text, &target.text, room)).then_some("the alarm's text differs")
         }
         (None, Some(_)) if source.no_label => None,
-        _ => Some("one alarm is the program's own, the other the control's"),
+        _ => Some("one alarm comes from the program, the other from the control"),
     }
 }
 

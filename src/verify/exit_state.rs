@@ -31,11 +31,13 @@ pub fn left_differs(
     let returned = |run: &Run| run.events.last().is_some_and(|last| returns(&last.what));
     if returned(run) && returned(other) {
         return state_differs((source, ours), (target, theirs), tolerance, substituted)
-            .map(|what| format!("it returns {what}"));
+            .map(|what| format!("the exit state differs: it returns {what}"));
     }
     let mut scratch = BTreeSet::new();
     if let Some(what) = state_differs((source, ours), (target, theirs), tolerance, &mut scratch) {
-        let text = format!("it ends {what}: what of that the next program finds no source says");
+        let text = format!(
+            "the exit state differs: it ends {what}; no source says whether the next program inherits it"
+        );
         substituted.insert(text);
     }
     None
@@ -47,7 +49,7 @@ pub(super) fn seen_differs(ours: &ExitState, theirs: &ExitState, tolerance: Tole
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;
     let places = |a: &Axes, b: &Axes| a.iter().zip(b).any(|(a, b)| apart(*a, *b));
     if places(&ours.position, &theirs.position) {
-        return Some("the machine stands elsewhere at the end".into());
+        return Some("the machine stands at another position at the end".into());
     }
     // The shift of all offsets is number 0. What the source keeps in the register of the local shift ends as that does:
     // it shows in the shift at a return.
@@ -58,7 +60,7 @@ pub(super) fn seen_differs(ours: &ExitState, theirs: &ExitState, tolerance: Tole
     let offset = offset.map(|number| format!("work offset {number}"));
     let tool =
         || first_apart(&ours.tools, &theirs.tools, tools).map(|number| format!("tool offset {number}"));
-    offset.or_else(tool).map(|what| format!("{what} holds something else at the end"))
+    offset.or_else(tool).map(|what| format!("{what} has another value at the end"))
 }
 
 /// The first row that two tables hold otherwise; one that is not there holds zeros.
@@ -105,10 +107,10 @@ fn state_differs(
     }
     // What a tap by its lead leaves is known only where a feed was in force before.
     if ours.feed == 0.0 && theirs.feed != 0.0 {
-        let text = "the target returns with a feed, the source with that of its caller";
+        let text = "the target returns with a feed of its own, the source with its caller's feed";
         substituted.insert(text.into());
     } else if (ours.feed - theirs.feed).abs() > 1e-4 * ours.feed.abs() {
-        return Some(format!("with a feed of {}, the target of {}", ours.feed, theirs.feed));
+        return Some(format!("with a feed of {}, the target with {}", ours.feed, theirs.feed));
     }
     let allowed = tolerance.between(ours.rounded, theirs.rounded).min(tolerance.rounded);
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;
@@ -119,12 +121,12 @@ fn state_differs(
     let may_be_off = (is_lost || is_lost_there) && (length == 0.0 || there == 0.0);
     let is_apart = apart(length, there) && !may_be_off;
     if !uncancelled && (is_apart || (0..AXES).any(|axis| apart(ours.shift[axis], theirs.shift[axis]))) {
-        return Some("with another shift of coordinates".into());
+        return Some("with a different shift of coordinates".into());
     }
     let turn = |left: &ExitState| left.rotation.map_or(0.0, |turn| turn.degrees);
     if apart(turn(ours), turn(theirs)) {
-        return Some("with another rotation of coordinates".into());
+        return Some("with a different rotation of coordinates".into());
     }
     let same = ours.mirror == theirs.mirror && ours.scale == theirs.scale;
-    (!same).then(|| "with coordinates mirrored or scaled otherwise".into())
+    (!same).then(|| "with a different mirror image or scale".into())
 }

@@ -80,7 +80,7 @@ pub fn doubt(source: &EventKind, target: &EventKind, control: &Control) -> Optio
         !c.is_ascii() && c.is_alphanumeric() && plain(c.encode_utf8(&mut [0; 4]), Form::Short).is_empty()
     };
     if let Some(c) = source.chars().find(|c| lost(*c)) {
-        return Some(format!("nothing stands for the letter '{c}' of a text"));
+        return Some(format!("the letter '{c}' of a text has no substitute"));
     }
     let capitals = control.behaviour(Question::TextLetters).is_some_and(|row| row.value == "upper");
     let unshown = |c: &char| !c.is_ascii() || (capitals && c.is_ascii_lowercase());

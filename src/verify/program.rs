@@ -201,7 +201,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             match &library_run.end {
                 End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
                 End::StepBudget | End::TimeBudget => {
-                    let text = format!("the {side} came to no end in {} blocks", library_run.steps);
+                    let text = format!("the {side} did not end in {} blocks", library_run.steps);
                     let alone = side == "target" && !is_cut(run);
                     if alone { self.because(Why::Endless, &text) } else { self.endless.extend([text]) }
                 }
@@ -228,7 +228,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
         let hair = found.hair;
         let hangs = hair.is_some() && self.wavers((there, &circumstances), &other);
         if let Some(hair) = hair.as_ref().filter(|_| hangs) {
-            let text = format!("the last digit of its arithmetic decides where it goes: {}", hair.what);
+            let text = format!("rounding may decide this: add a tolerance or round first ({})", hair.what);
             self.because(Why::Substituted, &text);
         }
         let difference = hair.filter(|_| !hangs).or(found.difference).or_else(|| {
@@ -290,7 +290,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             let through = through(self.job, self.program, &self.shown, self.tolerance);
             run_alone = through.is_alone(&self.given);
             if let Some(excuse) = through.excuses() {
-                let text = format!("by itself it differs ({}), but {excuse}", witness.what);
+                let text = format!("run by itself it differs ({}), but {excuse}", witness.what);
                 self.because(Why::NotByItself, &text);
                 outcome = Outcome::Undecided;
             }
@@ -341,6 +341,6 @@ fn in_words(missed: &[NotReached], whose: &str) -> String {
         .take(NAMED)
         .map(|way| format!("'{}' in line {}{whose} was never {}", way.text.trim(), way.line, way.way));
     let more = missed.len().saturating_sub(NAMED);
-    let rest = (more > 0).then(|| format!("and {more} more ways{whose} were not gone"));
+    let rest = (more > 0).then(|| format!("and {more} more branches{whose} were not reached"));
     named.chain(rest).collect::<Vec<_>>().join("; ")
 }

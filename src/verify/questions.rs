@@ -9,5 +9,5 @@ pub fn unconfirmed(fact: &str, side: &str, at: &Moment) -> String {
     let meaning = Question::of_fact(fact).map(Question::meaning).or_else(|| matters::meaning(fact));
     let what = meaning.map(|meaning| format!(" ({meaning})")).unwrap_or_default();
     let (line, file, block) = (at.line, &at.file, at.block.trim());
-    format!("{fact} is not confirmed{what}: the {side} rests on it in line {line} of {file}, '{block}'")
+    format!("no manual confirms '{fact}'{what}: the {side} depends on it in line {line} of {file}, '{block}'")
 }

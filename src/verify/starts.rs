@@ -70,7 +70,7 @@ const STARTS: &[Start] = &[
     },
     Start {
         mode: Some(Op::FeedPerTurn),
-        ..reset("feed.mode", "what the feed counts", "with the feed counted per turn")
+        ..reset("feed.mode", "the unit of the feed", "with feed per turn in force")
     },
     Start {
         put: |entry| entry.length = Some(17),
@@ -118,7 +118,7 @@ const STARTS: &[Start] = &[
     Start {
         mode: Some(Op::Linear),
         turns: true,
-        ..reset("motion", "whether moves are rapid", "with moves at feed in force")
+        ..reset("motion", "the motion mode", "with moves at feed in force")
     },
     Start {
         code: Some(Op::CycleDrill),

@@ -16,7 +16,7 @@ pub fn stands_for(target: &Side<'_>, source: &EventKind, there: &EventKind) -> O
         return None;
     };
     let both = matches!((state, other), (Op::Mist, Op::Flood) | (Op::Flood, Op::Mist));
-    (both && lacks(target, *state)).then(|| format!("the target has no {state}: it does {other}"))
+    (both && lacks(target, *state)).then(|| format!("the target has no {state}: it does {other} instead"))
 }
 
 /// The other coolant coming on where the target has one kind only, which is on already.
@@ -29,36 +29,34 @@ pub fn goes_on(target: &Side<'_>, source: &EventKind, there: Op) -> Option<Strin
     };
     let one_kind = lacks(target, state) || lacks(target, other);
     (one_kind && (there == state || there == other))
-        .then(|| format!("the target has one coolant: {there} goes on"))
+        .then(|| format!("the target has only one kind of coolant: {there} is on"))
 }
 
 /// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
 pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<String> {
     let EventKind::Other { operation, .. } = source else { return None };
     (is_mode(source) && lacks(target, *operation))
-        .then(|| format!("the target has no {operation}: it is left out"))
+        .then(|| format!("the target has no {operation}: it is dropped"))
 }
 
 /// A return with no work offset in force, where the target always has one. The conversion marks the moves of the
 /// callers that it knows, and each of them is compared.
 pub fn cannot_cancel(target: &Side<'_>, source: &EventKind) -> Option<String> {
     let none = matches!(source, EventKind::WorkOffset { number: 0 }) && lacks(target, Op::ShiftCancel);
-    none.then(|| "it returns with all zero shifts cancelled, which the target cannot do".to_owned())
+    none.then(|| "the source returns with all zero shifts cancelled: the target cannot do that".to_owned())
 }
 
 /// A return to a block of whoever called the program, where it runs by itself: the target says where by a variable
 /// that callers look at, and each of those that the library has is compared.
 pub fn returns_to_caller(source: &EventKind) -> Option<String> {
     let EventKind::Other { operation: Op::Return, code: Some(code) } = source else { return None };
-    Some(format!("it returns to block {code} of its caller, which only callers show"))
+    Some(format!("it returns to block {code} of its caller: only a run with its callers can show that"))
 }
 
 /// A move at feed of a source that was given no feed: what its control does then no source says.
 pub fn has_no_feed(source: &EventKind) -> Option<String> {
     let none = matches!(source, EventKind::Feed { feed: 0.0, .. } | EventKind::Arc { feed: 0.0, .. });
-    none.then(|| {
-        "the source moves at feed where no feed was given: what comes of it no source says".to_owned()
-    })
+    none.then(|| "the source moves at feed without a feed: no source says what it does".to_owned())
 }
 
 /// What the target does and nobody could tell: it reads ahead less far.
@@ -72,7 +70,7 @@ pub fn is_builders(source: &EventKind, target: &EventKind) -> Option<String> {
         (
             EventKind::Other { operation: Op::Builder, code: Some(code) },
             EventKind::Other { code: Some(other), .. },
-        ) if code == other => Some(format!("what {code} does is the machine builder's matter")),
+        ) if code == other => Some(format!("the machine builder decides what {code} does")),
         _ => None,
     }
 }

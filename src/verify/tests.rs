@@ -389,8 +389,8 @@ fn facts_are_reasons_that_say_where() {
     let texts: Vec<&str> = found.reasons.iter().map(|reason| reason.text.as_str()).collect();
     assert!(
         texts.iter().any(|text| {
-            text.starts_with("behaviour:dwell.bare is not confirmed (what P of a dwell counts")
-                && text.ends_with("the source rests on it in line 3 of cycle1.nc, 'G4P500'")
+            text.starts_with("no manual confirms 'behaviour:dwell.bare' (what P of a dwell counts")
+                && text.ends_with("the source depends on it in line 3 of cycle1.nc, 'G4P500'")
         }),
         "{texts:#?}"
     );

@@ -6,7 +6,7 @@ use super::{REFUSED, Shop};
 const MAIN: &str = "O1\nG21 G90 G54 G0 X0 Y0\nM98 P2\nM30\n";
 const CALLED: &str = "O2\nG1 X10. F100.\nM98 P3\nM99\n";
 const DEEPER: &str = "O3\nG1 Y10. F100.\nM99\n";
-const OTHERS: &str = "what it calls, or is called by, is another now than when it was verified";
+const OTHERS: &str = "programs that it calls, or that call it, have changed since it was verified";
 const ALONE: &str = "O4\nG21 G90 G54 G0 X5. Y0\nM30\n";
 
 /// Four programs in files of their own, converted: a calls b, b calls c, and d calls nothing.
@@ -102,7 +102,8 @@ fn verify_tells_whose_callees_are_others_now() {
     let run = shop.run(&format!("verify in out {TO}"));
     assert!(run.err.contains("b.nc: was changed since macroglot wrote it"), "{}", run.err);
     for name in ["a", "c"] {
-        let told = "its certificate was made when what it calls, or is called by, was another text: b.nc";
+        let told =
+            "a program that it calls, or that calls it, has changed since its certificate was made: b.nc";
         assert!(run.err.contains(&format!("{name}.nc: {told}")), "{}", run.err);
     }
     assert!(!run.err.contains("d.nc"), "{}", run.err);

@@ -61,10 +61,10 @@ fn a_folder_in_another_library_s_folder() {
 #[test]
 fn a_forged_manifest_removes_nothing_elsewhere() {
     for (name, word) in [
-        ("../else/keep", "no file of the folder"),
-        ("PLACE/else/keep", "no file of the folder"),
-        ("x/../../else/keep", "no file of the folder"),
-        ("", "no file of the folder"),
+        ("../else/keep", "not a file of the folder"),
+        ("PLACE/else/keep", "not a file of the folder"),
+        ("x/../../else/keep", "not a file of the folder"),
+        ("", "not a file of the folder"),
         ("told/keep", "outside the output folder"),
     ] {
         let shop = Shop::with(&[("in/a.nc", CLEAN), ("else/keep", "KEEP"), ("out/x/y", "")]);
@@ -108,7 +108,7 @@ fn two_projects_in_one_folder() {
     assert_eq!(shop.run(&of_one).code, 0);
     let run = shop.run(&of_two);
     let told =
-        |at: &str| format!("replaced   a.nc: it was converted from ../{at}/a.nc, which is still there\n");
+        |at: &str| format!("replaced   a.nc: it was converted from ../{at}/a.nc, which still exists\n");
     assert!(run.code == 0 && run.out.contains(&told("one")), "{}", run.out);
     // It is told once, and not of a source that has another name now.
     assert!(!shop.run(&of_two).out.contains("replaced"));

@@ -85,7 +85,7 @@ fn a_folder_of_two_kinds_is_not_guessed_and_a_wrong_name_is_told() {
     let shop = Shop::with(&[("in/a.nc", fanuc), ("in/b.nc", fadal), ("in/c.nc", "O3\nG0 X1.\nM30\n")]);
     shop.fails(
         "convert in --to haas --out out",
-        &["not all written for one control", "a.nc looks like fanuc", "--from"],
+        &["the files are for different controls", "a.nc looks like fanuc", "--from"],
     );
     let run = shop.run("convert in/b.nc --from fanuc --to haas --out out --format json");
     assert!(run.err.contains("looks like fadal"), "{}", run.err);
@@ -145,7 +145,7 @@ fn nothing_is_left_out_in_silence() {
     shop.write("in/f.nc", b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03\0\0\0");
     std::os::unix::fs::symlink(shop.path("in/a.nc"), shop.path("in/g.nc")).unwrap();
     let line = "convert in --from fanuc --to haas --out out --quiet";
-    let counted = "left out: 3 hidden, 1 ignored, 1 a link, 1 of no known ending, 1 empty, 1 binary";
+    let counted = "left out: 3 hidden, 1 ignored, 1 a link, 1 with an unknown ending, 1 empty, 1 binary";
     let run = shop.run(line);
     assert!(run.out.contains(&format!("{counted}; --verbose names them\n")), "{}", run.out);
     let run = shop.run(&format!("{line} --verbose"));
@@ -155,7 +155,7 @@ fn nothing_is_left_out_in_silence() {
         "in/.gitignore: hidden",
         "in/old: ignored",
         "in/g.nc: a link",
-        "in/d.pdf: of no known ending",
+        "in/d.pdf: with an unknown ending",
         "in/e.nc: empty",
         "in/f.nc: binary",
     ] {

@@ -35,7 +35,7 @@ fn a_forged_journal_changes_nothing_elsewhere() {
         shop.write("out/.macroglot/new-0", b"BAD");
         let step = step.replace("PLACE", &shop.path("").display().to_string());
         shop.write(&format!("out/.macroglot/{name}"), format!(r#"{{"steps":[{step}]}}"#).as_bytes());
-        shop.fails(&format!("convert a.nc {TO} --out out"), &["as no run of macroglot does"]);
+        shop.fails(&format!("convert a.nc {TO} --out out"), &["no run of macroglot does that"]);
         let kept = ["else/keep", "other", "out/x"].map(|path| shop.read(path));
         assert_eq!(kept, ["KEEP", "OTHER", "X"], "{name} {step}");
         assert!(!shop.path("else/new").exists(), "{name} {step}");
@@ -86,7 +86,11 @@ fn what_no_run_left_stays() {
         let made = std::process::Command::new("mkfifo").arg(shop.path("out/.macroglot").join(name)).status();
         assert!(made.unwrap().success());
         let run = shop.run(&format!("convert a.nc {TO} --out out"));
-        assert!(run.code == 2 && run.err.contains(name) && run.err.contains("it is no file"), "{}", run.err);
+        assert!(
+            run.code == 2 && run.err.contains(name) && run.err.contains("it is not a file"),
+            "{}",
+            run.err
+        );
     }
     let line = format!("convert a.nc {TO} --out out");
     for name in ["notes.txt", "new-", "new-1x", "old", "journal/x", "new-1/x"] {
@@ -94,20 +98,20 @@ fn what_no_run_left_stays() {
         let shop = Shop::with(&[("a.nc", CLEAN), (&path, "MINE"), ("out/.macroglot/new-0", "")]);
         shop.fails(
             &line,
-            &["out/.macroglot/", "nothing that a run of macroglot leaves", "nothing was written"],
+            &["out/.macroglot/", "is not something that a run of macroglot leaves", "nothing was written"],
         );
         assert_eq!(shop.read(&path), "MINE");
     }
     let shop = Shop::with(&[("a.nc", CLEAN), ("out/.macroglot", "MINE")]);
-    shop.fails(&line, &["out/.macroglot: cannot be written: it is no folder"]);
+    shop.fails(&line, &["out/.macroglot: cannot be written: it is not a folder"]);
     // Nor is anything written by a link there.
     let shop = Shop::with(&[("a.nc", CLEAN), ("out/x", "X"), ("else/journal", "{\"steps\":[]}")]);
     std::os::unix::fs::symlink(shop.path("else"), shop.path("out/.macroglot")).unwrap();
-    shop.fails(&line, &["out/.macroglot: cannot be written: it is no folder"]);
+    shop.fails(&line, &["out/.macroglot: cannot be written: it is not a folder"]);
     let shop = Shop::with(&[("a.nc", CLEAN), ("out/x", "X")]);
     std::os::unix::fs::symlink(shop.path("nowhere"), shop.path("out/.macroglot")).unwrap();
     let run = shop.run(&line);
-    assert!(run.code == 2 && run.err.contains("it is no folder"), "{}", run.err);
+    assert!(run.code == 2 && run.err.contains("it is not a folder"), "{}", run.err);
     assert!(!shop.path("nowhere").exists());
 }
 

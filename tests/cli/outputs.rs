@@ -68,7 +68,7 @@ fn a_draft_keeps_its_conditions() {
         json["programs"][0]["diagnostics"].clone()
     };
     let plain = told("");
-    assert!(plain.to_string().contains("which work offset is in force"), "{plain}");
+    assert!(plain.to_string().contains("the work offset in force here"), "{plain}");
     assert_eq!(told("--draft"), plain);
 }
 

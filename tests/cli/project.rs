@@ -36,7 +36,7 @@ fn a_project_is_converted_without_arguments() {
     assert_eq!(shop.read("copy/out/a.nc"), shop.read("out/a.nc"));
     shop.write("programs/b.nc", REFUSED.as_bytes());
     assert_eq!(shop.run("convert").code, 1);
-    shop.fails("convert --to fadal", &["no library", "fits"]);
+    shop.fails("convert --to fadal", &["no library", "for this target"]);
     shop.fails("convert --machine m.toml", &["--machine"]);
 }
 

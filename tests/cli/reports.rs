@@ -47,10 +47,10 @@ fn findings_stand_at_their_blocks_and_say_what_settles_them() {
     let json: Value = serde_json::from_str(&run.out).unwrap();
     let all = json["programs"][0]["diagnostics"].as_array().unwrap();
     let of = |text: &str| all.iter().find(|d| d["message"].as_str().unwrap().contains(text)).unwrap();
-    assert_eq!(of("'behaviour:fix.toward.zero' of the target")["line"], 3);
-    let table = of("target's cutter table");
+    assert_eq!(of("'behaviour:fix.toward.zero' for the target")["line"], 3);
+    let table = of("a setting of the target says whether its cutter table");
     assert_eq!(table["line"], 4);
-    assert!(table["help"].as_str().unwrap().contains("'setting.40'"), "{table}");
+    assert!(table["help"].as_str().unwrap().contains("'40' under [settings]"), "{table}");
 }
 
 /// What SARIF 2.1.0 requires, and what code hosts need to show a result beside its line.

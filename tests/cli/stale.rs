@@ -53,7 +53,7 @@ fn what_a_person_changed_is_kept() {
         assert!(looked.err.contains("a.nc: was changed since macroglot wrote it"), "{}", looked.err);
         let run = shop.run(&line);
         assert!(
-            run.out.contains(&format!("kept       a.nc as {kept}: macroglot did not write what stood there")),
+            run.out.contains(&format!("kept       a.nc as {kept}: macroglot did not write the earlier file")),
             "{}",
             run.out
         );
@@ -86,15 +86,11 @@ fn a_conversion_whose_source_is_gone_is_told_and_pruned() {
     for _ in 0..2 {
         let run = shop.run(&line);
         assert_eq!(run.code, 0);
-        assert!(
-            run.out.contains("no source  b.nc: what it was converted from is gone; --prune"),
-            "{}",
-            run.out
-        );
+        assert!(run.out.contains("no source  b.nc: its source is gone; --prune"), "{}", run.out);
         assert!(in_out(&shop).contains(&"b.nc".into()));
     }
     let run = shop.run(&format!("{line} --prune"));
-    assert!(run.out.contains("removed    b.nc: what it was converted from is gone"), "{}", run.out);
+    assert!(run.out.contains("removed    b.nc: its source is gone"), "{}", run.out);
     assert_eq!(in_out(&shop), ["a.nc", "a.nc.certificate.json", "macroglot.lock", "macroglot.manifest"]);
     assert!(
         !shop.read("out/macroglot.lock").contains("b.nc")
@@ -231,7 +227,7 @@ fn a_pipe_in_the_output_folder_is_no_file() {
         assert!(made.unwrap().success());
         let run = shop.run(&format!("convert a.nc {TO} --out out"));
         assert_eq!(run.code, 2, "{name}: {}", run.err);
-        assert!(run.err.contains(name) && run.err.contains("it is no file"), "{name}: {}", run.err);
+        assert!(run.err.contains(name) && run.err.contains("it is not a file"), "{name}: {}", run.err);
     }
 }
 

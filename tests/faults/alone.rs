@@ -53,7 +53,7 @@ fn held_by_another() {
     let mut told = BufReader::new(run.stderr.take().unwrap());
     let mut first = String::new();
     told.read_line(&mut first).unwrap();
-    assert_eq!(first, "macroglot: another run writes to out; waiting for its end\n");
+    assert_eq!(first, "macroglot: another run is writing to out; waiting for it to end\n");
     assert_eq!(shop.files(), files, "it waits");
     drop(held);
     let mut rest = String::new();

@@ -65,7 +65,7 @@ impl Case {
         let mut ended = shop.files();
         assert_eq!(next.code, self.code, "{fault}: {}", next.err);
         let mut after = self.after.clone();
-        if next.err.contains("in its place now") {
+        if next.err.contains("in place now") {
             // The set was published by then: what it took away is told no more.
             assert!(ended.remove("told/report.json").is_some());
             after.remove("told/report.json");

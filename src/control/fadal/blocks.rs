@@ -180,7 +180,7 @@ impl<'r> Interpreter<'r, '_> {
             }
         }
         if read.flows(Op::ReadOffset) {
-            return Err(Halt::Error("which table this G10 reads is not known".into()));
+            return Err(Halt::Error("no source says which table this G10 reads".into()));
         }
         Ok(())
     }

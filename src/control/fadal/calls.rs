@@ -128,5 +128,5 @@ impl Interpreter<'_, '_> {
 
 /// The end of a subroutine, where a jump came into it and no call.
 pub(super) fn nothing_open() -> Halt {
-    Halt::Error("a subroutine ends that was not called: what the control does is in no source".into())
+    Halt::Error("a subroutine ends that was not called: no source says what the control does".into())
 }

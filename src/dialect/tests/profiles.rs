@@ -24,12 +24,12 @@ fn profiles_say_what_is_wrong_and_where() {
         "dialect = \"fanuc\"\n[parameters]\n6004.1 = 1",
         "p.toml:3:6: MG0203: Fanuc Custom Macro B has no setting 'parameter.6004.1'",
     );
-    wrong("dialect = \"fanuc\"\n[parameters]\n6004.0 = 2", "'2' is no value of parameter.6004.0");
-    wrong("dialect = \"fanuc\"\nreserved = [\"500\"]", "p.toml:2:13: MG0203: '500' is no variable");
+    wrong("dialect = \"fanuc\"\n[parameters]\n6004.0 = 2", "'2' is not a value of parameter.6004.0");
+    wrong("dialect = \"fanuc\"\nreserved = [\"500\"]", "p.toml:2:13: MG0203: '500' is not a variable");
     wrong("dialect = \"fanuc\"\nconfirm = [\"behaviour:vacancyy\"]", "did you mean 'behaviour:vacancy'?");
     wrong("dialect = \"fanuc\"\nconfirm = [\"code:G5O\"]", "no fact is named 'code:G5O'");
     wrong("dialect = \"fanuc\"\naxes = [\"X\", \"X\"]", "an axis stands twice");
-    wrong("dialect = \"fanuc\"\n[[site]]\ncode = \"20\"\ntext = \"x\"", "'20' is no code");
+    wrong("dialect = \"fanuc\"\n[[site]]\ncode = \"20\"\ntext = \"x\"", "'20' is not a code");
     wrong(
         "dialect = \"fanuc\"\n[[site]]\ncode = \"M20\"\nop = \"jump\"\ntext = \"x\"",
         "'M20' cannot mean 'jump'",
@@ -83,8 +83,11 @@ fn profiles_state_no_wrong_answers() {
         "divide.by.zeroo = \"alarm\"",
         "p.toml:3:11: MG0203: no behaviour is named 'divide.by.zeroo' (did you mean 'divide.by.zero'?)",
     );
-    haas("divide.by.zero = \"stop\"", "'stop' is no value of divide.by.zero (it is one of alarm, unknown)");
-    haas("dwell.bare = 1", "'1' is no value of dwell.bare");
+    haas(
+        "divide.by.zero = \"stop\"",
+        "'stop' is not a value of divide.by.zero (it is one of alarm, unknown)",
+    );
+    haas("dwell.bare = 1", "'1' is not a value of dwell.bare");
     haas("sub.ends.at.next = true", "Haas is not asked 'sub.ends.at.next'");
     haas("equal.tolerance = 0.001", "equal.tolerance is '0' in the table, and '0.001' is not converted");
     haas("fix.toward.zero = false", "'false' is not converted");
@@ -99,7 +102,7 @@ fn profiles_state_no_wrong_answers() {
     assert!(Control::from_profile("dialect = \"haas\"\n[behaviours]\nm99.p.jumps.here = false").is_ok());
     wrong(
         "dialect = \"fanuc\"\n[parameters]\n6004.0 = 0\n[behaviours]\natan2.range = \"-180..180\"",
-        "p.toml:5:7: MG0203: 'parameter.6004.0' says otherwise of atan2.range",
+        "p.toml:5:7: MG0203: 'parameter.6004.0' contradicts this about atan2.range",
     );
     let fanuc = "dialect = \"fanuc\"\n[parameters]\n6004.0 = 1\n[behaviours]\natan2.range = \"-180..180\"";
     assert!(Control::from_profile(fanuc).is_ok());
@@ -124,7 +127,7 @@ fn a_row_may_leave_open_which_of_several_answers_it_is() {
     };
     assert_eq!(faults(&row("unknown", r#""ms", "seconds""#)), "");
     refused(&row("ms", r#""ms", "seconds""#), "dwell.point has an answer and is left open");
-    refused(&row("unknown", r#""ms", "hours""#), "'hours' is no value of dwell.point");
+    refused(&row("unknown", r#""ms", "hours""#), "'hours' is not a value of dwell.point");
     refused(&row("unknown", r#""ms""#), "'one_of' lists two answers or more");
     refused(&row("unknown", r#""ms", "ms""#), "'one_of' lists two answers or more");
     refused(&row("unknown", r#""ms", "unknown""#), "'one_of' lists two answers or more");
@@ -140,9 +143,12 @@ fn what_is_open_between_answers_is_told_with_them() {
         (finding.message.to_string(), finding.help.unwrap().to_string())
     };
     let (message, help) = told(&control);
-    assert!(message.ends_with("of the source, Haas: not stated"), "{message}");
+    assert!(
+        message.ends_with("for the source, Haas: what P of a dwell counts when it is computed; not stated"),
+        "{message}"
+    );
     assert!(help.ends_with("'dwell.expression = \"ms\" or \"seconds\"' under [behaviours] in the machine profile of the source"), "{help}");
     let row = control.dialect.behaviours.iter_mut().find(|row| row.question == Question::DwellExpression);
     row.unwrap().one_of = vec!["ms".into(), "seconds".into()];
-    assert!(told(&control).0.ends_with("not stated; it is ms or seconds"));
+    assert!(told(&control).0.ends_with("when it is computed: ms or seconds; not stated"));
 }

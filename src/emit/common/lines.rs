@@ -237,7 +237,7 @@ impl<'p> Sheet<'p> {
         if length > limit {
             self.refuse(
                 Code::LineTooLong,
-                format!("the block has {length} characters, a line takes {limit}"),
+                format!("the block has {length} characters, and a line takes {limit}"),
             );
         }
     }

@@ -239,7 +239,7 @@ impl<'p> Emitter<'p> {
         match self.out.labels.number(block.index()) {
             Some(number) => self.out.integer(number),
             // Told when the numbers were given out.
-            None => debug_assert!(!self.out.faults.is_empty(), "a target without a number"),
+            None => debug_assert!(!self.out.faults.is_empty(), "a jump target without a number"),
         }
     }
 }

@@ -168,7 +168,7 @@ impl<'p> Emitter<'p> {
         for (offset, name) in (0..).zip(names) {
             let var = Var { class: first.class, number: first.number.saturating_add(offset) };
             if self.register(var) != number.checked_add(offset) {
-                return self.out.unmapped("names for variables that are not neighbours here");
+                return self.out.unmapped("names for variables that are not in a row here");
             }
             let letters = name.bytes().all(|b| b.is_ascii_graphic() && !b"()[]:,;%".contains(&b));
             if !letters || name.len() > 8 || !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -263,8 +263,8 @@ impl<'p> Emitter<'p> {
     fn guard(&mut self, site: &'p SourceInfo, value: &Expr, floor: Option<u32>) {
         let Some(floor) = floor else { return };
         if !is_steady(value) || !self.out.has_statement("if.then") {
-            let what =
-                "a computed jump may look for any number, and this program needs one that it must not find";
+            let what = "a computed jump may look for any number, but this program needs a number that it must \
+                 not find";
             return self.out.refuse(Code::NoSequenceNumber, what);
         }
         self.begin(site, Kind::Macro, None);

@@ -77,10 +77,8 @@ impl<'p> Emitter<'p> {
             let Some(head) = code.row.head() else { continue };
             let read = self.control.code(head.letter, head.number(), &written);
             if read.is_none_or(|read| read.op != code.row.op) {
-                self.out.unmapped(format_args!(
-                    "{} beside these words, which make another code of it",
-                    code.text
-                ));
+                self.out
+                    .unmapped(format_args!("{} beside these words: they make another code of it", code.text));
             }
         }
     }
@@ -141,7 +139,7 @@ impl<'p> Emitter<'p> {
         let spellings = self.spellings;
         let Some((letter, code)) = spellings.letter(role, codes) else {
             return self.out.unmapped(format_args!(
-                "the word '{role}' ({}) here: no letter has that role",
+                "the word '{role}' ({}) here: no letter has this meaning",
                 meaning(role)
             ));
         };
@@ -162,7 +160,7 @@ impl<'p> Emitter<'p> {
             && value.constant().is_none()
             && !matches!(value, Expr::Increments(_))
         {
-            return self.out.unmapped(format_args!("a computed value behind {}", letter.0));
+            return self.out.unmapped(format_args!("a computed value after {}", letter.0));
         }
         if spellings.is_shifted(role, code) {
             return self.shifted(role, value, code);

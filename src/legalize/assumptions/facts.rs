@@ -206,7 +206,12 @@ impl<'c> Found<'c> {
         let row =
             self.control.behaviour(question).filter(|row| row.value != "unknown" && row.value != answer);
         if let Some(row) = row {
-            let what = format!("'{question}' is '{}' on the target ({})", row.value, question.meaning());
+            let what = format!(
+                "the target answers '{}' to '{question}' ({}); the conversion has no form \
+                                for that",
+                row.value,
+                question.meaning()
+            );
             self.all.push(Diagnostic::new(Code::NoEquivalent, span, what));
         }
     }

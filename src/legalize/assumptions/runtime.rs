@@ -84,7 +84,8 @@ fn value(e: &Expr, index: usize, span: Span, context: &mut Context<'_>) {
         }
         Expr::System(state, subscripts) if subscripts.iter().any(|e| e.constant().is_none()) => {
             let what = format!(
-                "which '{state}' is meant is known only when the program runs: it must be one that both controls have; what another number names on either is not known"
+                "the number of '{state}' is computed: make sure that both controls have it; a number that \
+                 one of them does not have means something unknown"
             );
             context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
         }
@@ -141,7 +142,7 @@ fn arc(nc: &Nc, index: usize, span: Span, context: &mut Context<'_>) {
             |control: &crate::dialect::Control| control.profile().confirm.iter().any(|fact| fact == name);
         if !confirmed(context.source) || !confirmed(context.target) {
             let side = if confirmed(context.target) { Side::Source } else { Side::Target };
-            let what = format!("rests on '{name}': {}", matters::meaning(name).unwrap_or_default());
+            let what = format!("no manual confirms '{name}': {}", matters::meaning(name).unwrap_or_default());
             context.unconfirmed(index, side, span, name, what);
         }
     }

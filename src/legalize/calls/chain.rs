@@ -35,7 +35,8 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
         rebuild(program, &mut |builder, part| match part {
             Part::Term(Terminator { kind: TermKind::Chain(name), site }) => {
                 let span = site.span;
-                let why = "the other program is called behind a stop, and the run ends when it returns";
+                let why = "going on in another program becomes a stop, a call of that program, and an end \
+                           after it returns";
                 context.add(index, Diagnostic::new(Code::Conditional, span, why));
                 builder.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Stop)] }), site);
                 let callee = Callee::Program(name);
@@ -70,7 +71,7 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 .as_ref()
                 .is_some_and(|all| !program.name.as_ref().is_some_and(|name| all.contains(name)));
         for span in inside {
-            let why = "a subroutine inside the program returns to a block by its number";
+            let why = "a subroutine inside the program returns to a block by its number: the target cannot";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
         }
         let own = if main { places(program) } else { BTreeMap::new() };
@@ -81,14 +82,15 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
             if let Some(to) = wanted.constant().and_then(|number| own.get(&(number as u32))) {
                 block.term.kind = TermKind::Jump(*to);
                 let why =
-                    "nothing in the library calls the program: as a main program it goes on at that block";
+                    "nothing in the library calls this program: as a main program it goes on at that block";
                 context.add(index, Diagnostic::new(Code::Conditional, span, why));
                 continue;
             }
             match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {
                 (Some(number), Some(_)) if main => {
                     let why = format!(
-                        "returns to block N{number} of its caller, and nothing in the library calls it: convert it together with its callers"
+                        "the program returns to block N{number} of its caller, but nothing in the library \
+                         calls it: convert it together with its callers"
                     );
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                 }
@@ -97,11 +99,12 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                     let kind = StmtKind::Assign { target: Place::Var(register), value: wanted };
                     let site = SourceInfo { span, ..SourceInfo::default() };
                     block.stmts.push(crate::ir::Stmt { kind, site });
-                    let why = "returns to a block of the caller by way of a register that callers in the library look at";
+                    let why = "the return to a block of the caller goes through a register: callers in \
+                               the library look at it, callers outside do not";
                     context.add(index, Diagnostic::new(Code::Conditional, span, why));
                 }
                 _ => {
-                    let why = "returns to a block of the caller whose number is not a constant";
+                    let why = "the number of the caller's block to return to is computed: write a constant";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                 }
             }
@@ -137,7 +140,8 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 let targets: Vec<(u32, BlockId)> =
                     wanted(&call).into_iter().flatten().filter_map(|n| Some((*n, *place.get(n)?))).collect();
                 if call.count.as_ref().is_some_and(|count| count.constant() != Some(1.0)) {
-                    let why = "a repeated call of a program that returns to a block of its caller";
+                    let why = "a repeated call of a program that returns to a block of its caller: call \
+                               it once in each block";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                 }
                 let assign = |var, value| StmtKind::Assign { target: Place::Var(var), value };

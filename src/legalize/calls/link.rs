@@ -52,24 +52,25 @@ fn check(
         Callee::Program(name) if known.contains(name) => {}
         Callee::Program(name @ ProgramName::Number(_)) => {
             let what = format!(
-                "{} is not in the library: the target needs a program of that number that does the same",
+                "{} is not in the library: put a program of that number that does the same on the target",
                 name.short()
             );
             context.add_once(index, &what, Diagnostic::new(Code::OutsideLibrary, span, what.clone()));
         }
         Callee::Program(ProgramName::Name(name)) => {
-            let what =
-                format!("'{name}' is not in the library, and the target knows no program of that name");
+            let what = format!("'{name}' is not in the library, and the target has no program of that name");
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
         }
         Callee::Cycle(n) => {
             let what = format!(
-                "{n} is a subroutine that the maker of the source's control keeps in it; the target has none"
+                "{n} is a subroutine that the maker keeps in the source's control; the target has no such \
+                 subroutine"
             );
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
         }
         Callee::Computed(_) => {
-            let what = "which program is called is computed; every program that it may be must be on the target under the same number";
+            let what = "the number of the called program is computed: put every program that it may call \
+                        on the target under the same number";
             context.add_once(index, "computed call", Diagnostic::new(Code::OutsideLibrary, span, what));
         }
         Callee::Block(_) => {}

@@ -172,7 +172,8 @@ impl Expansion {
                 match &stmt.kind {
                     StmtKind::ModalCall(call) if !self.native => {
                         if call.level && call.arguments.iter().any(|a| may_change(&a.value)) {
-                            let why = "each move calls the macro anew: its arguments are computed and set again each time";
+                            let why = "each move becomes a call of the macro, which computes and sets its \
+                                       arguments again each time";
                             context.add(index, Diagnostic::new(Code::Conditional, site.span, why));
                         }
                         let macros = self.called.by((index, id), call);
@@ -190,7 +191,8 @@ impl Expansion {
                         }
                         if let Some(local) = self.carries((index, id), call) {
                             let why = format!(
-                                "each move would call the macro anew, and it reads local variable {local} as an earlier run of it left it"
+                                "each move would become a call of the macro, which reads local variable \
+                                 {local} as its run before left it"
                             );
                             context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, why));
                         }
@@ -204,7 +206,8 @@ impl Expansion {
                         let drills = |state: &Modal| state.op(Group::Cycle).is_some_and(Op::is_cycle);
                         let under = before.as_ref().map_or(is_modal(program), |calls| !calls.is_empty());
                         if under && (nc.ops().any(Op::is_cycle) || (nc.moves() && drills(&state))) {
-                            let why = "a drilling cycle under a modal call: no source says which of the two runs first, or whether both do";
+                            let why = "a drilling cycle under a modal call: no source says which one runs \
+                                       first, or whether both run";
                             context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, why));
                         }
                         let runs = here || (nc.moves() && !self.native);
@@ -223,11 +226,13 @@ impl Expansion {
                         };
                         match before {
                             None if runs => {
-                                let why = "whether a modal call is open here depends on the path taken";
+                                let why = "a modal call is open on some paths to this block and not on \
+                                           others";
                                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                             }
                             Some(_) if here && moves && self.native => {
-                                let why = "the macro is called for the move and for the code that calls it in place: taken to run once";
+                                let why = "both the move and the code in its block call the macro: it is \
+                                           taken to run once";
                                 context.add(index, Diagnostic::new(Code::Conditional, span, why));
                             }
                             Some(mut calls) if runs && self.native => {
@@ -244,8 +249,8 @@ impl Expansion {
                                 }
                             }
                             Some(calls) if runs && calls.last().is_some_and(elsewhere) => {
-                                let why =
-                                    "the modal call in force here runs a part of the program that opened it";
+                                let why = "the modal call in force here runs a part of the same program: the \
+                                     target cannot";
                                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                             }
                             Some(calls) if runs && !calls.is_empty() => {
@@ -279,7 +284,8 @@ impl Expansion {
             if matches!(block.term.kind, TermKind::Call { .. })
                 && outer.is_some_and(|outer| !outer.is_empty())
             {
-                let why = "a macro in a nested modal call calls another program, whose moves would call the outer macro";
+                let why = "a macro in a nested modal call calls another program, and the moves of that \
+                           program would call the outer macro";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, block.term.site.span, why));
             }
             builder.end(block.term.kind.clone(), block.term.site.clone());
@@ -307,7 +313,8 @@ impl Expansion {
             return call;
         }
         if calls.iter().any(carried::reads_locals) {
-            let why = "modal calls are nested here, and an outer one has arguments that are computed from variables of its level";
+            let why = "modal calls are nested here, and an outer call computes its arguments from local \
+                       variables";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
             return call;
         }
@@ -320,8 +327,8 @@ impl Expansion {
         };
         match found {
             Some((at, _)) if is_modal(&self.module.programs[at]) => {
-                let why =
-                    "modal calls are nested here, and the macro of the inner one opens or ends one itself";
+                let why = "modal calls are nested here, and the macro of the inner call opens or ends a modal \
+                     call itself";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
             }
             Some((at, name)) if calls.len() < DEEPEST => {
@@ -358,7 +365,8 @@ impl Expansion {
                 call.callee = Callee::Program(name);
             }
             _ => {
-                let why = "modal calls are nested here, and the inner one is not a program of the library";
+                let why = "modal calls are nested here, and the inner one calls a program outside the \
+                           library";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
             }
         }
@@ -376,7 +384,8 @@ impl Expansion {
 fn changes(var: Var, module: &Module, context: &Context<'_>) -> String {
     let name = name_of(var, module, context.source);
     format!(
-        "each move computes the arguments of the modal call again, and {} changes while it is open: give the call a variable that stays",
+        "each move computes the arguments of the modal call again, and {} changes while the call is open: \
+         give the call a variable that does not change",
         name.as_deref().unwrap_or("one of their variables")
     )
 }

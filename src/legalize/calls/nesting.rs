@@ -70,10 +70,10 @@ fn report(
         _ => "calls",
     };
     let how = match deep {
-        Some(deep) => format!("{kind} nest {deep} deep from here, more than"),
-        None => format!("{kind} may nest deeper from here than"),
+        Some(deep) => format!("{kind} nest {deep} deep from here, but"),
+        None => format!("{kind} may nest deeper from here, but"),
     };
-    let what = format!("{how} the {most} levels of {title}: it would stop with an alarm");
+    let what = format!("{how} {title} takes {most} levels and stops with an alarm at more");
     let finding = match (row.origin.confirmed, deep) {
         (false, _) => {
             let fact = format!("limit:{}", row.name);
@@ -81,7 +81,7 @@ fn report(
         }
         (true, None) => Diagnostic::new(Code::Conditional, span, what),
         (true, Some(_)) => Diagnostic::new(Code::NoEquivalent, span, what)
-            .with_help("let a program that stands higher in the chain make one of the calls"),
+            .with_help("move one of the calls up to a program nearer the main program"),
     };
     let predicate = Predicate::Nesting { limit: row.name.as_str().into(), counts: *counted, most };
     context.add_once(index, "nesting", finding.assuming(predicate));

@@ -83,19 +83,22 @@ fn unroll(program: &mut Program, index: usize, drills: bool, facts: &ModalFacts,
         let span = stmt.site.span;
         let mut refuse = |why: &str| context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
         if cycle.is_none() {
-            refuse("whether a drilling cycle or the move is repeated here depends on what ran before");
+            refuse(
+                "the count repeats the drilling cycle on some paths to this block, and the move on others",
+            );
         }
         let computed = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.constant().is_none());
         if state.may_call() && nc.items.iter().any(computed) {
             refuse(
-                "a repeated move with computed words under a modal call, whose macro may change them between",
+                "a repeated move with computed words under a modal call: the macro may change the words \
+                 between the repeats",
             );
         }
         if stmt.site.skip.is_some() {
-            refuse("a repeated move under block skip");
+            refuse("a repeated move with a block skip: skip it by a condition");
         }
         if count.constant().is_some_and(|n| n < 1.0 || n.fract() != 0.0) {
-            refuse("what a repeat of none does to a move is not stated");
+            refuse("no source says what a repeat count below 1, or with a fraction, does to a move");
         }
         let mut nc = nc.clone();
         nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Repeat, _)));

@@ -16,7 +16,10 @@ use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, replace_statements};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
-pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force: what this block does when its move is done would come after the call, in a block of its own. Put it into a block before the move, or after the end of the modal call";
+pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force, and this block does something \
+                                                  after its move: on the target that would come after the \
+                                                  call. Put it into a block before the move, or after the \
+                                                  end of the modal call";
 
 /// True where anything stands that may stand beside a move.
 pub fn concerns(features: &Features) -> bool {

@@ -43,19 +43,21 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     for (index, span, (letter, finding)) in &found {
         let (code, what) = match finding {
             Finding::Other(code) => {
-                (Code::NoEquivalent, format!("{code} is not known to mean the same on the target"))
+                (Code::NoEquivalent, format!("{code} may mean something else on the target"))
             }
             Finding::Read(code) => {
                 let same = context.number_alike(*letter);
                 let what = format!(
-                    "puts in force again what was read: {code} is not known to mean the same on the target, and must not be in force where it is read"
+                    "the code that was read earlier is put in force again: {code} may mean something else \
+                     on the target, and must not be in force when it is read"
                 );
                 (if same { Code::Conditional } else { Code::NoEquivalent }, what)
             }
             Finding::Any(letter) => {
                 let same = context.number_alike(*letter);
                 let what = format!(
-                    "which {letter} code is computed here is not known: each that it may be must mean the same on the target"
+                    "the number of the {letter} code is computed: make sure that every code it may be \
+                     means the same on the target"
                 );
                 (if same { Code::Conditional } else { Code::NoEquivalent }, what)
             }

@@ -44,8 +44,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
             }
             StmtKind::LimitLookahead(_) if !limits => {
-                let what =
-                    "the target has no limit on reading ahead; what follows may be read or switched sooner";
+                let what = "the limit on reading ahead is dropped: the target has none, so the blocks after it \
+                     may read inputs and switch outputs early";
                 context.add_once(index, "lookahead", Diagnostic::new(Code::Conditional, span, what));
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
             }
@@ -78,18 +78,21 @@ fn limit(site: SourceInfo, taken_off: bool, out: &mut Vec<Stmt>) {
 fn say_limit(index: usize, state: Option<&Modal>, span: Span, context: &mut Context<'_>) {
     let what = match state.map(|state| state.op(Group::RadiusComp)) {
         Some(Some(Op::RadiusLeft | Op::RadiusRight)) => {
-            let what = "a wait under cutter compensation: the target takes no limit on reading ahead there";
-            let help = "wait before the compensation begins, or after it ends";
+            let what = "a wait under cutter compensation: the target does not take a limit on reading \
+                        ahead there";
+            let help = "put the wait before the compensation begins, or after it ends";
             return context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
         }
         Some(None) => {
-            "the wait is a limit on reading ahead and three empty blocks; no cutter compensation may be in force here, under which the target takes no limit"
+            "the wait becomes a limit on reading ahead and three empty blocks: make sure that no cutter \
+             compensation is in force here, because the target does not take the limit then"
         }
         Some(Some(_)) => {
-            "the wait is a limit on reading ahead and three empty blocks; the limit ends after them"
+            "the wait becomes a limit on reading ahead and three empty blocks; the limit ends after them"
         }
         None => {
-            "the wait is a limit on reading ahead and three empty blocks; the limit stays in force behind it"
+            "the wait becomes a limit on reading ahead and three empty blocks; the limit stays in force \
+             after them"
         }
     };
     context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
@@ -99,7 +102,8 @@ fn say_limit(index: usize, state: Option<&Modal>, span: Span, context: &mut Cont
 fn say_unlimited(index: usize, early: bool, span: Span, context: &mut Context<'_>) {
     let waits = context.target.behaviour(Question::SystemReadWaits);
     if early || !waits.is_some_and(|b| b.value == "true" && b.origin.confirmed) {
-        let what = "the source waits here until all moves are done; that the target reads a position only then is not confirmed";
+        let what = "the source waits here until all moves are done; no manual confirms that the target \
+                    waits before it reads a position";
         context.unconfirmed(index, Side::Target, span, Question::SystemReadWaits.fact(), what);
     }
 }

@@ -54,7 +54,8 @@ fn ends(running: Running) -> (Group, Op) {
 }
 
 /// One way has the spindle turning, and another one holds it.
-const LETS_GO: &str = "the M5 before this stop lets go of a spindle that an M19 holds: say M3 or M19 again where the program goes on";
+const LETS_GO: &str = "the M5 before this stop releases a spindle that M19 holds: write M3 or M19 again \
+                       after the stop";
 
 /// Ends before stops what the source ends at them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -249,9 +250,9 @@ impl Place<'_> {
         }
         let what = match pause {
             Pause::Change => {
-                "the target's tool change does not end what the source's does, or ends what that lets run"
+                "the tool change leaves spindle or coolant otherwise on the target than on the source"
             }
-            _ => "the target's stop does not end what the source's does, or ends what that lets run",
+            _ => "the stop leaves spindle or coolant otherwise on the target than on the source",
         };
         context.add_once(self.index, what, Diagnostic::new(Code::Conditional, span, what));
     }

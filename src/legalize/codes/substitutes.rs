@@ -13,17 +13,19 @@ use std::collections::BTreeMap;
 
 /// An operation, what stands for it (nothing: it is left out), and what a reviewer must accept.
 const ROWS: &[(Op, Option<Op>, &str)] = &[
-    (Op::Mist, Some(Op::Flood), "the target has no mist coolant: flood is switched on in its place"),
-    (Op::Flood, Some(Op::Mist), "the target has no flood coolant: mist is switched on in its place"),
+    (Op::Mist, Some(Op::Flood), "the target has no mist coolant: flood coolant is switched on instead"),
+    (Op::Flood, Some(Op::Mist), "the target has no flood coolant: mist coolant is switched on instead"),
     (
         Op::RampsOff,
         None,
-        "acceleration ramps off: the target has no such code, and rounds or stops at corners as it is set",
+        "acceleration ramps off is dropped: the target has no such code, and rounds corners or stops at \
+         them as it is set",
     ),
     (
         Op::RampsOn,
         None,
-        "acceleration ramps on: the target has no such code, and rounds or stops at corners as it is set",
+        "acceleration ramps on is dropped: the target has no such code, and rounds corners or stops at \
+         them as it is set",
     ),
 ];
 

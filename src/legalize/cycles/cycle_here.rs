@@ -57,8 +57,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let bare = defines && !here && !placed && nc.word(Role::Repeat).is_none();
                 let asked = here || bare && !agree;
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
-                    let what =
-                        "along which axis a cycle drills is not known here: write G17, G18 or G19 before it";
+                    let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
+                         write G17, G18 or G19 before it";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                     continue;
                 }
@@ -72,25 +72,29 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let what = if bare && !drills && !agree {
                     nc.items.push(NcItem::Word(Role::Repeat, Expr::Number(0.0)));
                     Some(
-                        "a cycle that is defined without a position is taken to be stored only; a repeat of none does that on the target, where it is so taken",
+                        "L0 keeps this block from drilling: the source is taken to store a cycle without \
+                         a position. Check that the target accepts L0",
                     )
                 } else if here && !placed && state.op(Group::Rotation) == Some(Op::RotateOn) {
                     match named.as_ref().and_then(Programmed::words).filter(|_| across[0].0 == Role::X) {
                         Some([x, y]) => {
                             nc.items.extend([NcItem::Word(Role::X, x), NcItem::Word(Role::Y, y)]);
-                            Some("the cycle is run at the turned place by naming that place again")
+                            Some(
+                                "the cycle runs at the rotated position: the block names that position \
+                                  again",
+                            )
                         }
                         None => {
-                            let what = "a cycle is run where the tool stands under a rotation, which would turn that place once more: write the cycle's position there";
+                            let what = "the cycle runs where the tool stands, and the rotation would turn \
+                                        that position once more: write the position into the block of the \
+                                        cycle";
                             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                             None
                         }
                     }
                 } else if here && !placed {
-                    place(nc, across, state.op(Group::Distance), stands)
-                        .err()
-                        .or((!defines)
-                            .then_some("the cycle is run where the tool stands by giving that place"))
+                    place(nc, across, state.op(Group::Distance), stands).err().or((!defines)
+                        .then_some("the cycle runs where the tool stands: the block names that position"))
                 } else {
                     None
                 };
@@ -125,7 +129,10 @@ fn place(
             across.map(|(role, axis)| NcItem::Word(role, Expr::System(stands, [Expr::Number(axis)].into())))
         }
         Some(Op::Incremental) => across.map(|(role, _)| NcItem::Word(role, Expr::Number(0.0))),
-        _ => return Err("a cycle is run where the tool stands, and absolute or incremental is not known"),
+        _ => {
+            return Err("the cycle runs where the tool stands, and it is not known whether G90 or G91 is \
+                         in force: write one of them before it");
+        }
     };
     let at = nc.items.iter().position(|item| matches!(item, NcItem::Word(..))).unwrap_or(nc.items.len());
     nc.items.splice(at..at, words);

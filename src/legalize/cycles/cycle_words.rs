@@ -49,7 +49,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let here = if before == Some(Op::CycleOff) { Lasting::default() } else { here };
                 let begins = begins(nc);
                 for role in untaken(nc, op, context.target) {
-                    let what = format!("the target's code for this cycle ({op}) takes no such word ({role})");
+                    let what = format!(
+                        "the target's code for this cycle ({op}) does not take this word \
+                                        ({role})"
+                    );
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                 }
                 if !begins {
@@ -59,14 +62,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let dwell = match (own, others, here.dwell) {
                     (true, false, Dwell::Is(Some(dwell))) if dwell.constant() != Some(0.0) => {
                         let what = format!(
-                            "the dwell of the cycle before lasts into this one ({op}), and the target's code takes none"
+                            "the dwell of an earlier cycle is still in force in this one ({op}), and the \
+                             target's code takes no dwell"
                         );
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                         continue;
                     }
                     (true, false, Dwell::Many) => {
                         let what = format!(
-                            "the dwell of a cycle before may last into this one ({op}), and the target's code takes none: it must be 0"
+                            "the dwell of an earlier cycle may still be in force in this one ({op}), and \
+                             the target's code takes no dwell: make sure that it is 0"
                         );
                         context.add(index, Diagnostic::new(Code::Conditional, span, what));
                         continue;
@@ -74,14 +79,16 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     (false, true, _) if before != Some(Op::CycleOff) => Expr::Number(0.0),
                     (true, true, Dwell::Is(Some(dwell))) if here.away => dwell,
                     (true, true, Dwell::Many) if here.away => {
-                        let what = "which dwell of the cycles before lasts into this one is known only when the program runs";
+                        let what = "it depends on the path which dwell of the earlier cycles is still in \
+                                    force here: write P into this block";
                         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                         continue;
                     }
                     _ => continue,
                 };
                 if own && dwell.constant().is_none() {
-                    let what = "the dwell of the cycle before it: what it is computed from may have changed";
+                    let what = "the dwell of an earlier cycle is still in force here, and the variables \
+                                that it is computed from may have changed: write P into this block";
                     context.add(index, Diagnostic::new(Code::Conditional, span, what));
                 }
                 nc.items.push(NcItem::Word(Role::CycleDwell, dwell));

@@ -28,8 +28,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 computed.push((in_cycle, stmt.site.span));
             }
             if dropped && !nc.items.iter().any(vacant) {
-                let what =
-                    "a dwell whose time is vacant has no time on the source, and a time of 0 on the target";
+                let what = "if the time of this dwell is vacant, the source has no time in the block and the \
+                     target has 0";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }
         }
@@ -38,11 +38,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         // In seconds a computed value counts as written; a cycle has no such word.
         let asked = computed.iter().find(|(in_cycle, _)| *in_cycle || !s);
         if let Some((_, span)) = asked.filter(|_| row.is_some_and(|row| row.value == "seconds")) {
-            let what = "a computed dwell counts milliseconds here, and seconds on the target";
+            let what = "a computed dwell is in milliseconds on the source and in seconds on the target";
             context.add(index, Diagnostic::new(Code::NoEquivalent, *span, what));
         } else if let (Some((_, span)), false) = (asked, known) {
             let what =
-                "what a computed dwell counts on the target, seconds or milliseconds, is not confirmed";
+                "no manual confirms whether the target counts a computed dwell in seconds or milliseconds";
             context.unconfirmed(index, Side::Target, *span, Question::DwellExpression.fact(), what);
         }
     }

@@ -15,7 +15,7 @@ use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind};
 use crate::legalize::{Context, ModalFacts};
 use kept::{Does, Kept};
 
-const STAYS: &str = "the feed of the tapping cycle stays in force behind it: write the feed again there";
+const STAYS: &str = "the feed of the tapping cycle stays in force after it: write the feed again there";
 
 /// Gives tapping cycles a feed for their lead.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -70,7 +70,11 @@ fn give_feed(nc: &mut Nc, mode: Option<Op>) -> Option<(Code, &'static str)> {
             set_feed(nc, speed, lead);
             (Code::Conditional, "the cycle's feed is its speed times its lead, in feed per minute")
         }
-        _ => (Code::NoEquivalent, "a tapping cycle without a speed beside its lead, or in feed per turn"),
+        _ => (
+            Code::NoEquivalent,
+            "a tapping cycle by its lead, without a speed in its block or in feed \
+                                   per turn",
+        ),
     })
 }
 

@@ -28,7 +28,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         other => other,
     });
     for (span, value, made) in found {
-        let what = format!("the target takes {most} digits: {value} is written as a sum that gives {made}");
+        let what = format!("the target takes {most} digits: {value} becomes a sum that gives {made}");
         context.add(index, Diagnostic::new(Code::NearlyEqual, span, what));
     }
     changed

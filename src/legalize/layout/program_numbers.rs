@@ -70,11 +70,11 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
                 if *name != ProgramName::Number(number) {
                     if let ProgramName::Number(_) = name {
                         let what = format!(
-                            "{name} becomes {}: the target's numbers end at {max}",
+                            "{name} becomes {}: the target's program numbers end at {max}",
                             ProgramName::Number(number)
                         );
-                        let help =
-                            "call and select it by its new number; the lock beside the conversion keeps it";
+                        let help = "call and select it by its new number; macroglot.lock keeps the number for \
+                             later runs";
                         context.add(
                             index,
                             Diagnostic::new(Code::Renumbered, program.site.span, what).with_help(help),
@@ -145,7 +145,8 @@ fn report_looked_for(
         return;
     }
     let what = format!(
-        "which program is called is computed: it must be none of {}, which this conversion numbered",
+        "the number of the called program is computed: it must not be one of {}, which this conversion \
+         gave out",
         made.into_iter().collect::<Vec<_>>().join(", ")
     );
     for (index, program) in module.programs.iter().enumerate() {

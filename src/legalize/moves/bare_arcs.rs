@@ -32,7 +32,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 }
                 let span = stmt.site.span;
                 if is_double(nc) {
-                    let what = "an arc with a centre and a radius: which of them counts is not stated";
+                    let what = "an arc with both a centre and a radius: no source says which one counts. \
+                                Leave one of them out";
                     context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
                 }
                 if !is_bare(nc) || spelled_out || context.is_faulty(index, span) {
@@ -42,7 +43,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                     context.rests_on_source(index, span, Question::ArcWithoutCentre);
                     context.rests_on_target(index, span, Question::ArcWithoutCentre);
                 } else {
-                    let what = "no source says what a move under an arc code does without centre and radius";
+                    let what = "no source says what a move under an arc code does without centre and \
+                                radius: write I, J, K or R, or G1";
                     context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
                 }
             }

@@ -102,13 +102,15 @@ fn each(
 /// Reports the first number whose unit is not known, and the first whose unit rests on what the library has not.
 fn report(index: usize, unknown: Option<Span>, guessed: Option<Span>, context: &mut Context<'_>) {
     if let Some(span) = unknown {
-        let what = "a number without a decimal point counts increments whose size depends on the unit in force, which is not known here";
+        let what = "a number without a decimal point counts increments, and their size depends on the \
+                    unit in force, which is not known here";
         let help = "name the unit in the program (G20, G21) or in the machine profile of the source";
         let finding = Diagnostic::new(Code::NoEquivalent, span, what).with_help(help);
         context.add_once(index, "increments", finding);
     }
     if let Some(span) = guessed {
-        let what = "a number without a decimal point is taken in the unit that is named: what is called outside the library must leave that in force";
+        let what = "a number without a decimal point is taken in the unit that the program names: a \
+                    called program outside the library must not change it";
         context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
     }
 }

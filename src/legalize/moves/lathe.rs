@@ -26,7 +26,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         });
         if let Some(stmt) = first {
             let what = format!(
-                "axis words of a {from} for a {to}: a lathe counts X in diameters, and U, V and W as increments"
+                "the program is for a {from}, the target is a {to}: a lathe counts X in diameters, and U, \
+                 V and W as increments"
             );
             context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
         }

@@ -69,13 +69,16 @@ fn rectangular(nc: &mut Nc, distance: Option<Op>) -> Result<(), &'static str> {
         (nc.word(Role::PolarAngle).cloned(), nc.word(Role::PolarDistance).cloned())
     else {
         return Err(
-            "a polar move with its angle or its distance left out: what was in force before is not followed",
+            "a polar move without its angle or its distance: write both, the earlier value is not followed",
         );
     };
     let absolute = match distance {
         Some(Op::Absolute) => true,
         Some(Op::Incremental) => false,
-        _ => return Err("a polar move where absolute or incremental is not known"),
+        _ => {
+            return Err("a polar move, and it is not known whether G90 or G91 is in force: write one of \
+                         them before it");
+        }
     };
     let part = |function: Func, pole: Var| {
         let turned = Expr::Call(function, [angle.clone()].into());

@@ -41,7 +41,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 out.push(Stmt { kind, site });
             }
             None => {
-                let what = "a rapid move of one block, where it is not known that straight moves without a drilling cycle are in force before it";
+                let what = "a rapid move for one block: the mode to go back to is not known; it must be a \
+                            straight move without a drilling cycle";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, what));
             }
         }

@@ -49,12 +49,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     name(nc, &axes);
                     (
                         Code::Conditional,
-                        "all axes return at once from where they stand; in which order the source moves them is not stated",
+                        "all axes return at the same time; no source says in which order the source moves \
+                         them",
                     )
                 }
                 None => (
                     Code::NoEquivalent,
-                    "a return to the reference position without axes, where absolute or incremental is not known",
+                    "a return to the reference position without axes, and it is not known whether G90 or \
+                     G91 is in force: write one of them before it",
                 ),
             };
             context.add(index, Diagnostic::new(code, span, what));
@@ -73,11 +75,11 @@ fn doubt(module: &Module, all: bool, context: &mut Context<'_>) {
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let StmtKind::Nc(nc) = &stmt.kind else { continue };
             if bare(nc) {
-                let what =
-                    "no source says what the source does at a return to the reference position without axes";
+                let what = "no source says what a return to the reference position without axes does on the \
+                     source: name the axes";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
             } else if all && empty(nc) {
-                let what = "all axis words of this return may be vacant; the target moves all axes then";
+                let what = "all axis words of this return may be vacant; the target then moves all axes";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }
         }

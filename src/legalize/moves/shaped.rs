@@ -95,7 +95,10 @@ fn mirror(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) {
         }
     } else if is_zero(context.target) {
         let title = &context.target.dialect().title;
-        let what = format!("{title} mirrors about the work zero, the program about another coordinate");
+        let what = format!(
+            "{title} mirrors about the work zero, but the program mirrors about another \
+                            coordinate"
+        );
         let help = "shift the work offset so that its zero lies there, and mirror about 0";
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     } else {

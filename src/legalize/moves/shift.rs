@@ -37,7 +37,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     refuse_read(index, stmt.site.span, &state, context);
                 }
                 if sets_position && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::ShiftCancel)) {
-                    let what = "no source says whether cancelling all zero shifts ends the position that a program set, too; on the target that stays";
+                    let what = "all zero shifts are cancelled: no source says whether that also ends a \
+                                position that a program set; on the target that position stays";
                     context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
                 }
                 if let Some((code, what)) = mark(stmt, &state, incremental) {
@@ -53,7 +54,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 && state.may_be_cancelled
                 && main.contains(&BlockId(at as u32))
             {
-                let what = "it returns with all zero shifts cancelled, where the target has a work offset: its callers must be converted together with it";
+                let what = "the program returns with all zero shifts cancelled, but the target always has \
+                            a work offset: convert its callers together with it";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, block.term.site.span, what));
             }
             drop_emptied(block);
@@ -74,7 +76,8 @@ fn reads_position(e: &Expr) -> bool {
 /// Positions are machine coordinates while shifts are cancelled, and on the target never.
 fn refuse_read(index: usize, span: Span, state: &Modal, context: &mut Context<'_>) {
     if state.may_be_cancelled || state.op(Group::WorkOffset) == Some(Op::ShiftCancel) {
-        let what = "a position is read while all zero shifts may be cancelled: the target counts it from its work offset";
+        let what = "a position is read while all zero shifts may be cancelled: on the target it counts \
+                    from the work offset";
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what));
     }
 }
@@ -99,7 +102,8 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
     {
         return Some((
             Code::NoEquivalent,
-            "a return to the reference position by way of a point, while all zero shifts may be cancelled: the target counts the point from its work offset. Give the point in G91, and it converts",
+            "a return to the reference position through a point, while all zero shifts may be cancelled: \
+             on the target the point counts from the work offset. Give the point in G91",
         ));
     }
     if !moves {
@@ -112,7 +116,8 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
             if state.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff) {
                 return Some((
                     Code::NoEquivalent,
-                    "a drilling cycle with all zero shifts cancelled: the target's machine coordinates are for a move alone",
+                    "a drilling cycle with all zero shifts cancelled: the target has machine coordinates \
+                     for moves only",
                 ));
             }
             match (state.op(Group::Motion), state.op(Group::Distance)) {
@@ -121,35 +126,41 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
                     Some(Op::LengthOff) => None,
                     Some(_) => Some((
                         Code::NoEquivalent,
-                        "a move with all zero shifts cancelled and a tool length in force: the target's machine coordinates leave the length out",
+                        "a move with all zero shifts cancelled and a tool length in force: the target \
+                         ignores the length in machine coordinates",
                     )),
                     None if state.names_length() => Some((
                         Code::NoEquivalent,
-                        "a move with all zero shifts cancelled and a tool length in force on some of the ways that lead here, or left by a caller: the target's machine coordinates leave the length out. Cancel the length before it, and it converts",
+                        "a move with all zero shifts cancelled, and a tool length may be in force, on \
+                         some paths to this block or from a caller: the target ignores the length in \
+                         machine coordinates. Cancel the length before the move",
                     )),
                     _ => Some((
                         Code::Conditional,
-                        "the move is marked as one in machine coordinates, which on the target also leaves tool length compensation out for the block",
+                        "the move becomes one in machine coordinates: the target also ignores tool length \
+                         compensation in this block",
                     )),
                 },
                 (Some(Op::Rapid), None) if !incremental => Some((
                     Code::Conditional,
-                    "a move in machine coordinates: taken as absolute, which the text here does not say",
+                    "this move in machine coordinates is taken as absolute: the program does not say so",
                 )),
                 _ => Some((
                     Code::NoEquivalent,
-                    "a move with all zero shifts cancelled that is not known to be rapid and absolute: the target has machine coordinates for such moves only",
+                    "a move with all zero shifts cancelled: the target has machine coordinates for rapid \
+                     absolute moves only, and this one may be another",
                 )),
             }
         }
         Some(_) => None,
         None if state.may_be_cancelled => Some((
             Code::NoEquivalent,
-            "all zero shifts are cancelled on some of the ways that lead to this move, on others not: the target's machine coordinates are for a block, not for a way",
+            "all zero shifts are cancelled on some paths to this move and not on others: the target needs \
+             the same on all of them",
         )),
         None => Some((
             Code::Conditional,
-            "which work offset is in force here depends on what ran before; the target keeps the one it has",
+            "the work offset in force here depends on what ran before: the target keeps the one that it has",
         )),
     }
 }

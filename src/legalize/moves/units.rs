@@ -64,10 +64,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         let alone = !(called.is_guessed(root) && returns(&module.programs[root]));
         let Some(units) = ours.or(checked[root]).filter(|_| alone) else {
             let lost = lost(module, &facts, root);
-            let (span, why) =
-                lost.unwrap_or((module.programs[root].site.span, "the program does not name its unit"));
+            let (span, why) = match lost {
+                Some((span, why)) => (span, why.to_owned()),
+                None => (module.programs[root].site.span, unnamed(context.source)),
+            };
             let what = format!(
-                "{why}: the target must be set to the unit that the source was set to (a machine profile with 'units' writes it into the program)"
+                "{why}: set the target to the old machine's unit, or put `units` into the old machine's profile"
             );
             let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
             context.add_once(root, "units", finding);
@@ -78,7 +80,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             continue;
         }
         if theirs.is_some_and(|theirs| theirs != units) {
-            let what = "the program selects the unit of the source, and the target is set to the other one: its offsets must be kept for this program's unit";
+            let what = "the program selects the source's unit, and the target is set to the other one: \
+                        enter the target's offsets for this program's unit";
             let span = module.programs[root].site.span;
             let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
             context.add_once(root, "units", finding);
@@ -120,6 +123,15 @@ fn take_checks(program: &mut Program, changed: &mut bool) -> Option<Units> {
     }
 }
 
+/// That a program of this control names no unit, with the codes that would.
+fn unnamed(source: &Control) -> String {
+    let code = |op| source.code_for(op, &Default::default()).map(|row| row.code.as_str());
+    match (code(Op::Inch), code(Op::Metric)) {
+        (Some(inch), Some(metric)) => format!("no {inch} or {metric}"),
+        _ => "the program does not name its unit".to_owned(),
+    }
+}
+
 /// Where a program that named its unit no longer knows it, and why.
 fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'static str)> {
     let program = &module.programs[root];
@@ -135,7 +147,7 @@ fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'sta
                     _ => false,
                 };
                 let why = if computed {
-                    "the code that is computed here may select another unit"
+                    "the code computed here may select another unit"
                 } else {
                     "the modal call that runs here may leave another unit"
                 };
@@ -146,7 +158,7 @@ fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'sta
             && state.op(Group::Units).is_some()
             && facts.at(root, *next).op(Group::Units).is_none()
         {
-            return Some((block.term.site.span, "what is called here may leave another unit"));
+            return Some((block.term.site.span, "the program called here may leave another unit"));
         }
     }
     None

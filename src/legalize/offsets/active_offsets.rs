@@ -36,7 +36,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                         _ => false,
                     };
                     if !other {
-                        let what = "the work offset may be selected while it is written: whether it counts at once or when it is selected again is not known of both controls";
+                        let what = "the work offset may be in force while it is written: it is not known \
+                                    for both controls whether the new value counts at once or when the \
+                                    offset is selected again";
                         let side = if answer(context.target).is_none() { Side::Target } else { Side::Source };
                         let fact = FACT.fact();
                         context.unconfirmed(index, side, stmt.site.span, fact, what);

@@ -48,8 +48,9 @@ fn set_positions(module: &Module, context: &mut Context<'_>) {
                 context.rests_on_source(index, stmt.site.span, ENDS);
                 context.rests_on_target(index, stmt.site.span, ENDS);
                 if context.source.is(ENDS) != context.target.is(ENDS) {
-                    let what = "a position is set while a local shift may be in force, which one of the controls ends there and the other keeps";
-                    let help = "end the local shift (0 for its axes) before the position is set";
+                    let what = "a position is set while a local shift may be in force: one control ends \
+                                the shift here, the other keeps it";
+                    let help = "end the local shift (0 for its axes) before setting the position";
                     let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
                     context.add_once(index, what, finding);
                 }
@@ -96,7 +97,9 @@ fn to_local(module: &mut Module, context: &mut Context<'_>) {
                 }
             }
             if let Some(span) = reads {
-                let what = "the shift of all work offsets is read, or written in a way that a local shift cannot say: on the source it is the local shift, which the target keeps apart";
+                let what = "the shift of all work offsets is read here, or written in a form that a local \
+                            shift does not have: on the source both are one register, on the target they \
+                            are two";
                 context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what));
             }
         }
@@ -137,10 +140,13 @@ fn to_one(module: &Module, context: &mut Context<'_>) {
                 continue;
             }
             let (code, what) = if local {
-                let what = "the target keeps the shift of all work offsets in the register of the local shift, and the library uses both";
+                let what = "the library uses the shift of all work offsets and the local shift: on the \
+                            target both are one register";
                 (Code::NoEquivalent, what)
             } else {
-                let what = "the target keeps this shift in the register of the local shift: its end of program and a reset may clear it, where the source keeps it for the next program";
+                let what = "the target keeps this shift in the register of the local shift: the end of \
+                            the program or a reset may clear it, but the source keeps it for the next \
+                            program";
                 (Code::Conditional, what)
             };
             context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));

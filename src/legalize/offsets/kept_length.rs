@@ -241,8 +241,9 @@ fn told(state: &Modal, index: usize, span: Span, context: &mut Context<'_>) {
     rests(&questions, Side::Target, index, span, context);
     let cancels = |asked: &Asked, control: &Control| asked.cancels(control).unwrap_or(false);
     if questions.iter().any(|asked| cancels(asked, context.source) != cancels(asked, context.target)) {
-        let what = "the tool length counts here after a return to the reference position or a move in machine coordinates, which cancels it on one of the controls and not on the other";
-        let help = "name the length again after it (G43 with H), or end it (G49)";
+        let what = "the tool length matters here: the return to the reference position or the move in \
+                    machine coordinates before it cancels the length on one control and not on the other";
+        let help = "after that move, name the length again (G43 with H) or end it (G49)";
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
 }

@@ -41,8 +41,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             _ => continue,
         };
         if let Some(span) = computed {
-            let what =
-                "a position of a computed axis may hold the tool length on one control and not on the other";
+            let what = "the axis of this position is computed: the position may include the tool length on one \
+                 control and not on the other";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
         }
         rewrite_program(&mut module.programs[index], is_depth, &mut |e, _, _| match e {

@@ -26,7 +26,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         |_| false,
         |index, stmt| {
             if stmt.kind.has_op(Op::SelectWork) {
-                let what = "a work offset is selected where a position that was set may be in force: whether that ends it is not known of both controls";
+                let what = "a work offset is selected while a position that the program set may be in \
+                            force: it is not known for both controls whether that ends it";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }
         },

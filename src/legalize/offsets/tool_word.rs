@@ -59,14 +59,15 @@ fn tell(tool_word: ToolWord, index: usize, span: Span, context: &mut Context<'_>
     match tool_word {
         ToolWord::Changed => {}
         ToolWord::Unknown => {
-            let what = "the target tells the last T word: it must be the tool in the spindle when this program starts";
+            let what = "on the target this is the last T called, not the tool in the spindle, until M6: \
+                        when the program starts, the two must be the same tool";
             context.add_once(index, "tool", Diagnostic::new(Code::Conditional, span, what));
         }
         ToolWord::Waits => {
             let title = &context.target.dialect().title;
             let what = format!(
-                "{title} tells the last T word, which may be a tool that waits for its change: keep the number in a \
-                 variable at the tool change"
+                "on {title} this is the last T called, not the tool in the spindle, until M6: keep the \
+                 tool's number in a variable at the tool change"
             );
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
         }

@@ -28,7 +28,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
 fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, context: &mut Context<'_>) {
     match number.constant() {
         Some(n) if n < 1.0 || n.fract() != 0.0 => {
-            let what = format!("no source says what {n} as the number of an alarm does");
+            let what = format!("no source says what an alarm with the number {n} does");
             context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
         }
         Some(n) => {
@@ -38,14 +38,16 @@ fn check(number: &Expr, (here, there): (f64, f64), index: usize, span: Span, con
             if n > there {
                 let title = &context.target.dialect().title;
                 let what = format!(
-                    "{title} is said to take alarm numbers up to {there}; {n} may show as another alarm"
+                    "{title} is said to take alarm numbers up to {there}: {n} may show as another alarm"
                 );
                 context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
             }
         }
         None if there < here => {
-            let what =
-                format!("the number of the alarm is computed: the target is said to take 1 to {there}");
+            let what = format!(
+                "the number of the alarm is computed: make sure that it is 1 to {there}, which \
+                         the target is said to take"
+            );
             let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Alarms(there));
             context.add_once(index, "computed alarm", finding);
         }

@@ -85,13 +85,12 @@ impl Writer<'_, '_> {
         }
         let (before, after) = (text.trim(), written.text.trim());
         if written.lost && !matches!(place, Place::Remark { .. }) {
-            let what = format!(
-                "the message '{before}' is written '{after}': nothing stands for some of its letters"
-            );
+            let what =
+                format!("the message '{before}' becomes '{after}': some of its letters have no substitute");
             self.context.add(self.index, Diagnostic::new(Code::MessageAltered, self.span, what));
         } else if written.replaced {
             let what =
-                format!("'{before}' is written '{after}': the target is not known to show all its letters");
+                format!("'{before}' becomes '{after}': the target is not known to show all its letters");
             let finding = Diagnostic::new(Code::LettersReplaced, self.span, what);
             self.context.add_once(self.index, "letters", finding);
         }

@@ -24,7 +24,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let whole = std::mem::take(text);
             *text = whole.chars().take(most).collect::<String>().trim_end().to_owned();
             let what = format!(
-                "the target shows {most} characters of a message: '{text}'; the whole stands in a comment"
+                "the target shows {most} characters of a message: '{text}'; a comment has the whole text"
             );
             stmt.site.remarks.push(Remark { text: whole, leading: false });
             context.add(index, Diagnostic::new(Code::MessageCut, stmt.site.span, what));

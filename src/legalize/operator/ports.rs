@@ -24,7 +24,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         context.rests_on_target(index, span, NEEDS);
         match needs {
             [false, true] if opened => {
-                let what = "the target prints only while the port is open: it must be open here";
+                let what = "the target prints only while the port is open: make sure that it is open here";
                 context.add(index, Diagnostic::new(Code::Conditional, span, what));
             }
             [false, true] => open(program),

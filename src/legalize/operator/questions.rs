@@ -91,17 +91,17 @@ fn ask(
         _ => None,
     };
     let Some(register) = register else {
-        let what = "the answer goes to a place whose register is computed: the operator cannot be told where to enter it";
+        let what = "the answer goes to a computed register, so the operator cannot be told where to enter it";
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
         return;
     };
     let whose = if serial { "what the serial line sends" } else { "the answer" };
-    let what = format!("the operator enters {whose} in {register} at the stop, before cycle start");
+    let what = format!("the operator must enter {whose} in {register} at the stop, before cycle start");
     context.add(index, Diagnostic::new(Code::Conditional, span, what));
     context.rests_on_source(index, span, Question::InputDefaultZero);
     if context.source.behaviour(Question::InputDefaultZero).is_some_and(|row| row.value == "false") {
-        let what =
-            "an empty answer is not 0 on the source, and the register is set to 0 before it is asked for";
+        let what = "an empty answer is not 0 on the source, but the conversion sets the register to 0 before it \
+             asks";
         context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
     }
     let question = question.map(|q| {
@@ -139,7 +139,8 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
                         site.span = stmt.site.span;
                         let what = if serial { "printed to the port" } else { "printed on the screen" };
                         let what = format!(
-                            "{what} with no stated number format: goes to the output port with four digits before and behind the point"
+                            "{what}, and its number format is not stated: it goes to the output port with \
+                             four digits before and after the point"
                         );
                         context.add_once(
                             index,
@@ -147,8 +148,7 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
                             Diagnostic::new(Code::Conditional, site.span, what.clone()),
                         );
                         for text in altered(&parts) {
-                            let what =
-                                format!("the text '{}' is printed as '{}'", text.trim(), plain(text).trim());
+                            let what = format!("the text '{}' becomes '{}'", text.trim(), plain(text).trim());
                             let finding = Diagnostic::new(Code::MessageAltered, site.span, what.clone());
                             context.add_once(index, &what, finding);
                         }

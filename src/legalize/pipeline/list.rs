@@ -79,19 +79,19 @@ const TIDY: &[Pass] = &[
 const SOURCE: &[Pass] = &[
     Pass::reports(
         "source-facts",
-        "tells unconfirmed facts of the source that vacant variables rest on",
+        "reports unconfirmed facts of the source that vacant variables depend on",
         facts::of_source,
     )
     .when(|c, _| c.has(Feature::Computed)),
     Pass::reports("lathe", "refuses programs of the other kind of machine", lathe::run).when(lathe::concerns),
-    Pass::reports("runtime-assumptions", "notes what holds only for some values of a run", runtime::run)
+    Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];
 
 const STRUCTURE: &[Pass] = &[
     Pass::rewrites("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
-    Pass::edits("link", "tells calls that leave the library", link::run)
+    Pass::edits("link", "reports calls that leave the library", link::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::Chain)),
     Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)
         .when(|c, _| c.has(Feature::LocalCall))
@@ -122,7 +122,7 @@ const CALLS: &[Pass] = &[
     Pass::rewrites("repeats", "repeated moves become loops", repeats::run)
         .when(|c, _| c.role(Role::Repeat))
         .changes_flow(),
-    Pass::rewrites("modal-off", "ends of modal calls where none is open go", modal_off::run)
+    Pass::rewrites("modal-off", "ends of modal calls that were never opened go", modal_off::run)
         .when(|c, context| c.has(Feature::Modal) && context.source.is(Question::CallModalOffAlone))
         .needs(&["chain"]),
     Pass::rewrites("modal-calls", "modal calls become a call after each move", modal_calls::run)
@@ -138,7 +138,7 @@ const CALLS: &[Pass] = &[
     .when(|c, _| c.has(Feature::ReturnTo))
     .needs(&["modal-calls"])
     .changes_flow(),
-    Pass::reports("nesting", "tells calls that nest deeper than the target takes", nesting::run)
+    Pass::reports("nesting", "reports calls that nest deeper than the target takes", nesting::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::LocalCall))
         .needs(&["outline", "chain", "modal-calls"]),
 ];
@@ -146,15 +146,15 @@ const CALLS: &[Pass] = &[
 const MOVES: &[Pass] = &[
     Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
-    Pass::reports("bare-arcs", "looks at arcs without centre or radius", bare_arcs::run)
+    Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
     Pass::reports(
         "active-offsets",
-        "looks at work offsets that are written while selected",
+        "checks work offsets that are written while selected",
         active_offsets::run,
     )
     .when(|c, _| c.has(Feature::System)),
-    Pass::reports("set-position", "looks at work offsets selected after a set position", set_position::run)
+    Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
         .when(set_position::concerns),
     Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
@@ -162,12 +162,12 @@ const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
         .when(|c, _| c.has(Feature::Increments)),
-    Pass::edits("units", "programs that name no unit are told it", units::run)
+    Pass::edits("units", "programs that name no unit get one", units::run)
         .when(units::concerns)
         .needs(&["increments", "modal-calls"]),
     Pass::rewrites(
         "rapid-once",
-        "the interpolation is said again after a rapid move that keeps it",
+        "the interpolation is written again after a rapid move that keeps it",
         rapid_once::run,
     )
     .when(|c, _| c.op(Op::RapidOnce)),
@@ -180,7 +180,7 @@ const MOVES: &[Pass] = &[
     Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
     Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)
         .when(|c, _| c.op(Op::ReferenceReturn)),
-    Pass::rewrites("kept-length", "the tool length after a return is said outright", kept_length::run)
+    Pass::rewrites("kept-length", "the tool length after a return is written out", kept_length::run)
         .when(|c, _| {
             c.role(Role::LengthOffset)
                 && c.any_op(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce))
@@ -217,8 +217,12 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
-    Pass::reports("tool-word", "looks whether the last tool word is the tool in the spindle", tool_word::run)
-        .when(|c, _| c.has(Feature::System)),
+    Pass::reports(
+        "tool-word",
+        "checks whether the last tool word is the tool in the spindle",
+        tool_word::run,
+    )
+    .when(|c, _| c.has(Feature::System)),
     Pass::rewrites(
         "offset-rows",
         "work offsets by a computed number are found in the target's runs",
@@ -232,7 +236,7 @@ const VARIABLES: &[Pass] = &[
 ];
 
 const CYCLES: &[Pass] = &[
-    Pass::reports("alarms", "looks at alarm numbers that the target does not take", alarms::run)
+    Pass::reports("alarms", "checks alarm numbers that the target does not take", alarms::run)
         .when(|c, _| c.has(Feature::Message)),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
@@ -316,7 +320,7 @@ const REGISTERS: &[Pass] = &[
         .brings_nothing(),
     Pass::reports(
         "reached",
-        "tells computed numbers that reach a register of another variable",
+        "reports computed numbers that reach a register of another variable",
         computed_numbers::report,
     )
     .needs(&["registers"]),
@@ -325,7 +329,7 @@ const REGISTERS: &[Pass] = &[
         .needs(&["registers"])
         .brings_nothing()
         .changes_flow(),
-    Pass::reports("retention", "tells variables that one control keeps over power-off", retention::run)
+    Pass::reports("retention", "reports variables that one control keeps over power-off", retention::run)
         .needs(&["registers"]),
 ];
 
@@ -364,7 +368,7 @@ const LAYOUT: &[Pass] = &[
     .brings_nothing(),
     Pass::reports(
         "target-facts",
-        "tells unconfirmed facts of the target that programs rest on",
+        "reports unconfirmed facts of the target that programs depend on",
         facts::of_target,
     )
     .needs(&["missing", "split-expressions", "registers", "prints", "messages"]),

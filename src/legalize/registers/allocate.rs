@@ -81,7 +81,7 @@ fn allocate(
             }
             None => {
                 let what = format!(
-                    "the target has no register left for {}; {} variables of the library want one",
+                    "the target has no register left for {}; {} variables of the library need one",
                     name.unwrap_or_else(|| "a temporary".into()),
                     users.len()
                 );

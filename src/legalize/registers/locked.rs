@@ -134,11 +134,11 @@ fn give_up(module: &Module, conflict: &Conflict, effective: &mut Effective, cont
     effective.freed.insert(name.clone());
     let register = format!("{}{number}", pool_name(context.target));
     let why = match wants {
-        Wants::Own(_) => format!("a program has {register} itself"),
+        Wants::Own(_) => format!("a program uses {register} itself"),
         Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank, context.source)),
     };
-    let what = format!("{name} leaves {register}, where an earlier run had it: {why}");
-    let help = "what the machine keeps in the old register is not moved; macroglot.lock has the new one";
+    let what = format!("{name} moves out of {register}, where an earlier run put it: {why}");
+    let help = "move the old register's value by hand if it matters; macroglot.lock names the new register";
     let place = module.programs.first().map(|program| program.site.span).unwrap_or_default();
     context.add_once(0, &what, Diagnostic::new(Code::LockChanged, place, what.clone()).with_help(help));
 }
@@ -148,15 +148,15 @@ fn refuse(module: &Module, conflict: &Conflict, others: &[String], context: &mut
     let Conflict { name, number, wants } = conflict;
     let holder = match name {
         Some(name) => format!("for {name}"),
-        None => "for values in between".into(),
+        None => "for intermediate values".into(),
     };
     let others = others.join(", ");
     let register = format!("{}{number}", pool_name(context.target));
     let why = match wants {
-        Wants::Own(_) => format!("this program has {register} itself"),
+        Wants::Own(_) => format!("this program uses {register} itself"),
         Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank, context.source)),
     };
-    let what = format!("macroglot.lock keeps {register} {holder}, on which {others} relies, and {why}");
+    let what = format!("macroglot.lock keeps {register} {holder}, and {others} relies on it, but {why}");
     let help = "delete macroglot.lock in the output folder, and convert all of these files in one run";
     for (index, program) in module.programs.iter().enumerate() {
         let mut concerned = matches!(wants, Wants::Row(_));
@@ -203,7 +203,8 @@ pub fn check(
             continue;
         };
         let what = format!(
-            "the lock keeps {name} in {}{number}, which {why}; take the line out of macroglot.lock to choose anew",
+            "macroglot.lock keeps {name} in {}{number}, which {why}; remove the line from macroglot.lock \
+             to get another register",
             register.name
         );
         for (index, program) in module.programs.iter().enumerate() {

@@ -41,7 +41,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         for (span, space) in found {
             let Space { name, first, last } = space;
             let what = format!(
-                "which {name} variable is meant is known only when the program runs: it must be one of {name}{first} to {name}{last}; the target would go on with another one"
+                "the number of the {name} variable is computed: it must be one of {name}{first} to \
+                 {name}{last}, or the target uses another variable"
             );
             context.add(index, Diagnostic::new(Code::Conditional, span, what));
         }

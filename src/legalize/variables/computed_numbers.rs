@@ -198,13 +198,14 @@ impl Finding {
             Finding::Alike(..) if hit => (
                 Code::Conditional,
                 format!(
-                    "the number of a variable is computed: it must be one of {safe}; the conversion uses others for values of its own"
+                    "the number of a variable is computed: it must be one of {safe}; the conversion uses \
+                     other numbers itself"
                 ),
             ),
             Finding::Alike(first, last) => (
                 Code::Conditional,
                 must_stay(context.source, first, last)
-                    + &format!(", outside of which numbers mean other variables on {title}"),
+                    + &format!("; other numbers are other variables on {title}"),
             ),
             Finding::Shifted(state, first, last, by) => {
                 let there = |n: u32| i64::from(n) + by;
@@ -224,14 +225,16 @@ impl Finding {
             Finding::Other(number) => (
                 Code::NoEquivalent,
                 format!(
-                    "the number of a variable is computed, and {}, which it starts from or may be, is not the same variable on {title}",
+                    "the number of a variable is computed, and it may be or start from {}, which is \
+                     another variable on {title}",
                     named(context.source, number.into())
                 ),
             ),
             Finding::Any => (
                 Code::Conditional,
                 format!(
-                    "which variable is meant is known only when the program runs: it must be one of {safe}, which mean the same on {title}"
+                    "the number of a variable is computed: it must be one of {safe}, which are the same \
+                     on {title}"
                 ),
             ),
         }

@@ -44,7 +44,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut any = any_kept(program);
         for span in keep(program, &cells, &summaries) {
-            let what = "which touch point the probe move keeps is known only when the program runs";
+            let what = "the number of the touch point that the probe move keeps is computed: write a \
+                        constant";
             context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
             sure = false;
         }
@@ -54,7 +55,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             look_up(subscripts, &points, rewriter)
         });
         if any {
-            let what = "touch points are kept in registers, in the coordinates of the program: check that the source keeps them so, and that each probe move touches";
+            let what = "touch points are kept in registers, in program coordinates: check that the source \
+                        keeps them so, and that each probe move touches";
             let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
             context.add_once(index, "probe points", finding);
         }
@@ -65,7 +67,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let unset =
             upward_exposed.at_entry(index).into_iter().find(|var| cells.iter().any(|of| cell(*of) == *var));
         if unset.is_some() {
-            let what = "a touch point may be read that no program of the library has probed before";
+            let what = "this touch point may be read before any program of the library has probed it";
             let span = module.programs[index].site.span;
             context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what));
         }

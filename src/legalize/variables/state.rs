@@ -91,25 +91,30 @@ impl Finding {
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
             }
             Finding::Unconfirmed(state, fact, note) => {
-                let note = format!("'{state}' is taken to be kept there{note}");
+                let note = format!("'{state}' is taken to be in it{note}");
                 let finding = context.target.unconfirmed(Side::Target, &fact, Some(&note), span);
                 context.add_once(index, &fact, finding);
             }
             Finding::Table(state) => {
                 let what = match state {
-                    Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => "whether a cutter table holds radii or diameters is set at both controls: the number goes over as it is".into(),
-                    state => format!("whether the source's cutter table holds radii or diameters is set at its control: taken as diameters, for '{state}'"),
+                    Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => "a setting of each control says whether its cutter \
+                                                                          table holds radii or diameters: the number is \
+                                                                          copied as it is".into(),
+                    state => format!("a setting of the source says whether its cutter table holds radii \
+                                      or diameters: diameters are taken for '{state}'"),
                 };
                 context.unconfirmed(index, Side::Source, span, Question::RadiusOffsetTable.fact(), what);
             }
             Finding::Renumbered(code) => {
                 let what = format!(
-                    "a modal code is read, and {code} of its group has another number on {title}: it must not be in force here, nor be compared with"
+                    "a modal code is read, and {code} of its group has another number on {title}: make \
+                     sure that it is not in force here, and do not compare with it"
                 );
                 context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
             }
             Finding::TargetTable => {
-                let what = "whether the target's cutter table holds radii or diameters is set at its control: taken as diameters";
+                let what = "a setting of the target says whether its cutter table holds radii or \
+                            diameters: diameters are taken";
                 context.unconfirmed(index, Side::Target, span, Question::RadiusOffsetTable.fact(), what);
             }
             Finding::TablesHold => {
@@ -122,7 +127,8 @@ impl Finding {
                 }
             }
             Finding::Wiring => {
-                let what = "the number of an input or output is this machine's wiring; on the target it may be another signal";
+                let what = "the number of this input or output depends on the machine's wiring: on the \
+                            target it may be another signal";
                 context.add_once(index, "wiring", Diagnostic::new(Code::Conditional, span, what));
             }
         }
@@ -340,7 +346,8 @@ fn start_timer(module: &mut Module, timed: &BTreeSet<usize>, context: &mut Conte
                 value: Expr::Number(0.0),
             };
             block.stmts.insert(0, Stmt { kind, site: SourceInfo::default() });
-            let what = "the seconds since cycle start are counted by the millisecond timer, which the program sets to 0";
+            let what = "the millisecond timer counts the seconds since cycle start; the program sets it \
+                        to 0 at its start";
             let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
             context.add_once(index, "cycle seconds", finding);
         }

@@ -74,10 +74,12 @@ fn added(module: &Module, context: &mut Context<'_>) {
 /// One that the library may add again is refused; what is added once in a run is off by half an increment at the most.
 fn report(index: usize, span: Span, again: bool, context: &mut Context<'_>) {
     let (code, what) = if again {
-        let what = "a computed amount may be added here again and again to the cutter table, which holds the double of it or the half on the target: what the last digit loses adds up";
+        let what = "a computed amount may be added here repeatedly to the cutter table, and the target's \
+                    table holds twice or half of it: the loss in the last digit adds up";
         (Code::NoEquivalent, what)
     } else {
-        let what = "a computed amount may be added here to the cutter table, which holds the double of it or the half on the target: half an increment may be lost in each run of the program";
+        let what = "a computed amount may be added here to the cutter table, and the target's table holds \
+                    twice or half of it: each run of the program may lose half an increment";
         (Code::Conditional, what)
     };
     let help = "write the whole value under G90, or round the amount so that it can be halved";

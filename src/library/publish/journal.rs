@@ -93,10 +93,10 @@ pub(super) fn is_staged(path: &Path) -> bool {
 /// Why a file cannot have this path, if it cannot: journals are text, and some names are those of a run under way.
 pub(super) fn unfit(path: &Path) -> Option<&'static str> {
     if path.to_str().is_none() {
-        return Some("its path is no text in UTF-8");
+        return Some("its path is not UTF-8");
     }
     let is_own = is_staged(path) || path.components().any(|part| part.as_os_str() == FOLDER);
-    is_own.then_some("macroglot itself has such names while it writes")
+    is_own.then_some("macroglot uses such names itself while it writes")
 }
 
 /// Writes everything aside.

@@ -70,7 +70,10 @@ pub struct Outdated {
 
 /// Why a manifest could not be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{0}: {1}. Mend it, or delete it: then macroglot no longer knows which files of the folder it wrote")]
+#[error(
+    "{0}: {1}. Correct it, or delete it: then macroglot no longer knows which files of the folder it \
+         wrote"
+)]
 pub struct ManifestError(PathBuf, String);
 
 const VERSION: u32 = 1;
@@ -104,7 +107,7 @@ impl Manifest {
             !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
         };
         if let Some(name) = manifest.files.keys().find(|name| !is_plain(name)) {
-            return Err(ManifestError(path, format!("names '{name}', which is no file of the folder")));
+            return Err(ManifestError(path, format!("names '{name}', which is not a file of the folder")));
         }
         if manifest.version != VERSION {
             let why = format!("is of version {}, this macroglot writes version {VERSION}", manifest.version);

@@ -48,7 +48,8 @@ pub enum OutputError {
     Collision(String, String, PathBuf),
     /// A file that is to stand beside one of an earlier run, which would be the same on some file systems.
     #[error(
-        "{}: an earlier run wrote {}, and some file systems do not tell the two apart; nothing was written. Take that away first: --prune does where its source is gone", spelled(.0), spelled(.1)
+        "{}: an earlier run wrote {}, and some file systems do not tell the two apart; nothing was \
+         written. Remove that file first; if its source is gone, --prune does it", spelled(.0), spelled(.1)
     )]
     Twin(String, String),
     /// A file that would overwrite an input.
@@ -58,13 +59,13 @@ pub enum OutputError {
     #[error("'{0}' cannot be the name of a conversion: {1}; nothing was written. Rename its source")]
     Unfit(String, &'static str),
     /// A place outside the output folder.
-    #[error("'{0}' would be written outside the output folder; nothing was written")]
+    #[error("'{0}' would be outside the output folder; nothing was written")]
     Outside(String),
     /// A place that cannot be written.
     #[error("{0}: cannot be written: {1}; nothing was written")]
     Unwritable(PathBuf, io::Error),
     /// A file that nobody may change.
-    #[error("{0}: is read-only; nothing was written. Say --force to replace it")]
+    #[error("{0}: is read-only; nothing was written. Use --force to replace it")]
     ReadOnly(PathBuf),
     /// What an interrupted run left, and what is wrong with it; the folder of that run.
     #[error(
@@ -73,7 +74,8 @@ pub enum OutputError {
     Unrecovered(PathBuf, String, PathBuf),
     /// A set that is half in its place, and could not be taken back.
     #[error(
-        "{0}: could not be written ({1}), nor brought back to what it was ({2}). Mend that and run the same again: it begins with that"
+        "{0}: could not be written ({1}), nor restored ({2}). Correct the cause and run the same command \
+         again: it starts with restoring the file"
     )]
     HalfWay(PathBuf, io::Error, io::Error),
 }

@@ -26,7 +26,7 @@ pub fn recover(folder: &Path) -> Result<Recovered, OutputError> {
         Err(_) => return Ok(Recovered::Nothing),
         Ok(facts) if facts.is_dir() => {}
         Ok(_) => {
-            let what = "it is no folder, and macroglot needs that name: give it another";
+            let what = "it is not a folder, and macroglot needs that name: rename it";
             return Err(OutputError::Unwritable(work, io::Error::other(what)));
         }
     }
@@ -67,7 +67,7 @@ fn is_all_ours(work: &Path) -> Result<(), OutputError> {
         let entry = entry.map_err(fault)?;
         let is_folder = entry.file_type().map_err(fault)?.is_dir();
         if is_folder || !entry.file_name().to_str().is_some_and(is_known) {
-            let what = "is nothing that a run of macroglot leaves there".into();
+            let what = "is not something that a run of macroglot leaves there".into();
             return Err(OutputError::Unrecovered(entry.path(), what, work.to_owned()));
         }
     }
@@ -95,7 +95,7 @@ fn read<T: DeserializeOwned>(work: &Path, name: &str) -> Result<Option<T>, Outpu
 }
 
 fn foreign(work: &Path, name: &str, named: &Path) -> OutputError {
-    let what = format!("names {}, as no run of macroglot does", named.display());
+    let what = format!("names {}, and no run of macroglot does that", named.display());
     OutputError::Unrecovered(work.join(name), what, work.to_owned())
 }
 

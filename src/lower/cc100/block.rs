@@ -48,7 +48,7 @@ impl Lowering<'_> {
                     said = true;
                 }
                 ItemKind::Word(_) if jumped => {
-                    let message = "no source says what words behind a jump do";
+                    let message = "no source says what words after a jump do";
                     self.findings.not_understood(item.span, message);
                 }
                 _ => said |= self.statement(item, &site),
@@ -177,12 +177,13 @@ impl Lowering<'_> {
                 _ => false,
             };
             if clash {
-                let message = "no source says whether a word of this block sees the value before or after it";
+                let message = "no source says whether a word of this block uses the value from before or \
+                               after the assignment";
                 self.findings.not_understood(item.span, message);
             }
             if !words.is_empty() && reads_machine(item) {
                 let message =
-                    "no source says whether this reads the machine before or after the block's words";
+                    "no source says whether this reads the machine before or after the block's words act";
                 self.findings.not_understood(item.span, message);
             }
         }

@@ -97,7 +97,7 @@ fn check(before: State, nc: &Nc, span: crate::text::Span, findings: &mut Finding
     let motion = nc.ops().find(|op| op.group() == Group::Motion && !op.is_cycle() && *op != Op::CycleOff);
     match before {
         State::Unknown if motion.is_some() || nc.moves() => {
-            let message = "a drilling cycle is in force on some of the ways that lead here only";
+            let message = "a drilling cycle is in force on some paths to this block and not on others";
             findings.add(Diagnostic::new(Code::ModalConflict, span, message));
         }
         State::On(_) | State::OnMixed if motion.is_some() => {

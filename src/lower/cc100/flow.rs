@@ -43,7 +43,7 @@ impl Lowering<'_> {
         } else if self.repeated.contains(&label)
             && self.findings.only(Question::GotoFirstLabel, "true", span).is_none()
         {
-            let message = format!("${label} stands more than once; the first one is taken");
+            let message = format!("${label} is in the program more than once: the first one is taken");
             self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
         }
         found

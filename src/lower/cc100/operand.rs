@@ -50,7 +50,7 @@ impl Lowering<'_> {
             BareLength::Increments if number < 0.0 => Some(Expr::Negate(Box::new(Expr::Increments(-number)))),
             BareLength::Increments => Some(Expr::Increments(number)),
             BareLength::Unknown => {
-                self.findings.not_understood(span, "no source says what a number without a point counts");
+                self.findings.not_understood(span, "no source says which unit a number without a point has");
                 None
             }
         }
@@ -70,7 +70,8 @@ impl Lowering<'_> {
                     return None;
                 }
                 None => {
-                    let why = "the arc of a positive radius is not known, and a variable may be positive";
+                    let why = "a radius from a variable may be positive, and no source says which arc \
+                               that means";
                     self.findings.unconfirmed(Question::ArcRadiusPositive.fact().into(), Some(why), span);
                 }
             }

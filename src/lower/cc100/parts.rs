@@ -20,7 +20,7 @@ pub fn check(program: &Program, ends: &BTreeSet<Span>, findings: &mut Findings<'
     for (block, _) in program.blocks.iter().zip(&main).filter(|(_, main)| **main) {
         let span = block.term.site.span;
         if matches!(block.term.kind, TermKind::Return { .. }) && !ends.contains(&span) {
-            findings.not_understood(span, "no source says what a return does where no part was called");
+            findings.not_understood(span, "no source says what a return does when no part was called");
         }
     }
     // One walk over all called parts together: which of them a block belongs to does not matter.
@@ -37,7 +37,7 @@ pub fn check(program: &Program, ends: &BTreeSet<Span>, findings: &mut Findings<'
         }
         for to in block.term.kind.successors() {
             if main.get(to.index()) == Some(&true) {
-                let message = "this goes from a called part into the main part";
+                let message = "this jump goes from a called part into the main part";
                 findings.add(Diagnostic::new(Code::SubroutineLeft, span, message));
             }
             work.push(to.index());

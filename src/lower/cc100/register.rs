@@ -158,11 +158,11 @@ fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findi
     let span = block.term.site.span;
     let control = findings.control();
     if state.from & OUTSIDE != 0 {
-        let message = "the condition register may be set outside this program here";
+        let message = "the condition register may have been set outside this program";
         findings.add(Diagnostic::new(Code::RegisterUnset, span, message));
     }
     if state.may(Source::Flag) && !matches!(relation, Relation::Equal | Relation::NotEqual) {
-        let message = "a test of the machine's state is zero or not; its sign is in no source";
+        let message = "a test of the machine's state tells zero from not zero; no source gives its sign";
         findings.not_understood(span, message);
     }
     if state.may(Source::Arithmetic)
@@ -174,7 +174,8 @@ fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findi
         match control.behaviour(Question::LoadSetsCondition).filter(|row| row.value != "unknown") {
             Some(row) => findings.rest_on(row, span),
             None => {
-                let why = "a load between the arithmetic and this jump is taken to leave the register alone";
+                let why = "a load between the arithmetic and this jump is taken to leave the register as \
+                           it is";
                 findings.unconfirmed(Question::LoadSetsCondition.fact().into(), Some(why), span);
             }
         }

@@ -25,7 +25,7 @@ impl Lowering<'_> {
         for cell in cells {
             let Some(variable) = self.variable(&cell.variable) else { continue };
             let Some(place) = self.cell(&store, cell, span) else {
-                let message = format!("the table has no {} to read or write here", cell.letter);
+                let message = format!("this table has no {} to read or write", cell.letter);
                 self.findings.not_understood(span, message);
                 continue;
             };
@@ -116,7 +116,7 @@ impl Lowering<'_> {
             _ => None,
         });
         let (Some(row), Some(group)) = (row, group) else {
-            self.findings.not_understood(span, "whether this code is in force has no common name");
+            self.findings.not_understood(span, "no other control can read whether this code is in force");
             return None;
         };
         self.findings.rest_on(row, span);
@@ -131,12 +131,12 @@ impl Lowering<'_> {
             ('M', Some(Units::Metric)) => Some(Expr::Number(0.0)),
             ('M', Some(Units::Inch)) => Some(Expr::Number(1.0)),
             ('M', None) => {
-                let message = "the units are a setting of the machine; give 'units' in its profile";
+                let message = "the unit is a setting of the machine: put `units` into its profile";
                 self.findings.not_understood(span, message);
                 None
             }
             _ => {
-                self.findings.not_understood(span, "whether an axis is mirrored has no common name");
+                self.findings.not_understood(span, "no other control can read whether an axis is mirrored");
                 None
             }
         }

@@ -68,7 +68,7 @@ impl Lowering<'_> {
                 if *function == Func::Atan
                     && self.findings.behaviour(Question::AtanRange, written.span).is_none()
                 {
-                    let why = "no source says which of the angles of a tangent it yields";
+                    let why = "no source says which of the angles with this tangent it gives";
                     self.findings.unconfirmed(Question::AtanRange.fact().into(), Some(why), written.span);
                 }
                 let arguments: Option<ThinVec<Expr>> = arguments.iter().map(|a| self.operand(a)).collect();
@@ -87,7 +87,11 @@ impl Lowering<'_> {
             ExprKind::Variable(variable) if variable.index != Index::None => {
                 self.variable(variable).map(Expr::Var)
             }
-            ExprKind::Variable(_) => self.unknown(written, "an active value can only be copied"),
+            ExprKind::Variable(_) => self.unknown(
+                written,
+                "an active value can only be copied: copy it to a \
+                                                            variable first",
+            ),
             ExprKind::Number(_) => self.unknown(written, "the number is too large for any control"),
             ExprKind::Negate(_) => self.unknown(written, "a variable takes no sign on this control"),
             _ => self.unknown(written, "an assignment has one operation on this control"),

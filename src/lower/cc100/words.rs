@@ -48,7 +48,10 @@ impl<'a> Lowering<'a> {
                 Meaning::Code(row, number) if row.op.is_flow() => {
                     let flow = self.flow_of(row, (word.letter, *number), words, &meanings, *span);
                     if plan.flow.is_some() {
-                        self.findings.not_understood(*span, "a block can go on at one place only");
+                        self.findings.not_understood(
+                            *span,
+                            "this block jumps, calls or ends twice: only one can happen",
+                        );
                     }
                     plan.flow = plan.flow.or(flow);
                 }
@@ -109,12 +112,13 @@ impl<'a> Lowering<'a> {
                 continue;
             }
             let Some(number) = *number else {
-                let message = format!("which {} code this is turns out at run time only", word.letter);
+                let message =
+                    format!("the number of this {} code is computed: write the number", word.letter);
                 self.findings.not_understood(*span, message);
                 return None;
             };
             let Some(row) = self.control.code(word.letter, number, &letters) else {
-                let message = format!("the control has no {}{number} that is known", word.letter);
+                let message = format!("no source names {}{number} for this control", word.letter);
                 self.findings.not_understood(*span, message);
                 return None;
             };
@@ -161,9 +165,9 @@ impl<'a> Lowering<'a> {
     fn told_by_variable(&mut self, word: &Word, what: &str, span: Span) {
         let Some(value) = &word.value else { return };
         let why = if self.constants.sure(value).is_none() {
-            "all that its variable is given"
+            "the only value that the program gives its variable"
         } else if self.constants.is_given_above(value) {
-            "which its variable is given above: another number put there changes nothing here"
+            "the value that its variable gets above: if you change that value, convert again"
         } else {
             return;
         };
@@ -235,7 +239,7 @@ impl<'a> Lowering<'a> {
     fn label_of(&mut self, word: Option<(&Word, Span)>, span: Span) -> Option<(u32, Span)> {
         let label = word.and_then(|(word, _)| self.whole(word)).and_then(whole_label);
         let Some(label) = label else {
-            self.findings.not_understood(span, "the label that this goes to is not a known number");
+            self.findings.not_understood(span, "the label that this goes to is computed: write its number");
             return None;
         };
         let at = word.map_or(span, |(_, span)| span);

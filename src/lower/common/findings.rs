@@ -32,7 +32,7 @@ struct Told {
 
 /// What is said of a construct that is not converted for a control which answers a question so.
 pub fn otherwise(question: Question, answer: &str) -> String {
-    format!("this is not converted where '{question}' is '{answer}' ({})", question.meaning())
+    format!("'{question}' is '{answer}' on this control ({}): that is not converted", question.meaning())
 }
 
 impl<'c> Findings<'c> {

@@ -55,7 +55,7 @@ impl<'b> Lowering<'b> {
                 }
                 ItemKind::Skip(_) if items.iter().take(at).any(says_something) => {
                     let _ = self.rely(Question::SkipMidblock, item.span);
-                    return self.refuse(item.span, "a block skip in mid-block");
+                    return self.refuse(item.span, "a block skip in the middle of a block: put it first");
                 }
                 kind if says_something(item) && !matches!(kind, ItemKind::Program(_)) => {
                     return self.refuse(item.span, "NC words and macro statements cannot share a block");
@@ -80,14 +80,17 @@ impl<'b> Lowering<'b> {
         }
         let by_variable = |step: &Step<'_>| matches!(step, Step::Local(value) if constant(value).is_none());
         if axes && steps.iter().any(by_variable) {
-            return self
-                .refuse(span, "whether L repeats the move or calls a subroutine depends on its variable");
+            return self.refuse(
+                span,
+                "L takes its value from a variable: it may repeat the move or call a \
+                               subroutine",
+            );
         }
         if axes && steps.iter().any(|step| matches!(step, Step::Local(_))) && !codes.has(Op::CallModal) {
             self.suppose(Question::CallAfterWords, "true", span);
         }
         if codes.has(Op::CallModal) && !steps.iter().any(|step| matches!(step, Step::Local(_))) {
-            return self.refuse(span, "G66 stands without the subroutine that it calls");
+            return self.refuse(span, "G66 does not name the subroutine that it calls");
         }
         for step in steps {
             self.step(step, items, codes, span)?;
@@ -123,7 +126,7 @@ impl<'b> Lowering<'b> {
         };
         if self.hangs_on_cycle(word, role, reading.codes) {
             let message = format!(
-                "what {} means hangs on the drilling cycle, and which is in force differs",
+                "{} depends on the drilling cycle in force, and the paths to this block have different ones",
                 word.letter
             );
             return self.conflict(item.span, &message);
@@ -135,8 +138,7 @@ impl<'b> Lowering<'b> {
             // An operand of a flow code, which takes it.
             let taken = reading.codes.known().any(|row| matches!(row.op, Op::CallProgram | Op::Return));
             if !taken {
-                return self
-                    .refuse(item.span, format!("{} stands beside no code that takes it", word.letter));
+                return self.refuse(item.span, format!("no code of this block takes {}", word.letter));
             }
             return Some(());
         }
@@ -181,8 +183,7 @@ impl<'b> Lowering<'b> {
         if constant(value).is_none() {
             let value = self.nc_value(value, None)?;
             note_reads(&value, &mut reading.read);
-            let message =
-                format!("a computed {} code: what it does is not known before it runs", word.letter);
+            let message = format!("the number of this {} code is computed: write the number", word.letter);
             reading.items.push(NcItem::Code(word.letter, value));
             return self.refuse(item.span, message);
         }
@@ -193,7 +194,7 @@ impl<'b> Lowering<'b> {
             if let Some(setting) = self.control.code_under(word.letter, number) {
                 let setting = setting.trim_start_matches("setting.");
                 finding = finding
-                    .with_help(format!("it has one with {setting} under [settings] in the machine profile"));
+                    .with_help(format!("it has one if the machine profile has {setting} under [settings]"));
             }
             self.findings.add(finding);
             return None;
@@ -203,7 +204,7 @@ impl<'b> Lowering<'b> {
             op if op.is_flow() => return Some(()),
             Op::WriteVariable => return self.write_variable(item, reading),
             Op::ReadOffset => {
-                return self.refuse(item.span, "which table is read into which variables is not known");
+                return self.refuse(item.span, "no source says which table is read into which variables");
             }
             _ => {}
         }
@@ -217,7 +218,7 @@ impl<'b> Lowering<'b> {
         let first = f64::from(FIRST_WRITTEN);
         let row = reading.codes.number('L').filter(|row| (first..first + 10.0).contains(row));
         let Some(number) = row else {
-            return self.refuse(item.span, "which variable is written is not known");
+            return self.refuse(item.span, "the block does not say which variable it writes");
         };
         let Some(value) = reading.codes.value('P') else {
             return self.refuse(item.span, "the value to write is missing");
@@ -250,7 +251,7 @@ impl<'b> Lowering<'b> {
         let lowered = self.nc_value(value, role)?;
         if reading.read.contains(&var) {
             return self
-                .refuse(target.span, format!("R{number} is set behind a word of its block that reads it"));
+                .refuse(target.span, format!("R{number} is set in this block after a word that reads it"));
         }
         let Some(role) = role else {
             self.scratches_plane(&place, target.span);
@@ -262,7 +263,10 @@ impl<'b> Lowering<'b> {
         reading.items.push(NcItem::Word(role, lowered.clone()));
         reading.assigned.push((var, target.span));
         if matches!(lowered, Expr::Increments(_)) {
-            let message = format!("what R{number} holds is not known: write a decimal point");
+            let message = format!(
+                "no source says what R{number} holds after a number without a decimal \
+                                   point: write the point"
+            );
             return self.refuse(target.span, message);
         }
         self.assign(place, lowered);

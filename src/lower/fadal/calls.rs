@@ -46,7 +46,7 @@ impl<'b> Lowering<'b> {
             Step::Local(value) => self.local(value, codes, span)?,
             Step::Program => {
                 let Some(program) = operand(items, codes, Role::Program) else {
-                    return self.refuse(span, "M98 needs the program's number in P");
+                    return self.refuse(span, "M98 needs the program number in P");
                 };
                 let callee = match program_number(program) {
                     Some(number) => Callee::Program(ProgramName::Number(number)),
@@ -66,7 +66,8 @@ impl<'b> Lowering<'b> {
             }
             Step::ModalOff => {
                 if self.state.modal == 0 && !self.state.in_modal {
-                    let what = "no modal call is begun before this block; only a caller's can end here";
+                    let what = "no modal call begins before this block: this can end only a modal call of \
+                                a caller";
                     self.findings.add(Diagnostic::new(Code::ModalCallNotOpen, span, what));
                 }
                 self.push(StmtKind::ModalCallOff);
@@ -92,7 +93,8 @@ impl<'b> Lowering<'b> {
     fn definition(&mut self, number: u32, span: Span) -> Option<()> {
         let Some(here) = self.shape.begins(self.at) else {
             let message = format!(
-                "L{number}00 defines a subroutine, and is neither alone in its block nor at the head of the program"
+                "L{number}00 defines a subroutine, but it is not alone in its block at the head of the \
+                 program"
             );
             return self.refuse(span, message);
         };
@@ -111,7 +113,7 @@ impl<'b> Lowering<'b> {
     /// `M99`, `M99 P10`.
     fn back(&mut self, items: &'b [Item], codes: &Codes<'b, 'b>, span: Span) -> Option<()> {
         if self.shape.region(self.at).is_some() {
-            let message = "M99 inside a subroutine that M17 ends";
+            let message = "M99 inside a subroutine: M17 ends it";
             self.once(Code::SubroutineLeft, "return", span, message.into());
         }
         let Some(to) = operand(items, codes, Role::Sequence) else {
@@ -167,7 +169,8 @@ impl<'b> Lowering<'b> {
                     self.findings.not_understood(span, otherwise(Question::GotoForwardFirst, "true"));
                 }
                 Goal::Sequence(number) => {
-                    let message = format!("N{number} stands {times} times; the first one is taken");
+                    let message =
+                        format!("N{number} is in the program {times} times: the first one is taken");
                     self.once(Code::TargetTwice, &message, span, message.clone());
                 }
                 Goal::Label(_) => {
@@ -198,7 +201,8 @@ impl<'b> Lowering<'b> {
             return Some(());
         }
         if codes.has(Op::CallModal) {
-            return self.refuse(span, "a modal call of a subroutine with a computed number");
+            return self
+                .refuse(span, "a modal call of a subroutine with a computed number: write the number");
         }
         let mut subs: Vec<u32> = known.iter().map(|number| parts(*number).0).collect();
         if values.is_any() {
@@ -218,12 +222,14 @@ impl<'b> Lowering<'b> {
         if subs.is_empty() {
             return self.refuse(
                 span,
-                "which subroutine is called is known only when the program runs, and the program has none of its own",
+                "the number of the called subroutine is computed, and the program has no subroutines of \
+                 its own",
             );
         }
         let names: Vec<String> = subs.iter().map(|sub| format!("L{sub}01 to L{sub}99")).collect();
         let message = format!(
-            "which subroutine is called is known only when the program runs: it must be one of {}; the target stops at any other number with an alarm",
+            "the number of the called subroutine is computed: it must be one of {}; at any other number \
+             the target stops with an alarm",
             names.join(", ")
         );
         self.once(Code::Conditional, "open", span, message);
@@ -291,7 +297,9 @@ impl<'b> Lowering<'b> {
         if !(100.0..10_000.0).contains(&number) || number.fract() != 0.0 || count == 0 {
             return self.refuse(
                 span,
-                format!("L{number} calls nothing: a call is the subroutine's number and two digits of count"),
+                format!(
+                    "L{number} calls nothing: write the subroutine's number and two digits for the count"
+                ),
             );
         }
         if let Some(place) = self.shape.sub(sub) {
@@ -300,7 +308,7 @@ impl<'b> Lowering<'b> {
         }
         if sub >= FIRST_FIXED {
             let name = sub * 100 + 1;
-            let message = format!("L{name} is a subroutine of the maker's, kept in the control");
+            let message = format!("L{name} is a fixed subroutine that the maker keeps in the control");
             self.once(Code::FixedSubroutine, &name.to_string(), span, message);
             return Some(Callee::Cycle(name));
         }

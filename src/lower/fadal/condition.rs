@@ -55,7 +55,7 @@ impl<'b> Lowering<'b> {
     /// A number in place of a condition.
     fn number(&mut self, e: &syntax::Expr) -> Option<Cond> {
         if self.rely(Question::NumberIsCondition, e.span) == Some("false") {
-            return self.refuse(e.span, "a number is no condition");
+            return self.refuse(e.span, "a number is not a condition: write a comparison");
         }
         let value = self.expr(e)?;
         Some(Cond::Compare(Relation::NotEqual, value, Expr::Number(0.0)))

@@ -31,11 +31,13 @@ impl<'b> Lowering<'b> {
             ExprKind::Variable(var) => self.read(var)?,
             ExprKind::Plus(inner) | ExprKind::Group(inner) => self.nested(inner, depth + 1)?,
             ExprKind::Negate(inner) => negate(self.nested(inner, depth + 1)?),
-            ExprKind::Not(_) => return self.refuse(e.span, "NOT is no value, only a condition"),
+            ExprKind::Not(_) => {
+                return self.refuse(e.span, "NOT gives no value: it stands in conditions only");
+            }
             ExprKind::Binary(op, a, b) => {
                 let Some(op) = arithmetic(*op) else {
                     let _ = self.rely(Question::ComparisonIsValue, e.span);
-                    return self.refuse(e.span, "a comparison is no value here, only a condition of IF");
+                    return self.refuse(e.span, "a comparison gives no value here: it stands in IF only");
                 };
                 if op == BinOp::Div && divides_whole(a, b) {
                     self.suppose(Question::IntegerDivides, "false", e.span);
@@ -96,7 +98,7 @@ impl<'b> Lowering<'b> {
             [] => false,
             [radians] => *radians,
             _ => {
-                let message = "angles are degrees on one way that leads here and radians on another";
+                let message = "angles are in degrees on one path to this block and in radians on another";
                 self.findings.add(
                     Diagnostic::new(Code::ModalConflict, span, message)
                         .with_help("put SET DEGREES before it"),
@@ -117,7 +119,7 @@ impl<'b> Lowering<'b> {
             [] => 0,
             [places] => *places,
             _ => {
-                let message = "the ways that lead here set different places for RND";
+                let message = "the paths to this block set different places for RND";
                 self.findings.add(
                     Diagnostic::new(Code::ModalConflict, span, message).with_help("put SET RND before it"),
                 );
@@ -125,7 +127,7 @@ impl<'b> Lowering<'b> {
             }
         };
         if self.state.places_called {
-            let message = "takes it that the programs called since SET RND leave the places as they were";
+            let message = "the programs called since SET RND are taken to leave the places as they were";
             self.once(Code::ModalAssumed, "places", span, message.into());
         }
         if places != DEFAULT_PLACES {
@@ -134,8 +136,10 @@ impl<'b> Lowering<'b> {
         let stated =
             self.findings.behaviour(Question::RoundPlacesDefault, span).and_then(|value| value.parse().ok());
         if stated.is_none() {
-            let message = "no SET RND leads here, and the places that RND keeps by default are not known";
-            let help = "put SET RND before it, or state 'round.places.default' for the machine";
+            let message = "no SET RND comes before this, and it is not known how many places RND keeps by \
+                           default";
+            let help = "put SET RND before it, or 'round.places.default' under [behaviours] in the \
+                        machine profile";
             self.findings.add(Diagnostic::new(Code::ModalConflict, span, message).with_help(help));
         }
         stated

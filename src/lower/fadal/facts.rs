@@ -63,7 +63,8 @@ impl<'b> Lowering<'b> {
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
                 if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
                     if self.plane_by_word {
-                        let what = "which retract plane this cycle takes after a word R is not known: write it as R0 with its sign";
+                        let what = "after a word R it is not known which retract plane this cycle takes: \
+                                    write R0 with its sign";
                         self.findings.not_understood(span, what);
                     }
                     self.suppose(Question::CycleR0Kept, "true", span);

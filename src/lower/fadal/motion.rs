@@ -81,7 +81,7 @@ impl<'b> Lowering<'b> {
             return if shown.centre { self.no_arc(span) } else { Some(Spelling::default()) };
         }
         if self.state.motion.is_any() {
-            return self.conflict(span, "too many motion modes may be in force here");
+            return self.conflict(span, "too many different motion modes may be in force here");
         }
         let modes = self.modes(codes);
         let arcs: Vec<Op> = modes.iter().map(|row| row.op).filter(|op| is_arc(*op)).collect();
@@ -90,14 +90,14 @@ impl<'b> Lowering<'b> {
         }
         if arcs.is_empty() {
             if self.state.motion_entry && shown.centre {
-                return self.conflict(span, "the caller's motion mode decides which way this arc goes");
+                return self.conflict(span, "the caller's motion mode decides the direction of this arc");
             }
             if shown.centre && !modes.is_empty() && !mixed {
                 return self.no_arc(span);
             }
             if self.state.motion_entry {
-                let message =
-                    "moves in the motion mode of its caller; under an arc mode it would be straight";
+                let message = "this moves in the caller's motion mode; if that is an arc mode, the conversion moves \
+                     straight";
                 self.once(Code::ModalAssumed, "entry", span, message.into());
             }
             if mixed && self.state.after_cycle {
@@ -112,7 +112,7 @@ impl<'b> Lowering<'b> {
             return self.conflict(span, "an arc mode or the caller's motion mode may be in force here");
         }
         if self.state.motion_called {
-            let message = "takes it that the programs called since G2 or G3 leave the motion mode as it was";
+            let message = "the programs called since G2 or G3 are taken to leave the motion mode as it was";
             self.once(Code::ModalAssumed, "called", span, message.into());
         }
         if shown.centre {
@@ -137,7 +137,8 @@ impl<'b> Lowering<'b> {
             self.suppose(Question::MotionAfterCycle, "kept", span);
         }
         if self.state.motion_called {
-            let message = "moves in the motion mode from before the cycle, or in one that a program called since has set";
+            let message = "this moves in the motion mode from before the cycle, or in one that a program \
+                           called since then has set";
             self.once(Code::ModalAssumed, "called", span, message.into());
             return Spelling::default();
         }
@@ -150,14 +151,14 @@ impl<'b> Lowering<'b> {
     /// A block under an arc mode without centre and radius.
     fn straight(&mut self, span: Span) -> Option<Op> {
         if self.rely(Question::ArcWithoutCentre, span) != Some("straight") {
-            return self.refuse(span, "an arc without centre and radius");
+            return self.refuse(span, "an arc without a centre or a radius");
         }
         self.spelled_out = true;
         Some(Op::Linear)
     }
 
     fn no_arc<T>(&mut self, span: Span) -> Option<T> {
-        self.refuse(span, "the centre or radius of an arc in a block that is none")
+        self.refuse(span, "the block has the centre or radius of an arc, but it is not an arc")
     }
 
     pub fn conflict<T>(&mut self, span: Span, message: &str) -> Option<T> {

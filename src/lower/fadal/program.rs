@@ -175,7 +175,10 @@ impl<'b> Lowering<'b> {
             if sub.followed {
                 self.suppose(Question::SubEndsAtNext, "true", self.site.span);
             } else {
-                let message = format!("the subroutine L{}00 runs into the end of its area", sub.number);
+                let message = format!(
+                    "the subroutine L{}00 runs into the end of its area: end it with M17",
+                    sub.number
+                );
                 self.once(Code::SubroutineLeft, "area", self.site.span, message);
             }
             self.builder.end(TermKind::Return { to: None }, SourceInfo::default());
@@ -212,7 +215,7 @@ impl<'b> Lowering<'b> {
         let shape = self.shape;
         let Some(last) = shape.subs.last() else { return self.note_modes() };
         if shape.area_end.is_none() {
-            let message = format!("no M30 closes the subroutines L{:02}00 and before", last.number);
+            let message = format!("no M30 closes the subroutines up to L{:02}00", last.number);
             self.findings.add(Diagnostic::new(Code::SubroutineArea, self.site.span, message));
         }
         self.note_modes();
@@ -220,7 +223,8 @@ impl<'b> Lowering<'b> {
 
     fn note_modes(&mut self) {
         if let (true, Some(span)) = (self.spelled_out, self.reads_motion) {
-            let message = "reads the motion mode, which is written as G1 where an arc mode moves straight: write G1 there";
+            let message = "this reads the motion mode, and the conversion writes G1 for a straight move \
+                           in an arc mode: write G1 there yourself";
             self.findings.not_understood(span, message);
         }
     }

@@ -72,7 +72,7 @@ impl<'b> Lowering<'b> {
             ItemKind::Wait => self.push(StmtKind::Sync),
             ItemKind::Start(program) => {
                 let Some(number) = program_number(program) else {
-                    return self.refuse(item.span, "START needs a program's number");
+                    return self.refuse(item.span, "START needs a program number");
                 };
                 self.end(TermKind::Chain(ProgramName::Number(number)));
             }
@@ -81,7 +81,7 @@ impl<'b> Lowering<'b> {
                 self.findings.add(Diagnostic::new(Code::Indexer, item.span, message));
                 return None;
             }
-            _ => return self.refuse(item.span, "the statement is none of this control"),
+            _ => return self.refuse(item.span, "this control has no such statement"),
         }
         Some(())
     }
@@ -100,7 +100,7 @@ impl<'b> Lowering<'b> {
         let said: Vec<&Item> = body.iter().filter(|item| says_something(item)).collect();
         if said.iter().any(|item| matches!(item.kind, ItemKind::Word(_))) {
             let _ = self.rely(Question::ThenWords, span);
-            return self.refuse(span, "NC words cannot stand behind THEN");
+            return self.refuse(span, "NC words cannot follow THEN");
         }
         if let [Item { kind: ItemKind::Goto(target), .. }] = said.as_slice() {
             let then = self.jump_to(target, span)?;
@@ -168,7 +168,7 @@ impl<'b> Lowering<'b> {
                     self.assign(place, Expr::Number(0.0));
                     continue;
                 }
-                return self.refuse(from.span, "CLEAR takes variables, ranges of them, or nothing");
+                return self.refuse(from.span, "CLEAR takes variables, ranges of variables, or nothing");
             };
             let known = self.control.variable_class("V", *first).is_some()
                 && self.control.variable_class("V", *end).is_some();

@@ -68,7 +68,7 @@ impl<'b> Lowering<'b> {
             BareLength::Units => self.findings.rest_on(numbers, span),
             _ => self.findings.unconfirmed(
                 numbers.fact(),
-                Some("no source says what a number without a point counts"),
+                Some("no source says which unit a number without a point has"),
                 span,
             ),
         }
@@ -80,7 +80,7 @@ impl<'b> Lowering<'b> {
         match value.constant() {
             Some(speed) if speed.fract() != 0.0 && self.findings.is(Question::SpindleRangeSuffix, span) => {
                 let message =
-                    format!("S{speed} is {} turns in a belt range that its last digit picks", speed.trunc());
+                    format!("S{speed} is {} rpm; its last digit picks the belt range", speed.trunc());
                 self.once(Code::SpeedRange, &message, span, message.clone());
                 Some(Expr::Number(speed.trunc()))
             }

@@ -51,7 +51,7 @@ impl<'b> Lowering<'b> {
                 self.reads_motion.get_or_insert(var.span);
             }
             if early(*state) && self.state.moved {
-                let message = format!("{} is read while moves may still be to come", var.name);
+                let message = format!("{} may be read before earlier moves are done", var.name);
                 self.early(&var.name, var.span, message);
             }
             if *state == Sys::AxisPosition {
@@ -102,7 +102,11 @@ impl<'b> Lowering<'b> {
             counted && (row.state, &row.fixed, &row.after) == (first.state, &first.fixed, &first.after)
         });
         if !alike {
-            let message = format!("{} with a computed number is not one kind of state", var.name);
+            let message = format!(
+                "{} with a computed number may be different kinds of state: write the \
+                                   number",
+                var.name
+            );
             return self.refuse(var.span, message);
         }
         rows.iter().for_each(|row| self.findings.rest_on(*row, var.span));

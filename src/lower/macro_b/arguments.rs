@@ -77,7 +77,7 @@ impl<'a> Lowering<'a> {
             let value = self.argument(letter, value);
             let set = by_place && matches!(letter, 'I'..='K');
             if !set && words.iter().take(at).any(|(other, _)| !other.comma && other.letter == letter) {
-                let message = format!("{letter} stands twice in this call; the later one is taken");
+                let message = format!("{letter} is in this call twice: the later one is taken");
                 self.findings.add(Diagnostic::new(Code::WordTwice, span, message));
             }
             let before = arguments.len();
@@ -92,7 +92,8 @@ impl<'a> Lowering<'a> {
             match self.findings.behaviour(Question::ArgumentsMixedLaterWins, span) {
                 Some("true") => {}
                 Some(_) => {
-                    let message = "letters of the first specification stand beside repeated or unordered I, J, K: the control takes one kind or the other";
+                    let message = "this call mixes letters of argument list I with repeated or unordered \
+                                   I, J, K: the control takes one kind or the other";
                     self.findings.add(Diagnostic::new(Code::ArgumentsMixed, span, message));
                 }
                 None => self.unknown_behaviour(Question::ArgumentsMixedLaterWins, span),
@@ -157,7 +158,10 @@ impl<'a> Lowering<'a> {
             BareLength::Units => Expr::Number(number),
             BareLength::Unknown => {
                 let fact = row.map_or_else(|| self.control.numbers().fact(), Row::fact);
-                let note = format!("what {letter} counts without a decimal point; it is taken as written");
+                let note = format!(
+                    "no manual says which unit {letter} has without a decimal point; it is \
+                                    taken as written"
+                );
                 self.findings.unconfirmed(fact, Some(&note), value.span);
                 Expr::Number(number)
             }

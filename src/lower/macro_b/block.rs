@@ -122,7 +122,7 @@ impl<'a> Lowering<'a> {
         }
         let contents = Contents::of(&block.items);
         if contents.inserted {
-            self.findings.not_understood(block.span, "'N+' is no sequence number here");
+            self.findings.not_understood(block.span, "'N+' is not a sequence number here");
         }
         let refused = block.errors.iter().any(|error| error.code.severity() == Severity::Error);
         if refused && !contents.loops {
@@ -162,8 +162,8 @@ impl<'a> Lowering<'a> {
         site.skip = None;
         let loops = items.iter().any(|i| matches!(i.kind, ItemKind::Do { .. } | ItemKind::End { .. }));
         if loops || head.len() > 1 || middle.len() > 1 || (!head.is_empty() && !middle.is_empty()) {
-            let message =
-                "this use of the block skip has no one meaning: a loop or a second skip stands with it";
+            let message = "a block skip together with a loop or a second skip: it is not certain what the control \
+                 skips";
             self.findings.add(Diagnostic::new(Code::SkipUnclear, block.span, message));
             return self.builder.push(StmtKind::Remark, site);
         }

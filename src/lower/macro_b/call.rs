@@ -41,7 +41,7 @@ impl<'a> Lowering<'a> {
                 self.flow_word(id, at, words, site);
             }
             _ => {
-                let message = "two codes of this block each leave it, and only one can";
+                let message = "two codes of this block call, jump or end: only one of them can";
                 self.findings.not_understood(site.span, message);
             }
         }
@@ -81,8 +81,7 @@ impl<'a> Lowering<'a> {
                 let mut rest = words.clone();
                 rest.remove(at);
                 if !rest.is_empty() {
-                    let message =
-                        "words stand beside the end of a modal call; they are taken to act after it";
+                    let message = "words beside the end of a modal call: they are taken to act after it";
                     self.findings.add(Diagnostic::new(Code::WordsBesideCall, site.span, message));
                     self.nc(&rest, site);
                 }
@@ -92,7 +91,7 @@ impl<'a> Lowering<'a> {
             Op::JumpInputOff => self.jump_on_input(flow, words, site),
             Op::End | Op::EndRewind => self.ending(flow, words, site),
             _ => {
-                let message = format!("{} has no counterpart in the common form", row.code);
+                let message = format!("{} has no counterpart on other controls", row.code);
                 self.findings.not_understood(site.span, message);
             }
         }
@@ -103,7 +102,8 @@ impl<'a> Lowering<'a> {
         match self.modal_calls.checked_sub(1) {
             Some(left) => self.modal_calls = left,
             None => {
-                let what = "no modal call is begun before this block; only a caller's can end here";
+                let what = "no modal call begins before this block: this can end only a modal call of a \
+                            caller";
                 self.findings.add(Diagnostic::new(Code::ModalCallNotOpen, span, what));
             }
         }
@@ -121,7 +121,7 @@ impl<'a> Lowering<'a> {
                 _ if at == flow.at => {}
                 Some(role) if roles.contains(&role) => {
                     if parts.own.iter().any(|(other, _, _)| *other == role) {
-                        self.findings.not_understood(span, format!("{} stands twice", word.letter));
+                        self.findings.not_understood(span, format!("{} is in this block twice", word.letter));
                     }
                     parts.own.push((role, word, span));
                 }
@@ -184,13 +184,16 @@ impl<'a> Lowering<'a> {
             (None, Some(sequence)) => match sequence.constant().and_then(whole) {
                 Some(number) => Some(Callee::Block(self.target(number, site.span))),
                 None => {
-                    self.findings
-                        .not_understood(site.span, "the block that is called is known only at run time");
+                    self.findings.not_understood(
+                        site.span,
+                        "the number of the called block is computed: write the number",
+                    );
                     None
                 }
             },
             (Some(_), Some(_)) => {
-                self.findings.not_understood(site.span, "a call into the middle of another program");
+                self.findings
+                    .not_understood(site.span, "a call into the middle of another program is not converted");
                 None
             }
             (None, None) => {
@@ -222,7 +225,7 @@ impl<'a> Lowering<'a> {
         match whole(number).filter(|_| number.fract() == 0.0 && number > 0.0) {
             Some(number) => Some(Callee::Program(ProgramName::Number(number))),
             None => {
-                self.findings.not_understood(span, format!("{number} is no program number"));
+                self.findings.not_understood(span, format!("{number} is not a program number"));
                 None
             }
         }
@@ -234,14 +237,14 @@ impl<'a> Lowering<'a> {
         let parts = self.parts(flow, words, &[Role::Program, Role::CallCount, Role::CallAgain]);
         let before = words.iter().take(flow.at).any(|(word, _)| !matches!(word.letter, 'P' | 'L'));
         if before {
-            let message = "words stand before the macro call, which must come first and alone";
+            let message = "words before the macro call: the call must come first, and alone";
             self.findings.add(Diagnostic::new(Code::MacroCallNotAlone, site.span, message));
         }
         let count = self.count(&parts, site);
         let Some(program) = self.part(&parts, Role::Program) else {
             return self
                 .findings
-                .not_understood(site.span, "the macro call has no P: nothing says what it calls");
+                .not_understood(site.span, "the macro call has no P: it does not say what it calls");
         };
         let callee = match program.constant() {
             Some(number) => self.program(number, site.span),
@@ -252,7 +255,8 @@ impl<'a> Lowering<'a> {
             match self.findings.behaviour(Question::CallRepeatReloadsArguments, site.span) {
                 Some("true") => {}
                 Some(_) => {
-                    let message = "the repeats of this call do not set the arguments again: they see what the pass before left";
+                    let message = "the repeats of this call do not set the arguments again: each pass \
+                                   starts with what the pass before left";
                     self.findings.add(Diagnostic::new(Code::RepeatKeepsLocals, site.span, message));
                 }
                 None => self.unknown_behaviour(Question::CallRepeatReloadsArguments, site.span),
@@ -275,7 +279,7 @@ impl<'a> Lowering<'a> {
             return self.call(Call { callee, level, arguments: Vec::new(), count: None }, false, site);
         }
         if at > 0 {
-            let message = "words stand before a code that calls a macro, which must come first and alone";
+            let message = "words before a code that calls a macro: the code must come first, and alone";
             self.findings.add(Diagnostic::new(Code::MacroCallNotAlone, site.span, message));
         }
         let repeat = rest.iter().position(|(word, _)| word.letter == 'L' && !word.comma);
@@ -301,11 +305,18 @@ impl<'a> Lowering<'a> {
         self.motion.joined = true;
         if modal {
             if self.findings.is(Question::CallModalBlockCalls, site.span) {
-                self.findings.not_understood(site.span, "a modal call that calls in its own block");
+                self.findings.not_understood(
+                    site.span,
+                    "on this control the block of a modal call calls \
+                                                         at once: that is not converted",
+                );
             }
             if !self.findings.is(Question::CallModalSetsLocalsOnce, site.span) {
-                self.findings
-                    .not_understood(site.span, "a modal call that sets its arguments again each time");
+                self.findings.not_understood(
+                    site.span,
+                    "on this control a modal call sets its arguments again \
+                                                each time: that is not converted",
+                );
             }
             self.modal_calls += 1;
             return self.builder.push(StmtKind::ModalCall(Box::new(call)), site.clone());

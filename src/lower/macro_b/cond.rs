@@ -70,7 +70,7 @@ impl<'a> Lowering<'a> {
                         Some("true") => {}
                         Some(_) => self
                             .findings
-                            .not_understood(expr.span, "this control joins no conditions by AND and OR"),
+                            .not_understood(expr.span, "this control does not join conditions by AND or OR"),
                         None => self.unknown_behaviour(Question::ConditionAndOr, expr.span),
                     }
                     self.ranks(*op, a, b, true);
@@ -91,7 +91,11 @@ impl<'a> Lowering<'a> {
         let span = expr.span;
         match self.findings.behaviour(Question::NumberIsCondition, span) {
             Some("true") => {}
-            Some(_) => self.findings.not_understood(span, "a number alone is no condition on this control"),
+            Some(_) => self.findings.not_understood(
+                span,
+                "a number alone is not a condition on this \
+                                                           control: write a comparison",
+            ),
             None => self.unknown_behaviour(Question::NumberIsCondition, span),
         }
         let value = self.mixed(expr, depth);
@@ -110,7 +114,7 @@ impl<'a> Lowering<'a> {
             return value;
         }
         let fact = Question::NumberIsCondition.fact().into();
-        let note = "a vacant variable as a condition is taken for false";
+        let note = "a vacant variable as a condition is taken as false";
         self.findings.unconfirmed(fact, Some(note), span);
         Expr::binary(BinOp::Add, value, Expr::Number(0.0))
     }

@@ -124,7 +124,9 @@ impl<'a> Lowering<'a> {
         }
         match self.findings.behaviour(Question::ModRoundsOperands, span) {
             Some("true") => {}
-            Some(_) => self.findings.not_understood(span, "a remainder of fractions"),
+            Some(_) => {
+                self.findings.not_understood(span, "MOD may get fractions here: that is not converted")
+            }
             None => self.unknown_behaviour(Question::ModRoundsOperands, span),
         }
         match self.findings.behaviour(Question::ModSign, span) {
@@ -161,7 +163,7 @@ impl<'a> Lowering<'a> {
     fn truth(&mut self, expr: &'a syntax::Expr, depth: u32) -> Expr {
         match self.findings.behaviour(Question::ComparisonIsValue, expr.span) {
             Some("true") => {}
-            Some(_) => self.findings.not_understood(expr.span, "a comparison is no value on this control"),
+            Some(_) => self.findings.not_understood(expr.span, "a comparison gives no value on this control"),
             None => self.unknown_behaviour(Question::ComparisonIsValue, expr.span),
         }
         Expr::Truth(Box::new(self.cond_at(expr, depth)))

@@ -104,10 +104,10 @@ impl<'a> Lowering<'a> {
         let jump = body.iter().filter(|item| acts(item)).all(|item| matches!(item.kind, ItemKind::Goto(_)));
         let words = body.iter().any(|item| matches!(item.kind, ItemKind::Word(_)));
         if !body.iter().any(acts) {
-            self.findings.not_understood(span, "nothing stands behind the condition");
+            self.findings.not_understood(span, "nothing follows the condition");
         }
         if body.iter().any(|i| matches!(i.kind, ItemKind::Do { .. } | ItemKind::End { .. })) {
-            let message = "a loop cannot begin or end behind a condition";
+            let message = "a loop cannot begin or end after a condition";
             self.findings.add(Diagnostic::new(Code::LoopNotPaired, span, message));
         }
         if bare {
@@ -123,7 +123,7 @@ impl<'a> Lowering<'a> {
         match (self.findings.behaviour(Question::ThenWords, span), words) {
             (Some("true"), _) => {}
             (Some(_), true) => {
-                self.findings.not_understood(span, "behind THEN stands one macro statement, no words");
+                self.findings.not_understood(span, "THEN takes one macro statement, not words");
             }
             (None, true) => self.unknown_behaviour(Question::ThenWords, span),
             (_, false) if !then => {
@@ -165,7 +165,9 @@ impl<'a> Lowering<'a> {
         let input = input.and_then(|input| self.input(input.constant()?));
         let number = number.and_then(|number| crate::ir::eval::whole(number.constant()?));
         let (Some(number), Some(input)) = (number, input) else {
-            return self.findings.not_understood(site.span, "the jump needs constants for block and input");
+            return self
+                .findings
+                .not_understood(site.span, "this jump needs constants for its block and its input");
         };
         let then = self.target(number, site.span);
         let cond = Cond::Compare(Relation::Equal, input, Expr::Number(0.0));

@@ -127,8 +127,8 @@ impl Lowering<'_> {
             return self.builder.fresh();
         };
         if self.enters_loop(index) {
-            let message = format!("the jump goes into the loop that N{number} lies in");
-            let help = "a loop is entered at its WHILE or DO only";
+            let message = format!("the jump goes into the loop around N{number}");
+            let help = "enter the loop at its WHILE or DO";
             self.findings.add(Diagnostic::new(Code::JumpIntoLoop, span, message).with_help(help));
         }
         Label::id(index)
@@ -182,11 +182,11 @@ impl Lowering<'_> {
                 let found = candidates.get(candidates.partition_point(is_behind));
                 (
                     found.map_or(first, |place| place.1),
-                    "the control looks ahead first, then from the head of the program",
+                    "the control searches forward first, then from the head of the program",
                 )
             }
             Some("false") => (first, "the control finds the first one in the program"),
-            _ => (first, "no source says which one the control finds; the first one in the program is taken"),
+            _ => (first, "no source says which one the control finds, so the first one counts"),
         };
         if let Some(row) =
             self.control.behaviour(Question::GotoForwardFirst).filter(|row| row.value != "unknown")
@@ -194,9 +194,7 @@ impl Lowering<'_> {
             self.findings.rest_on(row, span);
         }
         let line = self.labels.list.get(chosen).map_or(0, |label| self.parsed.line_of(label.span.start));
-        let message = format!(
-            "N{number} stands {count} times in this program; {rule}, which is the one in line {line}"
-        );
+        let message = format!("N{number} is in this program {count} times; {rule}: line {line} is taken");
         self.findings.add(Diagnostic::new(Code::TargetTwice, span, message));
         Some(chosen)
     }

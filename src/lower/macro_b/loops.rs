@@ -48,11 +48,7 @@ impl<'a> Lowering<'a> {
             );
         };
         if found + 1 != self.loops.len() {
-            self.loop_error(
-                Code::LoopsCross,
-                span,
-                format!("the range of DO{number} crosses that of another loop"),
-            );
+            self.loop_error(Code::LoopsCross, span, format!("the loop DO{number} crosses another loop"));
         }
         // Loops that it crosses are closed as well: the program is refused, and one error is enough.
         let Some(closed) = self.loops.drain(found..).next() else { return };

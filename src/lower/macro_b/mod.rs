@@ -69,8 +69,7 @@ pub(super) fn lower(parsed: &ParsedFile<'_>, file: usize, control: &Control, fam
         let site = program_site(parsed, &piece);
         let program = builder.finish(piece.name, file, site);
         if signed && let Some(span) = vacancy::signed_word(&program, !control.is(Question::M99PJumpsHere)) {
-            let note =
-                "no source says that a word is dropped whose variable is vacant and has a sign before it";
+            let note = "no source says that the control drops a word with a sign before its vacant variable";
             findings.unconfirmed(Question::BracketVacantWord.fact().into(), Some(note), span);
         }
         programs.push((program, findings.take_list()));

@@ -52,7 +52,7 @@ impl<'a> Lowering<'a> {
             && let Some(role) = explicit(row, word)
         {
             if self.motion.joined && usual.is_none_or(|usual| usual.role != role) {
-                self.assumes(word, span, &format!("'{role}' of {}, which stands above", row.code));
+                self.assumes(word, span, &format!("'{role}' of {} above", row.code));
             }
             return Some((role, Some(row)));
         }
@@ -102,14 +102,19 @@ impl<'a> Lowering<'a> {
                 false
             }
             _ => {
-                self.assumes(word, span, "a word of an arc, which no code of this program is sure to begin");
+                self.assumes(
+                    word,
+                    span,
+                    "a word of an arc, but no code of this program is certain to \
+                                          begin one",
+                );
                 true
             }
         }
     }
 
     fn assumes(&mut self, word: &Word, span: Span, what: &str) {
-        let message = format!("{} is taken as {what}; another code may be in force here", word.letter);
+        let message = format!("{} is taken as {what}; a different code may be in force here", word.letter);
         self.findings.add(Diagnostic::new(Code::ModalAssumed, span, message));
     }
 
@@ -130,8 +135,11 @@ impl<'a> Lowering<'a> {
     fn no_role(&mut self, word: &Word, span: Span, codes: &BlockCodes<'a>) {
         let comma = if word.comma { "," } else { "" };
         if self.foreign_axis(word) {
-            let message = format!("{} is no axis of this machine", word.letter);
-            let help = "name a machine profile with machine = \"lathe\", or one that lists this axis";
+            let message = format!("{} is not an axis of this machine", word.letter);
+            let help = format!(
+                "name a machine profile with machine = \"lathe\", or list {} under 'axes' in the profile",
+                word.letter
+            );
             return self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }
         let beside = match codes.first() {
@@ -162,7 +170,7 @@ impl<'a> Lowering<'a> {
                 'F' if per_turn => "a feed beside G98 or G99 without a cycle",
                 _ => continue,
             };
-            let message = format!("{what} is a lathe's");
+            let message = format!("{what} belongs to a lathe program");
             let help = "name a machine profile with machine = \"lathe\"";
             self.findings.add(Diagnostic::new(Code::LatheProgram, span, message).with_help(help));
         }

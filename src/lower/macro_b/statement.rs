@@ -36,8 +36,7 @@ impl<'a> Lowering<'a> {
             ItemKind::SetNames { first, names } => self.set_names(*first, names, item.span, site),
             ItemKind::Output { binary: false, parts } => self.output(parts, item.span, site),
             ItemKind::Output { binary: true, .. } => {
-                self.findings
-                    .not_understood(item.span, "BPRNT puts out binary words, which nothing else can");
+                self.findings.not_understood(item.span, "BPRNT puts out binary words: no other control can");
             }
             ItemKind::OpenPort => {
                 self.rest_on_statement("output.open", item.span);
@@ -51,7 +50,7 @@ impl<'a> Lowering<'a> {
             ItemKind::Unparsed => self.builder.push(StmtKind::Remark, site.clone()),
             _ => {
                 let text = String::from_utf8_lossy(item.span.of(self.source));
-                self.findings.not_understood(item.span, format!("'{text}' is no statement of this control"));
+                self.findings.not_understood(item.span, format!("this control has no statement '{text}'"));
             }
         }
     }
@@ -94,7 +93,7 @@ impl<'a> Lowering<'a> {
             Some(Expr::Var(first)) => {
                 self.builder.push(StmtKind::SetNames { first, names: names.to_vec() }, site.clone());
             }
-            _ => self.findings.not_understood(span, format!("#{first} is no variable that can be named")),
+            _ => self.findings.not_understood(span, format!("#{first} cannot be given a name")),
         }
     }
 
@@ -106,7 +105,7 @@ impl<'a> Lowering<'a> {
                 Part::Text(text) => {
                     let text = remark_text(*text, self.source);
                     if text.contains(' ') {
-                        let message = "a blank in the text of DPRNT: only '*' is sure to print one";
+                        let message = "a blank in the text of DPRNT: only '*' is certain to print a blank";
                         self.findings.add(Diagnostic::new(Code::OutputBlank, span, message));
                     }
                     out.push(OutputPart::Text(text.replace('*', " ")));

@@ -32,7 +32,8 @@ impl<'a> Lowering<'a> {
         let counted = role.is_length() || role.is_angle();
         let bare = role.is_scale() && !point && number != 0.0;
         if bare && self.findings.behaviour(Question::ScaleBare, value.span).is_none() {
-            let message = "what a scale factor without a decimal point counts is set at the control: write it with its point";
+            let message = "a setting of the control says what a scale factor without a decimal point \
+                           means: write the point";
             self.findings.not_understood(value.span, message);
             return None;
         }
@@ -52,7 +53,7 @@ impl<'a> Lowering<'a> {
         let counts = self.control.bare_feed();
         let open = self.control.feed_is_open();
         if open && counts != BareLength::Unknown {
-            let note = "what is stated of lengths without a decimal point does not reach feeds";
+            let note = "the sources say it of lengths without a decimal point, not of feeds";
             self.findings.unconfirmed(BARE_FEED.into(), Some(note), span);
         } else {
             self.rest_on_numbers(span);
@@ -67,7 +68,10 @@ impl<'a> Lowering<'a> {
             BareLength::Increments => Expr::Increments(number),
             BareLength::Units => Expr::Number(number),
             BareLength::Unknown => {
-                let note = format!("what {what} without a decimal point counts; it is taken as written");
+                let note = format!(
+                    "no manual says which unit {what} without a decimal point has; it is \
+                                    taken as written"
+                );
                 self.findings.unconfirmed(fact.into(), Some(&note), span);
                 Expr::Number(number)
             }
@@ -96,7 +100,7 @@ impl<'a> Lowering<'a> {
             return None;
         }
         if point {
-            let message = format!("{letter} takes a whole number; some controls stop at its decimal point");
+            let message = format!("{letter} takes a whole number: some controls stop at the decimal point");
             self.findings.add(Diagnostic::new(Code::WholeWithPoint, value.span, message));
         }
         Some((role, Expr::Number(self.control.canonical(code, role, number))))
@@ -114,7 +118,11 @@ impl<'a> Lowering<'a> {
         if role.is_length() || role.is_angle() || role == Role::Feed {
             match self.findings.behaviour(Question::WordBareExpression, span) {
                 Some("value") => {}
-                Some(_) => self.findings.not_understood(span, "a computed value that counts increments"),
+                Some(_) => self.findings.not_understood(
+                    span,
+                    "a computed value counts increments on this \
+                                                               control: that is not converted",
+                ),
                 None => self.unknown_behaviour(Question::WordBareExpression, span),
             }
         }
@@ -133,7 +141,11 @@ impl<'a> Lowering<'a> {
             (lowered, None | Some([])) => lowered,
             (lowered, Some([one])) => Expr::binary(BinOp::Add, lowered, Expr::Number(one.add as f64)),
             (lowered, Some(_)) => {
-                self.findings.not_understood(span, "a computed number in a run with several parts");
+                self.findings.not_understood(
+                    span,
+                    "the number is computed, and the numbers of this code \
+                                                    are in several runs: write the number",
+                );
                 lowered
             }
         };

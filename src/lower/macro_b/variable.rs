@@ -58,7 +58,7 @@ impl<'a> Lowering<'a> {
     pub(super) fn target_place(&mut self, variable: &'a VarRef) -> Option<Place> {
         let span = variable.span;
         if let Index::Bit(..) = variable.index {
-            self.findings.not_understood(span, "a single bit cannot be assigned");
+            self.findings.not_understood(span, "a single bit cannot be assigned to");
             return None;
         }
         match self.variable(variable, 0)? {
@@ -96,7 +96,7 @@ impl<'a> Lowering<'a> {
         match &variable.index {
             _ if variable.name != "#" => {
                 self.findings
-                    .not_understood(span, format!("'{}' is no variable of this control", variable.name));
+                    .not_understood(span, format!("this control has no variable '{}'", variable.name));
                 None
             }
             Index::Number(number) => self.numbered(*number, span),
@@ -124,7 +124,7 @@ impl<'a> Lowering<'a> {
         }
         if let Some(var) = user_variable(self.control, self.family, number) {
             if var.number != number {
-                let note = format!("#{number} is taken for #{}, by the newer control's numbers", var.number);
+                let note = format!("#{number} is taken for #{}, as the newer control numbers it", var.number);
                 self.findings.unconfirmed(format!("variable:#{number}"), Some(&note), span);
             }
             return Some(Expr::Var(var));
@@ -184,7 +184,7 @@ impl<'a> Lowering<'a> {
             }
             None => return Expr::Number(0.0),
         };
-        let note = format!("the fraction in #{number}.{bit} is taken for the number of a bit");
+        let note = format!("the fraction in #{number}.{bit} is taken as a bit number");
         self.findings.unconfirmed("statement:read.bit".into(), Some(&note), span);
         let mask = Expr::Number(2f64.powi(bit as i32));
         let masked = Expr::binary(BinOp::And, whole, mask);
@@ -214,8 +214,7 @@ impl<'a> Lowering<'a> {
         }
         if self.findings.behaviour(Question::SystemReadWaits, span) != Some("true") {
             let meaning = state.meaning().trim().trim_end_matches('.');
-            let message =
-                format!("'{state}' ({meaning}) may be read before the moves ahead of this block are done");
+            let message = format!("'{state}' ({meaning}) may be read before earlier moves are done");
             let finding = Diagnostic::new(Code::EarlyRead, span, message);
             self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
         }

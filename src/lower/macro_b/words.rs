@@ -116,14 +116,16 @@ impl<'a> Lowering<'a> {
         let name = format!("{}{}", code.head.letter, code.head.number());
         let message = if code.alias.is_some() {
             format!(
-                "{name} calls a program elsewhere; in a program that a code calls it is a plain code, and the table has none"
+                "{name} calls a program elsewhere; in a program that a code calls it is a plain code, and \
+                 the table has no such code"
             )
         } else if code.depends {
             format!("{name} has no meaning beside the words of this block")
         } else {
             format!("the table of this control has no code {name}")
         };
-        let help = "a code that calls a program or that the machine's builder defined belongs in the machine profile";
+        let help = "if the code calls a program or the machine builder defined it, put it into the \
+                    machine profile";
         self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
     }
 
@@ -139,10 +141,8 @@ impl<'a> Lowering<'a> {
         let group = row.op.group();
         seen.m_codes += u32::from(word.letter == 'M');
         if group != Group::OneShot && seen.group(group) && drop_clashing(nc, row.op) {
-            let message = format!(
-                "{} is the second code of its group in this block; it is the one that counts",
-                row.code
-            );
+            let message =
+                format!("{} is the second code of its group in this block: the second one counts", row.code);
             self.findings.add(Diagnostic::new(Code::GroupTwice, span, message));
         }
         if matches!(group, Group::Motion | Group::Cycle) {
@@ -175,10 +175,10 @@ impl<'a> Lowering<'a> {
         {
             return self
                 .findings
-                .not_understood(span, format!("this is no number of a {} code", word.letter));
+                .not_understood(span, format!("this is not the number of a {} code", word.letter));
         }
         seen.m_codes += u32::from(word.letter == 'M');
-        let message = format!("which {} code this is, is known only when the program runs", word.letter);
+        let message = format!("the number of this {} code is computed", word.letter);
         self.findings.add(Diagnostic::new(Code::ComputedCode, span, message));
         let value = self.expr(value, At::Word(Role::Tool));
         nc.items.push(NcItem::Code(word.letter, value));
@@ -196,7 +196,7 @@ impl<'a> Lowering<'a> {
         let Some((role, value)) = self.word_value(role, word.letter, value, code) else { return };
         if seen.role(role) && role != Role::Builder {
             nc.items.retain(|item| !matches!(item, NcItem::Word(other, _) if *other == role));
-            let message = format!("{} stands twice in this block; the later one is taken", word.letter);
+            let message = format!("{} is in this block twice: the later one is taken", word.letter);
             self.findings.add(Diagnostic::new(Code::WordTwice, span, message));
         }
         let other = match role {
@@ -205,7 +205,9 @@ impl<'a> Lowering<'a> {
             _ => None,
         };
         if nc.items.iter().any(|item| matches!(item, NcItem::Word(own, _) if Some(*own) == other)) {
-            return self.findings.not_understood(span, "a dwell of two times: no source says which counts");
+            return self
+                .findings
+                .not_understood(span, "a dwell with two times: no source says which one counts");
         }
         if code.is_none()
             && let Some(op) = self.codes.letter(word.letter, word.comma).and_then(|row| row.op)
@@ -229,7 +231,7 @@ impl<'a> Lowering<'a> {
             Some("any") => {}
             Some(most) if most.parse().is_ok_and(|most: u32| seen.m_codes <= most) => {}
             Some(most) => {
-                let message = format!("{} M codes in a block of a control that takes {most}", seen.m_codes);
+                let message = format!("the block has {} M codes, and the control takes {most}", seen.m_codes);
                 self.findings.add(Diagnostic::new(Code::MCodes, span, message));
             }
             None => self.unknown_behaviour(Question::MCodesPerBlock, span),

@@ -129,7 +129,7 @@ impl Build {
         if pair.as_rule() == Rule::variable {
             return self.operand(pair);
         }
-        let message = format!("behind `{letter}=` stands a variable; put the constant into one");
+        let message = format!("a variable follows `{letter}=`: put the constant into one");
         self.fault(Code::ConstantInWord, self.span(&pair), message);
         self.constant(pair.into_inner())
     }
@@ -163,7 +163,7 @@ impl Build {
                 let name = pair.as_str().to_ascii_uppercase();
                 if !READABLE.contains(&name) {
                     let message =
-                        format!("the active {name} cannot be read; only X Y Z E I J K A D F R S T can");
+                        format!("the active {name} cannot be read: only X Y Z E I J K A D F R S T can");
                     self.fault(Code::ValueNotReadable, span, message);
                 }
                 let variable = VarRef { name: name.into(), index: Index::None, span };
@@ -176,7 +176,7 @@ impl Build {
     /// Notes a constant where the manual shows variables only.
     fn want_variable(&mut self, pair: &Pair<'_, Rule>, what: &str) {
         if pair.as_rule() == Rule::constant {
-            let message = format!("{what} is a constant here; the manual shows a variable only");
+            let message = format!("{what} is a constant here: the manual shows only a variable");
             self.fault(Code::UnshownOperand, self.span(pair), message);
         }
     }
@@ -192,7 +192,7 @@ impl Build {
                 self.fault(
                     Code::SignedVariable,
                     span,
-                    "a variable takes no sign; multiply it by -1 in a step of its own",
+                    "a variable takes no sign: multiply it by -1 in a step of its own",
                 );
                 let mut parts = pair.into_inner();
                 let negative = parts.next()?.as_str() == "-";

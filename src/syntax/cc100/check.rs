@@ -41,9 +41,10 @@ pub(super) fn mixture(items: &[Item]) -> Option<SyntaxError> {
             continue;
         }
         let message = match kind {
-            Kind::Plain => "a plain word may not stand behind parametric ones; divide the block",
+            Kind::Plain => "a plain word cannot follow parametric words: divide the block",
             _ => {
-                "a parametric word may not stand behind plain ones; put their numbers into variables, or divide the block"
+                "a parametric word cannot follow plain words: put their numbers into variables, or divide \
+                 the block"
             }
         };
         return Some(fault(Code::MixedBlock, item.span, message));

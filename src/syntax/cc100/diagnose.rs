@@ -27,25 +27,25 @@ pub(super) fn diagnose(text: &str, line: Span, error: &Error<Rule>) -> SyntaxErr
     let is_name = lexeme.len() > 1 && first.is_ascii_alphabetic();
     let goes_on = is_operator(first) && (expects(Rule::EOI) || expects(Rule::variable));
     let (code, message) = if first == b'(' && (operand_due || expects(Rule::add)) {
-        (Code::NoBrackets, "there are no brackets in expressions; divide the statement into steps".to_owned())
+        (
+            Code::NoBrackets,
+            "this control has no brackets in expressions: divide the statement into steps".to_owned(),
+        )
     } else if operand_due && is_name && before.ends_with('=') {
         (
             Code::UnknownFunction,
-            format!("there is no function {lexeme}; the control has SQR, SIN, COS and ATN"),
+            format!("there is no function {lexeme}: the control has SQR, SIN, COS and ATN"),
         )
     } else if operand_due && is_name || (goes_on || is_function) && has_assignment(before) {
         let words = found(lexeme);
-        (
-            Code::OneOperation,
-            format!("one operation in each assignment: {words} belongs to a step of its own"),
-        )
+        (Code::OneOperation, format!("an assignment takes one operation: put {words} into a step of its own"))
     } else if first == b'(' {
         (Code::UnclosedComment, "the comment has no closing bracket".to_owned())
     } else if before.contains('$') && first != b'$' && !before.ends_with('$') {
-        (Code::LabelNotAlone, "a label stands on a block of its own".to_owned())
+        (Code::LabelNotAlone, "a label needs a block of its own".to_owned())
     } else if (value_due || expects(Rule::equals)) && before.ends_with(|c: char| c.is_ascii_alphabetic()) {
         let letter = before.chars().last().unwrap_or(' ');
-        let message = format!("{letter} needs a number directly behind it, or `=` and a variable");
+        let message = format!("{letter} needs a number directly after it, or `=` and a variable");
         let start = line.start + before.len() as u32 - 1;
         return fault(Code::WordWithoutValue, Span::new(start, start + 1), message);
     } else {

@@ -143,9 +143,8 @@ impl Build<'_> {
         let span = variable.span;
         if slip {
             let name = used.as_str();
-            let message = format!(
-                "{name} may not stand among NC words; hand it to an R variable on a macro line first"
-            );
+            let message =
+                format!("{name} cannot stand among NC words: copy it to an R variable on a macro line first");
             self.fault(Code::VariableOnNcLine, span, message);
         }
         Expr { kind: ExprKind::Variable(Box::new(variable)), span }
@@ -176,7 +175,8 @@ impl Build<'_> {
                 } else {
                     if close > 0 {
                         let behind = Span::new(span.start + close as u32, span.start + body.len() as u32);
-                        let message = "the comment runs to the end of the line: this is not carried out";
+                        let message = "the comment runs to the end of the line: the control does not \
+                                       carry this out";
                         self.fault(Code::TextBehindComment, behind, message);
                     }
                     Comment { text: inside(0), fence: Fence::Open }

@@ -68,12 +68,12 @@ impl Stop<'_> {
         let statement = self.text.get(mark + 1..).unwrap_or("").trim_start_matches([' ', '\t']);
         let label = self.text.len() - statement.len();
         if statement.starts_with(':') && self.at > label {
-            let message = "a label has its line to itself, without a comment or a statement";
+            let message = "a label needs a line to itself, without a comment or a statement";
             return Some((Code::LabelNotAlone, self.at, self.text.len() - self.at, message.to_owned()));
         }
         let operator_due = self.expects(Rule::add);
         match self.rest() {
-            [b';', ..] => self.here(Code::SemicolonInMacro, "a macro line knows no semicolon; parts are divided by commas"),
+            [b';', ..] => self.here(Code::SemicolonInMacro, "a macro line has no semicolons: divide the parts by commas"),
             [b'"', rest @ ..] if !rest.contains(&b'"') => {
                 let message = "the closing quotation mark is missing".to_owned();
                 Some((Code::UnterminatedText, self.at, self.text.len() - self.at, message))
@@ -89,7 +89,8 @@ impl Stop<'_> {
                 self.here(Code::MacroComment, "a comment on a macro line begins with an apostrophe; or an operator is missing before the bracket")
             }
             [letter, rest @ ..] if letter.is_ascii_alphabetic() && is_value(rest) && self.expects(Rule::EOI) => {
-                self.here(Code::MixedLine, "NC words may not stand behind a macro statement; put them on a line of their own")
+                self.here(Code::MixedLine, "NC words cannot follow a macro statement: put them on a line \
+                                            of their own")
             }
             _ => None,
         }
@@ -100,14 +101,14 @@ impl Stop<'_> {
         let start = self.text.len() - first.len();
         let word = lexeme_at(first, 0);
         if self.at <= start + word.len() && STATEMENTS.iter().any(|name| name.eq_ignore_ascii_case(word)) {
-            let message = format!("{word} is a macro statement: its line begins with `#`");
+            let message = format!("{word} is a macro statement: begin its line with `#`");
             return Some((Code::Unreadable, start, word.len(), message));
         }
         let value_due = self.expects(Rule::number) || self.expects(Rule::sign);
         match self.rest() {
             [b'#', ..] => self.here(
                 Code::MixedLine,
-                "a macro statement may not stand behind NC words; put it on a line of its own",
+                "a macro statement cannot follow NC words: put it on a line of its own",
             ),
             [b'=', ..] => {
                 self.here(Code::EqualsOnNcLine, "an R variable is set by its sign here, without `=`")
@@ -117,7 +118,7 @@ impl Stop<'_> {
             }
             [b'V' | b'v', digit, ..] if value_due && digit.is_ascii_digit() => self.here(
                 Code::VariableOnNcLine,
-                "a V variable may not stand among NC words; hand it to an R variable on a macro line first",
+                "a V variable cannot stand among NC words: copy it to an R variable on a macro line first",
             ),
             _ if value_due => {
                 let bytes = self.text.as_bytes().get(..self.at).unwrap_or(&[]);
@@ -127,7 +128,7 @@ impl Stop<'_> {
                     return None;
                 }
                 let message =
-                    format!("{letter} needs a number or a variable behind it, not {}", found(self.lexeme));
+                    format!("{letter} needs a number or a variable after it, not {}", found(self.lexeme));
                 Some((Code::WordWithoutValue, at, 1, message))
             }
             _ => None,

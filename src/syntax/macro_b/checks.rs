@@ -27,7 +27,7 @@ pub fn check_shape(rules: &Rules, source: &[u8], block: &mut Block, line_start: 
         faults.add(Code::UnclosedComment, place(at), "this comment is not closed on its line");
     }
     if let Some(at) = shape.nested_comment.filter(|_| rules.comments_do_not_nest) {
-        faults.add(Code::NestedComment, place(at), "a comment cannot hold another");
+        faults.add(Code::NestedComment, place(at), "a comment cannot contain another");
     }
     if let Some(limit) = rules.bracket_depth.filter(|limit| shape.depth > *limit as usize)
         && let Some(at) = shape::bracket_beyond(block.span.of(source), limit)
@@ -104,7 +104,7 @@ fn check_assign(rules: &Rules, target: &VarRef, value: &Expr, faults: &mut Fault
     }
     let Some(limit) = rules.constant_digits else { return };
     if let Some(number) = written(value).filter(|number| number.digits > limit) {
-        let message = format!("{} digits are written, and {limit} are the most", number.digits);
+        let message = format!("the number has {} digits, and the control takes {limit}", number.digits);
         faults.add(Code::TooManyDigits, value.span, message);
     }
 }
@@ -115,7 +115,7 @@ fn check_output(parts: &[OutputPart], faults: &mut Faults<'_>) {
         if let OutputPart::Value { value, whole, fraction } = part
             && !(1..=8).contains(&(whole + fraction))
         {
-            let message = format!("{whole} and {fraction} places: together they must be 1 to 8");
+            let message = format!("{whole} and {fraction} places: the sum must be 1 to 8");
             faults.add(Code::OutputFormat, value.span, message);
         }
     }
@@ -142,7 +142,7 @@ fn check_call(items: &[Item], faults: &mut Faults<'_>) {
     } else if call > 0
         && let Some((_, span)) = words().next()
     {
-        faults.add(Code::ArgumentBeforeCall, span, "arguments stand behind the macro call, not before it");
+        faults.add(Code::ArgumentBeforeCall, span, "arguments come after the macro call, not before it");
     }
 }
 

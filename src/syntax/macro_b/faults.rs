@@ -12,12 +12,12 @@ use crate::text::Span;
 pub fn explain(source: &[u8], block: Span, line_start: u32, shape: &Shape, stop: &Reading) -> SyntaxError {
     let place = |at: usize| Span::new(line_start + at as u32, line_start + at as u32 + 1);
     if let Some(at) = shape.nested_comment.map(place).filter(|at| at.start < stop.at) {
-        return fault(Code::NestedComment, at, "a comment cannot hold another: it ends at the first `)`");
+        return fault(Code::NestedComment, at, "a comment cannot contain another: it ends at the first `)`");
     }
     let text = block.of(source);
     if let Some(at) = function_with_parenthesis(text) {
         let at = block.start + at as u32;
-        let message = "round brackets hold a comment; arguments stand in `[` and `]`";
+        let message = "round brackets hold a comment: write arguments in `[` and `]`";
         return fault(Code::RoundBrackets, Span::new(at, at + 1), message);
     }
     if let Some(at) = shape.extra_close.map(place) {
@@ -39,24 +39,27 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
     match next.first() {
         Some(b'#') if matches!(last, b'O' | b'N') && expects(Lex::Integer) => {
             let letter = char::from(last);
-            let message = format!("{letter} takes a written number, never a variable");
+            let message = format!("{letter} takes a written number, not a variable");
             fault(Code::VariableProgramNumber, one, message)
         }
-        Some(b'#') if last == b'#' => {
-            fault(Code::BareIndirection, one, "a variable that names a variable stands in brackets: `#[#1]`")
-        }
+        Some(b'#') if last == b'#' => fault(
+            Code::BareIndirection,
+            one,
+            "a variable that gives a variable's number needs brackets: \
+                                               `#[#1]`",
+        ),
         Some(b'<' | b'>' | b'=') if expects(Lex::Operator) => {
-            fault(Code::RelationalSign, one, "comparisons are written EQ, NE, GT, GE, LT or LE")
+            fault(Code::RelationalSign, one, "write comparisons as EQ, NE, GT, GE, LT or LE")
         }
         Some(b'0') if last == b'D' && expects(Lex::Do) => loop_word(one),
         Some(b'D' | b'd') if expects(Lex::Do) && next.get(1) == Some(&b'0') => loop_word(one),
         Some(b'(') if matches!(last, b'+' | b'-' | b'*' | b'/' | b'=' | b'[' | b',') => {
-            fault(Code::RoundBrackets, one, "round brackets hold a comment; expressions stand in `[` and `]`")
+            fault(Code::RoundBrackets, one, "round brackets hold a comment: write expressions in `[` and `]`")
         }
         _ if last.is_ascii_alphabetic() && lone_letter(before) && expects(Lex::Number) => {
             let end = block.start + before.len() as u32;
             let letter = Span::new(end - 1, end);
-            let message = format!("{} has no number behind it", char::from(last));
+            let message = format!("{} has no number after it", char::from(last));
             fault(Code::WordWithoutValue, letter, message)
         }
         _ => fault(Code::Unreadable, one, expectation(next, &stop.expected)),
@@ -64,7 +67,7 @@ fn at_stop(block: Span, before: &[u8], next: &[u8], stop: &Reading) -> SyntaxErr
 }
 
 fn loop_word(span: Span) -> SyntaxError {
-    fault(Code::LoopWordSlip, span, "DO is written with the letter O, here stands a zero")
+    fault(Code::LoopWordSlip, span, "this is a zero: write DO with the letter O")
 }
 
 /// True where the last letter is not part of a longer word.
@@ -112,13 +115,13 @@ fn function_with_parenthesis(text: &[u8]) -> Option<usize> {
 
 /// A block with more brackets than are read.
 pub fn too_deep(block: Span, depth: usize) -> SyntaxError {
-    let message = format!("brackets nest {depth} deep, which no control takes; split the expression");
+    let message = format!("brackets nest {depth} deep, and no control takes that: split the expression");
     fault(Code::TooComplex, block, message)
 }
 
 /// A block whose tokens would lose text.
 pub fn not_tiled(block: Span) -> SyntaxError {
-    fault(Code::Unreadable, block, "the block was read with gaps and is kept as text")
+    fault(Code::Unreadable, block, "parts of this block cannot be read; it is kept as text")
 }
 
 /// How many bytes may stand before the first `%` of a file.

@@ -181,7 +181,7 @@ impl Builder<'_> {
     }
 
     fn output_format(&mut self, span: Span) {
-        let message = "an output format has two digits: places before the point and behind it, as in `[53]`";
+        let message = "an output format has two digits: the places before and after the point, as in `[53]`";
         self.errors.push(SyntaxError {
             code: crate::diag::Code::OutputFormat,
             span,

@@ -117,7 +117,7 @@ impl Builder<'_> {
 
     /// A fault where blocks nest deeper than is read.
     pub fn too_deep(&self) -> SyntaxError {
-        let message = "the block nests deeper than can be read; split it".to_owned();
+        let message = "the block nests too deep to be read: split it".to_owned();
         SyntaxError { code: Code::TooComplex, span: self.here(), message }
     }
 

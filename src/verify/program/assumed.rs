@@ -24,7 +24,7 @@ impl Verifier<'_, '_> {
             let (line, column) = job.source.line_of(self.program.file, assumption.place.start);
             let (kind, text) = (assumption.predicate.kind(), assumption.text.to_string());
             if kept == 0 && self.compared > 0 && assumption.predicate.is_seen() {
-                self.because(Why::NoRunKept, &format!("no run kept what line {line} supposes: {text}"));
+                self.because(Why::NoRunKept, &format!("no run met the condition of line {line}: {text}"));
             }
             let [kept, broken] =
                 [kept, broken].map(|runs| (assumption.predicate != Predicate::Unseen).then_some(runs));

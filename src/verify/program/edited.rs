@@ -118,7 +118,7 @@ impl Verifier<'_, '_> {
         };
         if let Some(witness) = &pair.witness {
             let text = format!(
-                "with {value} for {} in line {} and for {} in line {} they part: {}",
+                "with {value} for {} in line {} and for {} in line {} they differ: {}",
                 edit.variable, edit.line, edit.register, edit.target_line, witness.what
             );
             return self.because(Why::Edited, &text);

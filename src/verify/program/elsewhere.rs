@@ -37,7 +37,7 @@ impl Verifier<'_, '_> {
         let Some(witness) = self.begun_as(EntryState::default(), there).witness else { return };
         let given = in_words(&self.given, own);
         let whose = if self.given.never_come_to {
-            "in which the runs of its callers end before they come to it"
+            "in which the runs of its callers end before they reach it"
         } else {
             "as its callers run it"
         };
@@ -115,9 +115,8 @@ impl Verifier<'_, '_> {
             Some(what) => {
                 let (ours, others) = (in_words(&self.given, own), in_words(guess, own));
                 let (bad, good) = if here.is_some() { (ours, others) } else { (others, ours) };
-                let text = format!(
-                    "no run of what calls it comes to it: {good} it does the same, {bad} not: {what}"
-                );
+                let text =
+                    format!("no caller's run reaches it: {good} it does the same, {bad} it does not: {what}");
                 self.because(Why::NotByItself, &text);
             }
         }

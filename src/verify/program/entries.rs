@@ -103,7 +103,7 @@ impl Verifier<'_, '_> {
             states.iter().map(|state| word(state)).collect::<Vec<_>>().join(", ")
         };
         let text = format!(
-            "what the source does rests on {} when it starts: started {}, the target does something else ({what})",
+            "the source depends on {} at its start: started {}, the target does something else ({what})",
             all(|state| state.noun),
             all(|state| state.words),
         );

@@ -107,8 +107,8 @@ impl Verifier<'_, '_> {
     pub(super) fn is_out_of_time(&mut self) -> bool {
         let is_up = self.clock.is_up();
         if is_up {
-            let text = "the processor time for its verification is up: give it more with --program-seconds, or all \
-                        programs together with --library-seconds";
+            let text = "the processor time for its verification is up: give it more with \
+                        --program-seconds, or give all programs more with --library-seconds";
             self.because(Why::OutOfTime, text);
         }
         is_up

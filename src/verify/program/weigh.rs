@@ -53,7 +53,7 @@ impl Verifier<'_, '_> {
         }
         if let Some(off) = off_its_circle(difference) {
             let text = format!(
-                "an arc of the source ends {off:.3} mm off its circle: no source says what comes of it"
+                "an arc of the source ends {off:.3} mm off its circle: no source says what the control does"
             );
             return Some((Why::SourceAlarms, text));
         }
@@ -64,12 +64,12 @@ impl Verifier<'_, '_> {
             (pair.there, pair.circumstances, pair.other),
         );
         if hangs {
-            let text = format!("{ROUNDS} is not confirmed, and decides what is read back");
+            let text = format!("no manual confirms '{ROUNDS}', and it decides the value that is read back");
             return Some((Why::Unconfirmed, text));
         }
         difference.by_place.then(|| {
             let text = format!(
-                "a variable keeps a place that was read, and that words rounded: {}",
+                "a variable keeps a position that was read, and rounded words led to it: {}",
                 difference.what
             );
             (Why::Substituted, text)

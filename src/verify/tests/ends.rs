@@ -9,11 +9,11 @@ use crate::verify::{compare::Tolerance, exit_state::seen_differs};
 #[test]
 fn what_is_in_force_at_the_end_is_told_of_a_main_program() {
     for (behind, text) in [
-        ("G91", "it ends in distance.absolute, the target in distance.incremental"),
-        ("G19", "it ends in plane.xy, the target in plane.yz"),
-        ("F200.", "it ends with a feed of 100, the target of 200"),
-        ("G52X1.", "it ends with another shift of coordinates"),
-        ("G68X0Y0R10.", "it ends with another rotation of coordinates"),
+        ("G91", "the exit state differs: it ends in distance.absolute, the target in distance.incremental"),
+        ("G19", "the exit state differs: it ends in plane.xy, the target in plane.yz"),
+        ("F200.", "the exit state differs: it ends with a feed of 100, the target with 200"),
+        ("G52X1.", "the exit state differs: it ends with a different shift of coordinates"),
+        ("G68X0Y0R10.", "the exit state differs: it ends with a different rotation of coordinates"),
     ] {
         let program = |behind: &str, end: &str| format!("O1\nG90G1X1.F100.\n{behind}\n{end}\n");
         let judge = |end: &str| within("fanuc", &program("", end), &program(behind, end));
@@ -47,12 +47,12 @@ fn what_a_person_sees_at_the_end_is_compared() {
     assert_eq!(seen_differs(&ours, &theirs, tolerance), None);
     theirs.tools.insert(7, Tool { radius: 0.003, ..Tool::default() });
     let found = seen_differs(&ours, &theirs, tolerance);
-    assert_eq!(found.as_deref(), Some("tool offset 7 holds something else at the end"));
+    assert_eq!(found.as_deref(), Some("tool offset 7 has another value at the end"));
     axes[1] = 0.003;
     theirs.work_offsets.insert(3, axes);
     let found = seen_differs(&ours, &theirs, tolerance);
-    assert_eq!(found.as_deref(), Some("work offset 3 holds something else at the end"));
+    assert_eq!(found.as_deref(), Some("work offset 3 has another value at the end"));
     theirs.position[0] += 0.001;
     let found = seen_differs(&ours, &theirs, tolerance);
-    assert_eq!(found.as_deref(), Some("the machine stands elsewhere at the end"));
+    assert_eq!(found.as_deref(), Some("the machine stands at another position at the end"));
 }

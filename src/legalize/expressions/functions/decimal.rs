@@ -13,14 +13,14 @@ const DIGITS: i32 = 8;
 /// `sum d*16^i = x + sum over i>0 of FIX[x/10^i] * 6*16^(i-1)`. Exact for whole x from 0 to 99999999.
 pub fn bcd(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let sum = digits(a, rewriter, BinOp::Add, 10.0, |i| 6.0 * 16f64.powi(i - 1));
-    Emulated::Inside(sum, "exact for whole numbers from 0 to 99999999 only".into(), Domain::Digits(8))
+    Emulated::Inside(sum, "exact only for whole numbers from 0 to 99999999".into(), Domain::Digits(8))
 }
 
 /// Law: the same the other way, `x - sum over i>0 of FIX[x/16^i] * 6*10^(i-1)`. Exact for valid
 /// BCD words from 0 on; a word that is none alarms on the source and not here.
 pub fn bin(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     let sum = digits(a, rewriter, BinOp::Sub, 16.0, |i| 6.0 * 10f64.powi(i - 1));
-    let why = "exact for valid BCD words of up to eight digits; an invalid one is not noticed";
+    let why = "exact for valid BCD words of up to eight digits; the target does not notice an invalid one";
     Emulated::Inside(sum, why.into(), Domain::Bcd(8))
 }
 

@@ -22,7 +22,7 @@ pub fn exp(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     });
     let value = (0..HALVINGS)
         .fold(series, |v, _| Expr::Var(rewriter.materialize(Expr::binary(BinOp::Mul, v.clone(), v))));
-    let why = "by its series, within a 1e-12th part for arguments from -20 to 20";
+    let why = "computed by its series, with a relative error of at most 1e-12 for arguments from -20 to 20";
     Emulated::Inside(value, why.into(), Domain::Range(-20.0, 20.0))
 }
 
@@ -40,7 +40,8 @@ pub fn ln(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
     });
     let scale = number(2f64.powi(HALVINGS + 1));
     let value = rewriter.materialize(Expr::binary(BinOp::Mul, scale, Expr::binary(BinOp::Mul, w, series)));
-    let why = "by its series, within 1e-11 for arguments from 1e-9 to 1e9; zero does not alarm";
+    let why = "computed by its series, with an error of at most 1e-11 for arguments from 1e-9 to 1e9; 0 \
+               raises no alarm";
     Emulated::Inside(Expr::Var(value), why.into(), Domain::Range(1e-9, 1e9))
 }
 
@@ -49,7 +50,7 @@ pub fn pow(a: Expr, power: Expr, rewriter: &mut Rewriter<'_>, target: &Control) 
     if let Some(n) = power.constant().filter(|n| n.fract() == 0.0 && (1.0..=8.0).contains(n)) {
         let a = rewriter.held(a);
         let product = (1..n as u32).fold(a.clone(), |p, _| Expr::binary(BinOp::Mul, p, a.clone()));
-        return Emulated::Near(product, "as a product; the last digit may differ".into());
+        return Emulated::Near(product, "computed as a product; the last digit may differ".into());
     }
     let native = target.function(Func::Ln, 1).is_some() && target.function(Func::Exp, 1).is_some();
     let log = if native { apply(Func::Ln, a) } else { value(ln(a, rewriter)) };
@@ -60,7 +61,7 @@ pub fn pow(a: Expr, power: Expr, rewriter: &mut Rewriter<'_>, target: &Control) 
         true => Domain::Range(1e-300, 1e300),
         false => Domain::Power([1e-9, 1e9], [-20.0, 20.0]),
     };
-    Emulated::Inside(result, "as EXP[b*LN[a]], for bases above zero only".into(), domain)
+    Emulated::Inside(result, "computed as EXP[b*LN[a]]: only for bases above 0".into(), domain)
 }
 
 fn value(emulated: Emulated) -> Expr {

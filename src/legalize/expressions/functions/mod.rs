@@ -134,7 +134,7 @@ fn call(
 
 fn missing(function: &str, target: &Control) -> Emulated {
     let title = &target.dialect().title;
-    Emulated::Missing(format!("{title} has no function '{function}', and arithmetic does not give it"))
+    Emulated::Missing(format!("{title} has no function '{function}', and no arithmetic gives it"))
 }
 
 /// The function of one argument.

@@ -74,7 +74,7 @@ pub fn bits(
 /// (1.005 to two places is the classic).
 pub fn round_places(a: Expr, places: &Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Emulated {
     let Some(places) = places.constant().filter(|p| (0.0..=9.0).contains(p) && p.fract() == 0.0) else {
-        return Emulated::Missing("the number of places to round to is not a constant".into());
+        return Emulated::Missing("the number of places to round to is computed: write a constant".into());
     };
     if target.function(Func::Round, 1).is_none() && target.function(Func::Fix, 1).is_none() {
         return super::missing(Func::Round.name(), target);

@@ -33,9 +33,13 @@ pub fn inverse(
             (w, g) if w == g && w != "unknown" => Emulated::Exact(value),
             ("270..90", "-90..90") => Emulated::Exact(wrapped(value, rewriter)),
             ("-90..90", "270..90") => Emulated::Exact(unwrapped(value, rewriter)),
-            _ => {
-                Emulated::Near(value, format!("the range is {wanted} on the source and {got} on the target"))
-            }
+            _ => Emulated::Near(
+                value,
+                format!(
+                    "the result's range is {wanted} on the source and {got} on \
+                                               the target"
+                ),
+            ),
         };
     }
     let x = rewriter.held(a);
@@ -53,7 +57,7 @@ pub fn inverse(
         Func::Asin => Expr::Var(asin),
         _ => Expr::binary(BinOp::Sub, number(90.0), Expr::Var(asin)),
     };
-    Emulated::Near(value, "by the arc tangent, within 1e-7 degrees".into())
+    Emulated::Near(value, "computed by the arc tangent, with an error of at most 1e-7 degrees".into())
 }
 
 /// An angle of -90 to 90 as one of 270 to 360 and 0 to 90.
@@ -124,7 +128,7 @@ pub fn atan2(y: Expr, x: Expr, rewriter: &mut Rewriter<'_>, source: &Control, ta
             rewriter.first(PreStatement::When(above, angle, turned(-360.0)));
             Emulated::Near(
                 Expr::Var(angle),
-                "no source gives the range of the source's two-argument form; -180 to 180 is taken".into(),
+                "no manual gives the range of the source's two-argument form; -180 to 180 is taken".into(),
             )
         }
     }
