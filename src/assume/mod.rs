@@ -68,7 +68,7 @@ pub enum Predicate {
 }
 
 impl Predicate {
-    /// The blocks that it is about; none where it is about the whole run.
+    /// The blocks that it is about; none if it is about the whole run.
     pub fn places_mut(&mut self) -> Option<&mut Vec<Span>> {
         match self {
             Self::Subscripts(Subscripts { places, .. })

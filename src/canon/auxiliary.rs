@@ -31,7 +31,7 @@ impl Auxiliary {
 }
 
 impl Op {
-    /// What kind of operation beside a move it is; none where it moves something itself, or is a mode.
+    /// What kind of operation beside a move it is; none if it moves something itself, or is a mode.
     pub const fn auxiliary(self) -> Option<Auxiliary> {
         use Op::*;
         Some(match self {

@@ -3,7 +3,7 @@
 use super::{Group, Op};
 
 impl Group {
-    /// The number of the group in [`super::Sys::Modal`]; none where it has none there.
+    /// The number of the group in [`super::Sys::Modal`]; none if it has none there.
     pub const fn number(self) -> Option<u32> {
         match self {
             Group::Motion => Some(1),

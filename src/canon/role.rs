@@ -32,9 +32,9 @@ super::vocabulary! {
         ArcK = "arc.k",
         /// Arc radius: positive the arc up to 180 degrees, negative the longer one.
         ArcRadius = "arc.radius",
-        /// Corner rounding behind the block (`,R`).
+        /// Corner rounding after the block (`,R`).
         CornerRadius = "corner.radius",
-        /// Corner chamfer behind the block (`,C`).
+        /// Corner chamfer after the block (`,C`).
         CornerChamfer = "corner.chamfer",
         /// Feed, in units per minute or per turn as the feed mode says.
         Feed = "feed",

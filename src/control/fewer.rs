@@ -58,7 +58,7 @@ impl FewerDigits {
         if self.side(seed) { value + value * off } else { value - value * off }
     }
 
-    /// True for the nearest double to a number of few digits, up to six of them behind the point: an exact quotient is
+    /// True for the nearest double to a number of few digits, up to six of them after the point: an exact quotient is
     /// rounded once, as what is written is.
     fn is_short(&self, value: f64) -> bool {
         let most = 10f64.powi(self.digits.min(15));

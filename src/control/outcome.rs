@@ -30,7 +30,7 @@ pub struct Run {
     /// The modes in force at its end, however it ended: [`super::machine::GIVEN`].
     #[serde(skip)]
     pub modes: Vec<Op>,
-    /// What was in force at its end; none where it did not end by itself.
+    /// What was in force at its end; none if it did not end by itself.
     #[serde(skip)]
     pub left: Option<ExitState>,
     /// The codes whose numbers it computed: the letter and the number.
@@ -48,7 +48,7 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "end", rename_all = "snake_case")]
 pub enum End {
-    /// By its end code, or behind its last block.
+    /// By its end code, or after its last block.
     Ended,
     /// At an alarm; the last event says which.
     Alarm {

@@ -41,9 +41,9 @@ pub struct Scenario {
     pub tool: u32,
     /// The first and second reference position, machine coordinates.
     pub references: [Axes; 2],
-    /// What each probe move meets, in order; behind the last one all miss.
+    /// What each probe move meets, in order; after the last one all miss.
     pub probes: Vec<Probe>,
-    /// What the operator answers, in order; behind the last one 0. A stop whose message names a variable
+    /// What the operator answers, in order; after the last one 0. A stop whose message names a variable
     /// (`#100 DEPTH`) takes an answer too, into that variable, while there are any.
     pub answers: Vec<f64>,
     /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.

@@ -22,7 +22,7 @@ const CLOCK_EVERY: u64 = 1024;
 /// Why a run comes to its end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
-    /// By an end code, or behind the last block.
+    /// By an end code, or after the last block.
     Ended(Op),
     /// An alarm.
     Alarm(Stop),
@@ -105,7 +105,7 @@ impl<'r, 'f> Session<'r, 'f> {
         self.sections.place(program).ok_or_else(|| Halt::Error("there is no such program".into()))
     }
 
-    /// A block of a section, counted from the section's start; none behind its end.
+    /// A block of a section, counted from the section's start; none after its end.
     pub fn block(&self, section: usize, index: usize) -> Option<&'r Block> {
         self.library.blocks(section).get(index)
     }
@@ -252,7 +252,7 @@ impl<'r, 'f> Session<'r, 'f> {
         self.machine.pause(pause, what, &mut self.trace);
     }
 
-    /// Notes an answer to a question of behaviour that mattered, where nobody confirmed it.
+    /// Notes an answer to a question of behaviour that mattered, if nobody confirmed it.
     pub fn rest_on(&mut self, question: Question) {
         match self.control.behaviour(question) {
             Some(row) if row.origin.confirmed => {}
@@ -260,7 +260,7 @@ impl<'r, 'f> Session<'r, 'f> {
         }
     }
 
-    /// Notes that the control acts in the one way that it has here, where nobody confirmed that the machine does so
+    /// Notes that the control acts in the one way that it has here, if nobody confirmed that the machine does so
     /// too, or where somebody says that it does otherwise.
     pub fn act_as(&mut self, question: Question, answer: &str) {
         let as_here = |value: &str| value == answer || value == "unknown";

@@ -70,7 +70,7 @@ impl Diagnostic {
         }
     }
 
-    /// What the conversion supposes there, as a value; none where it supposes nothing.
+    /// What the conversion supposes there, as a value; none if it supposes nothing.
     pub fn assumption(&self) -> Option<Assumption> {
         let predicate = match self.assumes.as_deref() {
             Some(predicate) => predicate.clone(),

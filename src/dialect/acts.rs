@@ -54,7 +54,7 @@ const fn when(kind: Auxiliary) -> Question {
 pub struct Ends {
     /// The question that asks for it.
     pub question: Question,
-    /// The answer; none where nobody knows.
+    /// The answer; none if nobody knows.
     pub answer: Option<bool>,
     /// True where a source says so.
     pub known: bool,

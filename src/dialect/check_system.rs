@@ -86,7 +86,7 @@ impl SystemVariable {
     }
 
     /// The subscripts of the variable with this number, those that are constant
-    /// included; none where the run does not hold it.
+    /// included; none if the run does not hold it.
     pub fn subscripts_of(&self, number: u32) -> Option<Vec<u32>> {
         let mut rest = number.checked_sub(self.first?)?;
         if number > self.last()? {
@@ -105,7 +105,7 @@ impl SystemVariable {
     }
 
     /// The number of the variable with these subscripts, constant ones included:
-    /// `Some(None)` for a name without number; none where the run does not hold it.
+    /// `Some(None)` for a name without number; none if the run does not hold it.
     pub fn number_of(&self, subscripts: &[u32]) -> Option<Option<u32>> {
         let counted = subscripts.strip_prefix(self.fixed.as_slice())?.strip_suffix(self.after.as_slice())?;
         if counted.len() != self.subscripts.len() {

@@ -141,7 +141,7 @@ impl Control {
         self.dialect.numbers.bare_length
     }
 
-    /// What a length or an angle without a decimal point counts behind this letter.
+    /// What a length or an angle without a decimal point counts after this letter.
     pub fn bare_length_of(&self, letter: char) -> BareLength {
         let numbers = &self.dialect.numbers;
         match numbers.bare_length {
@@ -188,7 +188,7 @@ impl Control {
         self.dialect.operators.iter().find(|row| row.meaning == meaning)
     }
 
-    /// A limit's largest value; none where the control has no such limit or none is known.
+    /// A limit's largest value; none if the control has no such limit or none is known.
     pub fn limit(&self, name: &str) -> Option<u32> {
         self.limit_row(name)?.max
     }
@@ -203,7 +203,7 @@ impl Control {
         self.dialect.statements.iter().find(|row| row.name == name)
     }
 
-    /// The answer to a question; none where the table is silent.
+    /// The answer to a question; none if the table is silent.
     pub fn behaviour(&self, question: Question) -> Option<&Behaviour> {
         self.dialect.behaviours.get((*self.behaviours.get(question as usize)?)?)
     }

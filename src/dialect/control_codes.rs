@@ -97,7 +97,7 @@ impl Control {
         fitting.max_by_key(|row| (row.op == op, row.fixed.len(), row.when.is_some()))
     }
 
-    /// The role of a letter beside a code; none where the control gives it none.
+    /// The role of a letter beside a code; none if the control gives it none.
     pub fn role(&self, letter: char, comma: bool, code: Option<&CodeMeaning>) -> Option<Role> {
         let beside = code.and_then(|row| {
             row.words
@@ -156,7 +156,7 @@ impl Control {
         shift.map_or(written, |shift| written + shift.add as f64)
     }
 
-    /// The number to write for a common value; none where the control cannot write it.
+    /// The number to write for a common value; none if the control cannot write it.
     pub fn written(&self, code: Option<&CodeMeaning>, role: Role, value: f64) -> Option<f64> {
         if self.letter(role, code).is_none() && self.parametric(role, code).is_none() {
             return None;

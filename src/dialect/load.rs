@@ -42,7 +42,7 @@ pub(super) fn base_keys() -> Vec<&'static str> {
 }
 
 /// Reads a table, laid over the base that it extends. All that is wrong comes back at once, each fault at its place in
-/// `text`, or behind its end in the texts of the bases.
+/// `text`, or after its end in the texts of the bases.
 pub fn load(text: &str, bases: &[Base<'_>]) -> Result<Dialect, Vec<Diagnostic>> {
     load_by(text, bases, check::all)
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// A cell of a control that has no such thing.
 const NONE: &str = ".";
 
-/// The matrix of all dialects, without machine profiles. A `?` stands behind
+/// The matrix of all dialects, without machine profiles. A `?` stands after
 /// what no maker's text confirms, a `.` where the control has no such thing.
 pub fn matrix() -> String {
     let controls: Vec<Control> =

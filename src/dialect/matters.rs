@@ -45,7 +45,7 @@ pub const ALL: &[(&str, &str)] = &[
     ),
 ];
 
-/// What the emulated controls do in a matter; none where there is no such.
+/// What the emulated controls do in a matter; none if there is no such.
 pub fn meaning(name: &str) -> Option<&'static str> {
     ALL.iter().find(|(found, _)| *found == name).map(|(_, meaning)| *meaning)
 }

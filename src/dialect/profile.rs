@@ -213,7 +213,7 @@ pub struct VariableRun {
 }
 
 impl VariableRun {
-    /// Reads a run; none where it is not one.
+    /// Reads a run; none if it is not one.
     pub fn read(text: &str) -> Option<Self> {
         let (from, to) = text.split_once('-').unwrap_or((text, text));
         let (name, first, letter) = one(from.trim())?;

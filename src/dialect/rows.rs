@@ -178,7 +178,7 @@ pub struct SystemVariable {
     /// Constant subscripts that come before those above: the axis of `AX` is 1.
     #[serde(default)]
     pub fixed: Vec<u32>,
-    /// Constant subscripts that come behind those above: the axis of `FX3` is 1.
+    /// Constant subscripts that come after those above: the axis of `FX3` is 1.
     #[serde(default)]
     pub after: Vec<u32>,
     /// The kind of machine that has it: `mill`, `lathe`; absent for both.
@@ -227,7 +227,7 @@ pub struct WordMeaning {
     pub role: Role,
     /// What the letter does by itself, without a code: `E2` selects a work offset.
     pub op: Option<Op>,
-    /// True where an expression may stand behind it.
+    /// True where an expression may stand after it.
     #[serde(default = "yes")]
     pub expression: bool,
     /// What is added to the numbers written, by role, to get the common ones:

@@ -22,7 +22,7 @@ pub struct Beside {
 }
 
 impl CodeHead {
-    /// The code of a letter and a number; none where the number is no code:
+    /// The code of a letter and a number; none if the number is no code:
     /// negative, not finite, larger than any, or finer than a thousandth.
     pub fn new(letter: char, number: f64) -> Option<Self> {
         let scaled = number * 1000.0;
@@ -60,13 +60,13 @@ fn split(word: &str) -> Option<(char, Option<f64>)> {
 }
 
 impl CodeMeaning {
-    /// The code itself, without the words beside it; none where it is misspelt,
+    /// The code itself, without the words beside it; none if it is misspelt,
     /// which the loader refuses.
     pub fn head(&self) -> Option<CodeHead> {
         CodeHead::read(self.code.split(' ').next()?)
     }
 
-    /// The words that must stand beside the code; none where one is misspelt.
+    /// The words that must stand beside the code; none if one is misspelt.
     pub fn beside(&self) -> Option<Vec<Beside>> {
         self.code
             .split(' ')

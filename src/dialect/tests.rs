@@ -130,7 +130,7 @@ fn refuses_unknown_behaviours_and_values() {
         r#"behaviours = [{ name = "alarm.offset", value = "x", source = "s" }]"#,
         "'x' is not a value of alarm.offset (it is any number)",
     );
-    refused(r#"behaviours = [{ name = "alarm.max", value = "inf", source = "s" }]"#, "'inf' is no value");
+    refused(r#"behaviours = [{ name = "alarm.max", value = "inf", source = "s" }]"#, "'inf' is not a value");
     refused(
         "behaviours = [\n  { name = \"vacancy\", value = \"true\", source = \"s\" },\n  { name = \"vacancy\", value = \"false\", source = \"s\" },\n]",
         "t.toml:3:3: MG0202: 'vacancy' stands twice",

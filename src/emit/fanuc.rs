@@ -4,7 +4,7 @@ use super::macro_b::{self, Style};
 use super::{Naming, Writer};
 use crate::dialect::Control;
 
-/// M98 may stand behind words, which act first (seed 001, table of macro calls and
+/// M98 may stand after words, which act first (seed 001, table of macro calls and
 /// subprogram calls).
 const STYLE: Style = Style { words_beside_call: true };
 

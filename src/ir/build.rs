@@ -77,7 +77,7 @@ impl Builder {
         self.with_current(|block| block.stmts.reserve_exact(count));
     }
 
-    /// Adds a statement; behind an ended block it starts an unreachable one.
+    /// Adds a statement; after an ended block it starts an unreachable one.
     #[inline]
     pub fn push(&mut self, kind: StmtKind, site: SourceInfo) {
         self.reopen();

@@ -179,7 +179,7 @@ pub enum StmtKind {
     },
     /// Sets every variable of the class to 0: all that any program of the library names.
     ClearAll(Class),
-    /// Waits until all moves are done before anything behind it is read.
+    /// Waits until all moves are done before anything after it is read.
     Sync,
     /// Limits how many blocks are read ahead; 0 for no limit.
     LimitLookahead(Expr),
@@ -221,7 +221,7 @@ pub enum OutputPart {
         value: Expr,
         /// Digits before the point.
         whole: u32,
-        /// Digits behind it.
+        /// Digits after it.
         fraction: u32,
     },
 }
@@ -273,7 +273,7 @@ pub enum TermKind {
         /// Where it goes on.
         next: BlockId,
     },
-    /// Returns to the caller: behind the call, or at a sequence number of the caller.
+    /// Returns to the caller: after the call, or at a sequence number of the caller.
     Return {
         /// The sequence number.
         to: Option<Expr>,

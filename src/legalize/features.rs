@@ -222,7 +222,7 @@ impl Features {
     }
 }
 
-/// False where four digits before and four behind the point write the number.
+/// False where four digits before and four after the point write the number.
 pub(super) fn is_long(value: f64) -> bool {
     let size = value.abs();
     size >= 1e4 || f64::from((size * 1e4 + 0.5) as u32) / 1e4 != size

@@ -86,7 +86,7 @@ impl Rewriter<'_> {
 
 /// A part of a program that is rebuilt.
 pub(super) enum Part {
-    /// The start of a block of the old program, behind its labels.
+    /// The start of a block of the old program, after its labels.
     Start(BlockId),
     /// A statement.
     Stmt(Stmt),

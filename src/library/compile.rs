@@ -158,7 +158,7 @@ fn emit(
     if faults.is_empty() { Ok(emitted) } else { Err(faults) }
 }
 
-/// True where the source has an alarm behind a condition in this block.
+/// True where the source has an alarm after a condition in this block.
 fn alarms_in(findings: &[Diagnostic], block: Option<Span>) -> bool {
     let inside = |block: Span, span: Span| block.start <= span.start && span.end <= block.end;
     findings.iter().any(|finding| {

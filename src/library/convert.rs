@@ -35,7 +35,7 @@ pub struct ProgramReport {
     pub name: Option<String>,
     /// What became of it.
     pub outcome: Outcome,
-    /// What the verifier found; none where it was not asked, or the program has no conversion.
+    /// What the verifier found; none if it was not asked, or the program has no conversion.
     pub verdict: Option<verify::Outcome>,
     /// What was found, in source order.
     pub diagnostics: Vec<Diagnostic>,
@@ -50,7 +50,7 @@ pub struct ProgramReport {
 pub struct Conversion {
     /// One report a program of the source, in order of files and places.
     pub programs: Vec<ProgramReport>,
-    /// The text of each target file; none where every program of the file was refused.
+    /// The text of each target file; none if every program of the file was refused.
     pub texts: Vec<Option<String>>,
     /// What the next run is to choose again.
     pub lock: Lock,

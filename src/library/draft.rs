@@ -64,7 +64,7 @@ fn fill_one(program: &mut Program, hole: Span, code: &str) {
         }
     }
     if !filled {
-        // What lowering could not keep stood before the first statement that comes behind it.
+        // What lowering could not keep stood before the first statement that comes after it.
         let behind = |span: Span| !span.is_empty() && span.start >= hole.end;
         for block in &mut program.blocks {
             let at = block.stmts.iter().position(|stmt| behind(stmt.site.span));

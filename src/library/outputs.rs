@@ -75,13 +75,13 @@ pub(super) fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read_file(path)?).map_err(|_| io::ErrorKind::InvalidData.into())
 }
 
-/// What a certificate's name has behind that of its program's file.
+/// What a certificate's name has after that of its program's file.
 const CERTIFICATE: &str = ".certificate.json";
 
 /// What the name of a certificate has there whose programs are not written: no text is taken for theirs.
 const WITHHELD: &str = ".not-written.json";
 
-/// What macroglot writes beside a conversion, by what the names have behind that of the conversion.
+/// What macroglot writes beside a conversion, by what the names have after that of the conversion.
 pub const SIDECARS: [&str; 2] = [CERTIFICATE, WITHHELD];
 
 /// Where the certificate of a conversion goes.

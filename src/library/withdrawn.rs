@@ -13,7 +13,7 @@ use std::ops::Range;
 /// What separates a program without a name from what stands before it.
 const FRAME: &str = "%\n";
 
-/// The text of a file without some of its programs; none where nothing is left.
+/// The text of a file without some of its programs; none if nothing is left.
 pub fn cut(conversion: &Conversion, file: usize, without: &BTreeSet<usize>) -> Option<String> {
     let text = conversion.texts.get(file)?.as_ref()?;
     let kept = kept(conversion, file, without);

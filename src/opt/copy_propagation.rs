@@ -1,6 +1,6 @@
 //! Copy propagation.
 //!
-//! **Law.** Behind `t = s` and before the next write of either, reading `t` is reading `s`.
+//! **Law.** After `t = s` and before the next write of either, reading `t` is reading `s`.
 //!
 //! **Side condition.** `t` is a temporary; at `-O2` it may be any variable without a name whose
 //! assignment has no comment, where `s` is a number. `s` is a number or a variable that is never

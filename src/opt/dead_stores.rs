@@ -1,6 +1,6 @@
 //! Removes what is assigned to temporaries that nothing reads.
 //!
-//! **Law.** An assignment to a temporary that is read on no way behind it does nothing.
+//! **Law.** An assignment to a temporary that is read on no way after it does nothing.
 //!
 //! **Side condition.** Its value cannot raise an alarm. A comment beside it stays.
 //!

@@ -1,4 +1,4 @@
-//! Random programs do the same before and behind all passes, at every level.
+//! Random programs do the same before and after all passes, at every level.
 
 use super::{Level, PASSES, run};
 use crate::ir::eval::{self, Ending, Memory, Trace};

@@ -1,6 +1,6 @@
 //! Assigns a result where it goes, without a temporary between.
 //!
-//! **Law.** `t = e` directly before `v = t`, with `t` read nowhere else behind it, is `v = e`.
+//! **Law.** `t = e` directly before `v = t`, with `t` read nowhere else after it, is `v = e`.
 //!
 //! **Side condition.** `t` is a temporary, `v` a variable, `e` never vacant, and neither statement
 //! may be skipped by the operator. The first has no comment, and no source block of its own.

@@ -6,7 +6,7 @@
 //! none that a label finds. At `-O2` a label keeps a block only where something may jump to it:
 //! every label, when a callee may come back at one.
 //!
-//! **Counter-example.** A subroutine behind `M30` that only `M97 P1000` of another line, a computed
+//! **Counter-example.** A subroutine after `M30` that only `M97 P1000` of another line, a computed
 //! jump or `M99 P1000` of a callee reaches: nothing falls into it.
 
 use super::pass::{Level, Library, Pass};

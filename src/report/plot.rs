@@ -42,7 +42,7 @@ const SIZE: f64 = 560.0;
 const MARGIN: f64 = 60.0;
 
 /// The path as an SVG with two drawings: XY from above, and isometric. A path without a move along Y, as a
-/// lathe's, is drawn over Z and X. The rapids before the first cut and behind the last one end at the
+/// lathe's, is drawn over Z and X. The rapids before the first cut and after the last one end at the
 /// edge of a drawing, so that the part fills it.
 pub fn backplot(events: &[Event], title: &str) -> String {
     let path = Path::of(events);

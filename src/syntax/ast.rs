@@ -118,7 +118,7 @@ pub enum ItemKind {
         /// True for a sign in place of `=`, outside a macro line: `R3+7.5`.
         by_sign: bool,
     },
-    /// `IF[..]` and, behind it, what happens when it is true (the rest of the
+    /// `IF[..]` and, after it, what happens when it is true (the rest of the
     /// block). With `bare` the word IF is missing: `[#1000] GOTO10`.
     If {
         /// The condition.
@@ -346,7 +346,7 @@ pub enum OutputPart {
         value: Expr,
         /// Digits before the point.
         whole: u32,
-        /// Digits behind the point.
+        /// Digits after the point.
         fraction: u32,
     },
 }

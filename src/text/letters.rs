@@ -20,7 +20,7 @@ fn windows(byte: u8) -> char {
     }
 }
 
-/// What stands in ASCII for a character outside it, so that a reader takes it for the same; none where nothing does.
+/// What stands in ASCII for a character outside it, so that a reader takes it for the same; none if nothing does.
 pub fn likeness(c: char) -> Option<&'static str> {
     Some(match c {
         'Ä' | 'Æ' => "AE",

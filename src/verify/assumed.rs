@@ -1,6 +1,6 @@
 //! Tries on runs what a conversion supposes.
 //!
-//! A conversion is right for the runs of the source that keep its assumptions. So what comes behind the place where the
+//! A conversion is right for the runs of the source that keep its assumptions. So what comes after the place where the
 //! source breaks one is not held against it; what the target alone does otherwise is. Nothing else of a conversion is
 //! known here.
 
@@ -47,7 +47,7 @@ pub struct Tried<'a> {
     pub source: Held,
     /// The target's.
     pub target: Held,
-    /// How many events came before the target did first what it is about; none where it does nothing of the kind.
+    /// How many events came before the target did first what it is about; none if it does nothing of the kind.
     since: Option<usize>,
 }
 

@@ -25,7 +25,7 @@ pub type Spot = (usize, Span);
 /// Where a difference showed itself.
 #[derive(Debug, Default)]
 pub struct Shown {
-    /// The blocks on both sides; none where that side did nothing more.
+    /// The blocks on both sides; none if that side did nothing more.
     pub source: Option<Spot>,
     /// The block of the target.
     pub target: Option<Spot>,
@@ -63,7 +63,7 @@ impl Through {
         called && !self.differs && self.reached == 0
     }
 
-    /// Why a difference that shows by itself is none as the library calls the program, in words; none where
+    /// Why a difference that shows by itself is none as the library calls the program, in words; none if
     /// nothing says so.
     pub fn excuses(&self) -> Option<String> {
         if self.differs || self.reached == 0 || self.untried > 0 {

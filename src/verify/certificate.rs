@@ -90,7 +90,7 @@ pub struct ProgramCertificate {
     pub tolerance_mm: f64,
     /// The largest distance between positions that counted as the same, millimetres.
     pub largest_difference_mm: f64,
-    /// True where the path of the target changes when its arithmetic keeps fewer digits; none where that was not tried.
+    /// True where the path of the target changes when its arithmetic keeps fewer digits; none if that was not tried.
     pub rounding_sensitive: Option<bool>,
     /// What the conversion supposes of the program.
     pub assumptions: Vec<Assumed>,
@@ -118,7 +118,7 @@ pub struct Assumed {
     pub line: u32,
     /// The column.
     pub column: u32,
-    /// Runs in which both sides did the same and that kept it; none where no run can show it.
+    /// Runs in which both sides did the same and that kept it; none if no run can show it.
     pub kept: Option<usize>,
     /// Runs that broke it.
     pub broken: Option<usize>,
@@ -191,11 +191,11 @@ pub struct Witness {
     pub what: String,
     /// The circumstances, as the source's names have them.
     pub scenario: Scenario,
-    /// The states of the machine that the runs were started in, in words; none where it was that of power-on.
+    /// The states of the machine that the runs were started in, in words; none if it was that of power-on.
     pub started: Vec<&'static str>,
     /// What stood in registers that the target alone has, by its own names.
     pub target_variables: BTreeMap<String, f64>,
-    /// Where the source was; none where it did nothing more.
+    /// Where the source was; none if it did nothing more.
     pub source: Option<Moment>,
     /// Where the target was.
     pub target: Option<Moment>,

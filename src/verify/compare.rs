@@ -167,7 +167,7 @@ struct Pairs<'p, 'r> {
 }
 
 impl<'r> Pairs<'_, 'r> {
-    /// Pairs the acts of both sides up to the first difference; behind the last of a run that was `cut`
+    /// Pairs the acts of both sides up to the first difference; after the last of a run that was `cut`
     /// nothing is missed. How many it came by.
     fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) -> usize {
         let (mut i, mut j) = (0, 0);

@@ -1,7 +1,7 @@
 //! Ways of branches that constants make impossible.
 //!
 //! `#100=6000` and in the next block `IF[#100GT2500]`: no circumstances go the other way, so nothing is missed where none
-//! did. What a jump that was not taken says counts too: behind `IF[#1LT2]GOTO9` the variable is 2 or more, and its whole
+//! did. What a jump that was not taken says counts too: after `IF[#1LT2]GOTO9` the variable is 2 or more, and its whole
 //! part no more than itself. Looked at is what stands in one row: whatever may be come to from elsewhere, calls, or moves
 //! (a call may hang on them) ends what is known.
 

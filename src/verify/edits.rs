@@ -1,6 +1,6 @@
 //! The text of a program with another literal in it.
 //!
-//! Only its own lines are read anew. They stand behind those of its file, so that all else stays where it was and no place
+//! Only its own lines are read anew. They stand after those of its file, so that all else stays where it was and no place
 //! means two things.
 
 use super::side::Side;
@@ -11,7 +11,7 @@ use crate::text::Span;
 /// A program with another literal in it.
 #[derive(Debug)]
 pub struct EditedText {
-    /// The bytes of its file as it was, and behind them those of its edited lines.
+    /// The bytes of its file as it was, and after them those of its edited lines.
     pub bytes: Vec<u8>,
     /// Where the edited lines begin.
     base: u32,
@@ -40,7 +40,7 @@ impl EditedText {
         let point = file.source.get(literal.range())?.contains(&b'.') && value.fract() == 0.0;
         let written = format!("{value}{}", if point { "." } else { "" });
         let mut bytes = file.source.to_vec();
-        // What the lines begin behind is the end of a line.
+        // What the lines begin after is the end of a line.
         if bytes.last().is_some_and(|last| *last != b'\n') {
             bytes.push(b'\n');
         }

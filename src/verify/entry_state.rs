@@ -37,7 +37,7 @@ impl EntryState {
         self.units.extend(modes.iter().filter(|op| op.group() == Group::Units).map(|op| *op == Op::Inch));
     }
 
-    /// The unit, true for inch; none where callers come in both.
+    /// The unit, true for inch; none if callers come in both.
     pub fn inch(&self) -> Option<bool> {
         self.modes.iter().find(|op| op.group() == Group::Units).map(|op| *op == Op::Inch)
     }

@@ -1,7 +1,7 @@
 //! What a program leaves to whoever goes on: the one that called it, or the next one that is started.
 //!
 //! A caller goes on in the modes, with the feed and in the frame of coordinates that a called program returns in.
-//! They are no events, so they are compared as they stand at the return. Behind the end of a main program a person
+//! They are no events, so they are compared as they stand at the return. After the end of a main program a person
 //! still sees where the machine stands and what its tables hold. Which modes and shifts the next program finds is for
 //! each control to say, and no source does: where they differ, that is told and not judged.
 
@@ -43,7 +43,7 @@ pub fn left_differs(
     None
 }
 
-/// What a person could tell of the machine behind the end.
+/// What a person could tell of the machine after the end.
 pub(super) fn seen_differs(ours: &ExitState, theirs: &ExitState, tolerance: Tolerance) -> Option<String> {
     let allowed = tolerance.between(ours.rounded, theirs.rounded).max(tolerance.rounded);
     let apart = |a: f64, b: f64| (a - b).abs() > allowed;

@@ -3,7 +3,7 @@
 use crate::control::trace::EventKind;
 use crate::dialect::{Control, Question};
 
-/// Letters with an accent, behind the one that is read where it is missing.
+/// Letters with an accent, after the one that is read where it is missing.
 const ACCENTED: &[(char, &str)] = &[
     ('A', "ÀÁÂÃÄÅĄàáâãäåą"),
     ('C', "ÇĆČçćč"),
@@ -44,7 +44,7 @@ const SPELLED: &[(char, &str)] = &[
 /// How letters with two dots are written without them.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Form {
-    /// With an E behind them; and the sign of a diameter is a word.
+    /// With an E after them; and the sign of a diameter is a word.
     Long,
     /// As the letter alone.
     Short,

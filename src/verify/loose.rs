@@ -1,6 +1,6 @@
 //! Spindle and coolant beside a rapid move or a wait, where no source says which comes first.
 //!
-//! Nobody could tell in the work: nothing is cut. So such a change may stand before the move of its block or behind it.
+//! Nobody could tell in the work: nothing is cut. So such a change may stand before the move of its block or after it.
 
 use super::observe::runs;
 use crate::canon::Running;
@@ -42,7 +42,7 @@ impl<'r> Order<'r> {
             let (Some(first), Some(last)) = (run.iter().position(idle), run.iter().rposition(idle)) else {
                 continue;
             };
-            // The end of a program may stand in its last block, behind all of that.
+            // The end of a program may stand in its last block, after all of that.
             let (moves, behind) = run.split_at(last + 1);
             let (before, moves) = moves.split_at(first);
             let (after, kept): (Vec<&Event>, Vec<_>) = before.iter().copied().partition(loose);
@@ -67,7 +67,7 @@ const TURNS: usize = 40;
 pub struct Found<T> {
     /// What was found.
     pub what: T,
-    /// How many acts were paired; none where nothing differs.
+    /// How many acts were paired; none if nothing differs.
     pub pairs: Option<usize>,
     /// The blocks of the first difference, of both sides.
     pub blocks: [Option<Place>; 2],

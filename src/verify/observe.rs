@@ -19,7 +19,7 @@ pub struct Act<'r> {
     pub what: Cow<'r, EventKind>,
     /// What is known of the event.
     pub told: Told,
-    /// Of a text, how many characters more the control would have shown; none where it knows no limit.
+    /// Of a text, how many characters more the control would have shown; none if it knows no limit.
     pub room: Option<usize>,
 }
 
@@ -115,7 +115,7 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
             seen.waiting.push((kind, event));
             continue;
         }
-        // Which settings stand before a mode of corners and which behind it nobody could tell.
+        // Which settings stand before a mode of corners and which after it nobody could tell.
         if !is_mode(&event.what) {
             let (back, tool) = (returns(&event.what), finds_tool(&event.what));
             let idle = is_idle(&event.what);
@@ -205,7 +205,7 @@ fn prompt<'t>(text: &'t str, control: &Control) -> &'t str {
     }
 }
 
-/// True for a mode of corners or ramps, or a limit on reading ahead: it acts in the moves behind it.
+/// True for a mode of corners or ramps, or a limit on reading ahead: it acts in the moves after it.
 pub fn is_mode(what: &EventKind) -> bool {
     let EventKind::Other { operation, .. } = what else { return false };
     operation.group() == Group::PathMode || *operation == Op::LimitLookahead
@@ -226,7 +226,7 @@ fn is_end(what: &EventKind) -> bool {
     )
 }
 
-/// True for what finds the tool that was made ready: a change, and what goes on behind an end.
+/// True for what finds the tool that was made ready: a change, and what goes on after an end.
 fn finds_tool(what: &EventKind) -> bool {
     matches!(what, EventKind::ToolChange { .. } | EventKind::End { .. })
 }

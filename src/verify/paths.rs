@@ -22,7 +22,7 @@ pub fn ends(what: &EventKind) -> Option<(Position, Position)> {
     }
 }
 
-/// Where an event leaves the tool; none where it moves nothing.
+/// Where an event leaves the tool; none if it moves nothing.
 pub fn leaves(what: &EventKind) -> Option<Position> {
     match what {
         EventKind::Rapid { to, .. }

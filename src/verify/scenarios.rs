@@ -381,7 +381,7 @@ fn banked<'n>(names: &'n SymbolMap, control: &'n Control) -> impl Iterator<Item 
     })
 }
 
-/// How many answers a run took: behind the last one of the scenario they were 0.
+/// How many answers a run took: after the last one of the scenario they were 0.
 pub fn asked(run: &Run) -> usize {
     run.events.iter().filter(|event| matches!(event.what, EventKind::Asked { .. })).count()
 }

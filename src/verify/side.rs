@@ -149,7 +149,7 @@ impl<'a> Side<'a> {
         reported.lines.get_or_init(|| LineIndex::new(loaded.parsed.source)).place(place)
     }
 
-    /// The bytes of a file, with those of an edited program behind them; none where there is no such file.
+    /// The bytes of a file, with those of an edited program after them; none if there is no such file.
     pub(super) fn source(&self, file: usize) -> Option<&[u8]> {
         let edited = self.edited.filter(|(edited, _)| *edited == file).map(|(_, text)| text.bytes.as_slice());
         edited.or_else(|| self.files.get(file).map(|file| file.parsed.source))

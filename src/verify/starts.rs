@@ -183,7 +183,7 @@ pub fn starts(job: &Job<'_>, program: ProgramRef) -> Vec<&'static Start> {
     STARTS.iter().filter(|start| start.concerns(controls, all.as_ref())).collect()
 }
 
-/// The operations that the codes of programs name; none where one is computed, which may be any.
+/// The operations that the codes of programs name; none if one is computed, which may be any.
 fn named(side: &Side<'_>, programs: &[ProgramRef]) -> Option<BTreeSet<Op>> {
     let (mut found, mut computed) = (BTreeSet::new(), false);
     for block in programs.iter().flat_map(|program| side.text(*program)) {
@@ -198,7 +198,7 @@ fn named(side: &Side<'_>, programs: &[ProgramRef]) -> Option<BTreeSet<Op>> {
     (!computed).then_some(found)
 }
 
-/// The operations that a word may say; none where it is a code that is computed.
+/// The operations that a word may say; none if it is a code that is computed.
 fn ops(control: &Control, word: &Word) -> Option<Vec<Op>> {
     if !matches!(word.letter, 'G' | 'M') {
         return Some(control.word(word.letter, false).and_then(|row| row.op).into_iter().collect());

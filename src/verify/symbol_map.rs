@@ -43,7 +43,7 @@ pub(super) fn numbered(name: &str, letter: &str) -> Option<u32> {
 }
 
 impl SymbolMap {
-    /// The name on the target of a variable of the source; none where it has no place there.
+    /// The name on the target of a variable of the source; none if it has no place there.
     pub(super) fn variable(&self, name: &str, source: &Control, target: &Control) -> Option<String> {
         let prefix = &target.classes().iter().find(|row| row.class != "letter")?.name;
         if let Some(number) = self.variables.get(name) {
@@ -61,7 +61,7 @@ impl SymbolMap {
         ((from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
     }
 
-    /// The variable of the source that a register of the target holds; none where it holds none.
+    /// The variable of the source that a register of the target holds; none if it holds none.
     pub(super) fn of_source(&self, register: &str, source: &Control, target: &Control) -> Option<String> {
         let number = register.find(|sign: char| sign.is_ascii_digit()).and_then(|at| register.get(at..));
         let number: Option<u32> = number.and_then(|number| number.parse().ok());

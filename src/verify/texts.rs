@@ -36,7 +36,7 @@ fn alike(source: &str, target: &str, room: Option<usize>) -> bool {
     let Some(((_, begin), cut_at)) = ours.get(theirs.len()).zip(room) else {
         return same && ours.len() == theirs.len();
     };
-    // What is missing begins behind the signs that follow what was shown.
+    // What is missing begins after the signs that follow what was shown.
     let shown = theirs.len().checked_sub(1).and_then(|last| ours.get(last)).map_or(0, |(_, at)| at.end);
     let between = source.get(shown..begin.start).map_or(0, |text| text.chars().count());
     same && between >= cut_at
@@ -153,7 +153,7 @@ mod tests {
     fn a_text_is_cut_only_where_there_is_no_room() {
         assert!(say_the_same("ENTER THE DEPTH", "ENTER THE D", Some(0)));
         assert!(!say_the_same("ENTER THE DEPTH", "ENTER THE D", Some(3)));
-        // The space behind the last word that fits was cut off too.
+        // The space after the last word that fits was cut off too.
         assert!(say_the_same("ENTER THE DEPTH", "ENTER THE", Some(1)));
         assert!(!say_the_same("ENTER THE DEPTH", "ENTER THE", Some(2)));
         assert!(!say_the_same("ENTER THE DEPTH", "ENTER A", Some(0)));

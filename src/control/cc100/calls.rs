@@ -1,4 +1,4 @@
-//! Jumps, subprograms behind labels, and cycles in files of their own.
+//! Jumps, subprograms after labels, and cycles in files of their own.
 
 use super::{At, Interpreter, Labels, Next};
 use crate::control::ProgramRef;

@@ -68,7 +68,7 @@ struct At {
     index: usize,
 }
 
-/// What comes behind a block.
+/// What comes after a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Next {
     /// The block that [`Interpreter::at`] names.
@@ -106,7 +106,7 @@ impl Interpreter<'_, '_> {
         }
     }
 
-    /// Runs one block. Behind the last one the run is over, in a subprogram too.
+    /// Runs one block. After the last one the run is over, in a subprogram too.
     fn step(&mut self) -> Flow<Next> {
         let Some(block) = self.session.block(self.at.section, self.at.index) else {
             return Err(Halt::Ended(Op::End));

@@ -12,7 +12,7 @@ const LETTERS: usize = 26;
 pub(super) struct Cell(usize);
 
 impl Cell {
-    /// The place of `V5` or `VX`; none where there is no such variable.
+    /// The place of `V5` or `VX`; none if there is no such variable.
     pub fn of(variable: &VarRef) -> Option<Self> {
         match variable.index {
             Index::Number(number) => Self::numbered(number),
@@ -58,7 +58,7 @@ impl Store {
         store
     }
 
-    /// The value; none where nothing has set it.
+    /// The value; none if nothing has set it.
     pub fn get(&self, cell: Cell) -> Option<f64> {
         self.0.get(cell.0).copied().flatten()
     }

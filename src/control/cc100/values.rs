@@ -1,4 +1,4 @@
-//! What stands behind an equals sign, and the active values of addresses.
+//! What stands after an equals sign, and the active values of addresses.
 
 use super::Interpreter;
 use super::store::Cell;
@@ -42,7 +42,7 @@ impl Interpreter<'_, '_> {
         match &inner.kind {
             ExprKind::Number(number) => Ok(sign * number.value),
             ExprKind::Variable(variable) => Ok(sign * self.read(variable)?),
-            _ => Err(Halt::Error("one step is all that stands behind the equals sign".into())),
+            _ => Err(Halt::Error("only one operation may follow the equals sign".into())),
         }
     }
 

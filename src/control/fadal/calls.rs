@@ -37,7 +37,7 @@ impl Interpreter<'_, '_> {
         if call.count == 0 {
             self.session.act_as(Question::RepeatZero, "none");
         }
-        // What stands behind the definition's own block.
+        // What stands after the definition's own block.
         let to = At { section: self.at.section, index: index + 1 };
         self.call(to, Level::Subroutine, call.count)
     }

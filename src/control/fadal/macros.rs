@@ -26,7 +26,7 @@ impl Interpreter<'_, '_> {
             ItemKind::Goto(target) => self.goto(target)?,
             ItemKind::Print { parts, stay, .. } => self.print(parts, *stay)?,
             ItemKind::Input { targets, .. } => {
-                // The run waits here, so that nothing is under way behind it.
+                // The run waits here, so that nothing is under way after it.
                 self.moving = false;
                 // What was printed to ask for it is on the screen by now.
                 self.flush();
@@ -49,9 +49,9 @@ impl Interpreter<'_, '_> {
         Ok(())
     }
 
-    /// Runs what stands behind THEN.
+    /// Runs what stands after THEN.
     fn statements(&mut self, body: &[Item]) -> Flow<()> {
-        // An IF behind THEN is as deep as the reader of blocks allows.
+        // An IF after THEN is as deep as the reader of blocks allows.
         body.iter().try_for_each(|item| self.statement(&item.kind))
     }
 

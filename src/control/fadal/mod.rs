@@ -82,7 +82,7 @@ enum Level {
     Program,
 }
 
-/// What comes behind a block.
+/// What comes after a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Next {
     /// The block that [`Interpreter::at`] names.

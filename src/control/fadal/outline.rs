@@ -14,7 +14,7 @@ pub(super) struct Outline {
     definitions: HashSet<usize>,
     /// The first block that does something.
     first_work: usize,
-    /// Where the main part begins: behind the M30 that closes the subroutines.
+    /// Where the main part begins: after the M30 that closes the subroutines.
     pub main: usize,
 }
 

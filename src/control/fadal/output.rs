@@ -11,7 +11,7 @@ use crate::text::decode;
 const LONGEST: usize = 10_000;
 
 impl Interpreter<'_, '_> {
-    /// Prints; with `stay` the next one goes on behind it.
+    /// Prints; with `stay` the next one goes on after it.
     pub(super) fn print(&mut self, parts: &[PrintPart], stay: bool) -> Flow<()> {
         for part in parts {
             match part {

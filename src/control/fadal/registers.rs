@@ -18,7 +18,7 @@ pub(super) enum Register {
 }
 
 impl Register {
-    /// The variable of a name and a number; none where there is no such.
+    /// The variable of a name and a number; none if there is no such.
     pub fn new(name: &str, number: u32) -> Option<Self> {
         let number = number as usize;
         match name {
@@ -64,7 +64,7 @@ impl Registers {
         registers
     }
 
-    /// The value; none where nothing has set it.
+    /// The value; none if nothing has set it.
     pub fn get(&self, register: Register) -> Option<f64> {
         *match register {
             Register::V(number) => self.v.get(number)?,

@@ -81,7 +81,7 @@ fn record(machine: &mut Machine, flat: &Flat, centre: (f64, f64), ends: (Axes, A
 }
 
 impl Flat {
-    /// The centre of the arc with a signed radius; none where start and end are one.
+    /// The centre of the arc with a signed radius; none if start and end are one.
     fn centre_by_radius(
         &self,
         radius: f64,

@@ -1,4 +1,4 @@
-//! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or behind it.
+//! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or after it.
 
 use super::{Command, Machine, tooling};
 use crate::canon::{Auxiliary, Op, Role, Running};

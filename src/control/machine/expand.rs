@@ -141,7 +141,7 @@ impl<'a> Driver<'a> {
 
     fn tap(&mut self, cycle: &Cycle) {
         let Planes { r, bottom, .. } = self.planes;
-        // A tap by its lead follows the spindle; the feed in force is for the moves behind the cycle.
+        // A tap by its lead follows the spindle; the feed in force is for the moves after the cycle.
         let in_force = (self.machine.feed, self.machine.feed_mode);
         if let Some(lead) = cycle.lead {
             (self.machine.feed, self.machine.feed_mode) = (lead * self.machine.speed, FeedMode::PerMinute);

@@ -80,7 +80,7 @@ pub struct Machine {
     surface_speed: bool,
     spindle: Spindle,
     coolant: Op,
-    /// What stopped the program last, where nobody knows what it did with spindle and coolant, which ran.
+    /// What stopped the program last, if nobody knows what it did with spindle and coolant, which ran.
     unsure_running: [Option<Pause>; 2],
     tool_ready: f64,
     tool: f64,

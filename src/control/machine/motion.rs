@@ -190,7 +190,7 @@ fn probe(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 }
 
 impl Machine {
-    /// A rapid move; none where the machine is there.
+    /// A rapid move; none if the machine is there.
     pub(super) fn rapid_to(&mut self, to: Axes, trace: &mut Trace) {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {
@@ -198,7 +198,7 @@ impl Machine {
         }
     }
 
-    /// A move at feed; none where the machine is there.
+    /// A move at feed; none if the machine is there.
     pub(super) fn feed_to(&mut self, to: Axes, trace: &mut Trace) {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {

@@ -5,7 +5,7 @@ use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
 use std::collections::BTreeMap;
 
-/// A fact: the answer acted by, and its name where nobody confirmed it.
+/// A fact: the answer acted by, and its name if nobody confirmed it.
 #[derive(Clone, Debug)]
 pub struct Fact<T> {
     value: T,
@@ -21,7 +21,7 @@ impl<T: Copy> Fact<T> {
         self.value
     }
 
-    /// True where nobody confirmed it.
+    /// True if nobody confirmed it.
     pub fn is_unsure(&self) -> bool {
         self.unsure.is_some()
     }

@@ -41,7 +41,7 @@ fn triples(words: &[(usize, usize)]) -> Vec<(usize, Triple)> {
 }
 
 impl<'c> Runner<'c> {
-    /// The arguments that stand behind the call's code, or round an alias.
+    /// The arguments that stand after the call's code, or round an alias.
     pub fn arguments(&mut self, words: &Words, call: Coded) -> Result<Arguments, Halt> {
         let mut read = Arguments { locals: Locals::default(), program: None, count: None };
         let places = self.places(words, call);

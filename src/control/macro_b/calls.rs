@@ -183,7 +183,7 @@ impl<'c> Runner<'c> {
         frame
     }
 
-    /// Starts a program; the caller goes on behind its block.
+    /// Starts a program; the caller goes on after its block.
     fn push(&mut self, frame: Frame<'c>) -> Result<Next, Halt> {
         self.check_depth(&frame)?;
         if let Some(caller) = self.frames.last_mut() {

@@ -83,7 +83,7 @@ pub struct Block {
 
 /// What a block does, one after the other.
 pub enum Step {
-    /// If this switch is on, the block ends here, with the words before the sign; else they act with those behind it.
+    /// If this switch is on, the block ends here, with the words before the sign; else they act with those after it.
     Skip {
         level: u8,
         before: Vec<Step>,

@@ -111,7 +111,7 @@ impl Compiler<'_> {
 
     fn block(&mut self, block: &syntax::Block, sequence: Option<u32>) -> Block {
         let mut gather = Gather { steps: Vec::new(), words: Vec::new(), facts: Vec::new(), shown: None };
-        // What has no value is an alarm where it is computed, and a statement behind a condition may never be.
+        // What has no value is an alarm where it is computed, and a statement after a condition may never be.
         let at_run_time = |code| matches!(code, Code::DivisionByZero | Code::FunctionDomain);
         let mut faults = block.errors.iter().filter(|error| error.code.severity() == Severity::Error);
         let fault = faults.find(|error| !at_run_time(error.code));
@@ -135,7 +135,7 @@ impl Compiler<'_> {
         Block { span: block.span, sequence, steps: gather.steps, facts: gather.facts }
     }
 
-    /// The text that an alarm or a message of the block shows: the first comment behind the statement.
+    /// The text that an alarm or a message of the block shows: the first comment after the statement.
     fn comment(&self, items: &[Item]) -> String {
         let statement = items.iter().position(|item| !matches!(item.kind, ItemKind::Comment(_)));
         let mut texts = items.iter().skip(statement.unwrap_or(0)).filter_map(|item| match &item.kind {
@@ -145,7 +145,7 @@ impl Compiler<'_> {
         texts.next().unwrap_or_default()
     }
 
-    /// The comment behind the words of a block, which a stop shows.
+    /// The comment after the words of a block, which a stop shows.
     fn shown(&self, items: &[Item]) -> Option<String> {
         let words = items.iter().rposition(|item| matches!(item.kind, ItemKind::Word(_)))?;
         items.iter().skip(words).find_map(|item| match &item.kind {

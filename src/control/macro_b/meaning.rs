@@ -61,7 +61,7 @@ pub fn of(
         if !is_code(word.letter, word.comma) {
             continue;
         }
-        // Behind a macro call every other letter is an argument, M too.
+        // After a macro call every other letter is an argument, M too.
         if called {
             if word.letter == 'G' {
                 meaning.fault =

@@ -72,7 +72,7 @@ pub struct Style {
 }
 
 impl Style {
-    /// The alarm that a control raises for a fault that the parser saw; none where the block
+    /// The alarm that a control raises for a fault that the parser saw; none if the block
     /// cannot be run at all.
     fn alarm_of(&self, code: Code) -> Option<&'static str> {
         let alarms = &self.alarms;

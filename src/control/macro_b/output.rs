@@ -7,7 +7,7 @@ use crate::control::trace::EventKind;
 use std::fmt::Write;
 
 impl Runner<'_> {
-    /// A line of output: text, and values with their places before and behind the point.
+    /// A line of output: text, and values with their places before and after the point.
     ///
     /// Leading places are blank, the fraction is rounded and its zeros are printed; a value too
     /// long for its places takes more.

@@ -307,7 +307,7 @@ impl<'c> Runner<'c> {
         }
     }
 
-    /// Behind the last block of a program.
+    /// After the last block of a program.
     fn runs_out(&mut self) -> Result<(), Halt> {
         if self.frames.len() <= 1 {
             return Err(Halt::Ended(Op::End));

@@ -35,7 +35,7 @@ impl<'c> Runner<'c> {
             .or_else(alone)
     }
 
-    /// The value of a word in the units of the program; none where the word is dropped.
+    /// The value of a word in the units of the program; none if the word is dropped.
     pub fn word_value(&mut self, word: &Word, known: RoleOf<'_>) -> Result<Option<f64>, Halt> {
         let role = known.map(|(role, _)| role);
         if word.form.is_literal() {
@@ -115,7 +115,7 @@ impl<'c> Runner<'c> {
         })
     }
 
-    /// What a number without a point counts behind a letter of a length: a calculator's only where it is reached.
+    /// What a number without a point counts after a letter of a length: a calculator's only where it is reached.
     fn bare_of(&self, letter: char) -> BareLength {
         let pointed = &self.rules.pointed;
         let reached = pointed.is_empty() || pointed.chars().any(|one| one == letter);

@@ -9,7 +9,7 @@ use crate::legalize::shares_line;
 /// How the end of a block is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::emit) enum Form {
-    /// Not at all: the block behind it is the next one.
+    /// Not at all: the block after it is the next one.
     #[default]
     Fall,
     /// `GOTO`.
@@ -23,9 +23,9 @@ pub(in crate::emit) enum Form {
         /// Where the second goes.
         otherwise: Option<BlockId>,
     },
-    /// `IF[..]THEN` before the one statement of the block behind it.
+    /// `IF[..]THEN` before the one statement of the block after it.
     Then,
-    /// `/` before the one line of the block behind it.
+    /// `/` before the one line of the block after it.
     Skip(u8),
     /// `/GOTO`, and then perhaps `GOTO`.
     SkipGoto {
@@ -88,7 +88,7 @@ impl Plan {
             layout.forms[found.header] = Some(Form::While { negated: found.negated, number: found.number });
             layout.forms[found.last] = Some(Form::EndDo(found.number));
         }
-        // From the end, because whether a block is one line depends on the one behind it.
+        // From the end, because whether a block is one line depends on the one after it.
         for at in (0..count).rev() {
             if layout.forms[at].is_none() {
                 layout.forms[at] = Some(layout.form(at));
@@ -150,7 +150,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         }
     }
 
-    /// One statement that runs where the condition holds, and then, either way, what is behind it.
+    /// One statement that runs where the condition holds, and then, either way, what is after it.
     fn is_then(&self, at: usize, cond: &Cond, then: BlockId, otherwise: BlockId) -> bool {
         let body = at + 1;
         if then.index() != body || !self.arrivals.is_only_from(body, at) {
@@ -199,7 +199,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
     }
 
     /// True where the block at `body` is one line that only `at` leads to, and where it does not go
-    /// elsewhere goes on at `join`, which stands behind it.
+    /// elsewhere goes on at `join`, which stands after it.
     fn is_one_line(&self, body: usize, at: usize, join: BlockId) -> bool {
         let Some(block) = self.program.blocks.get(body) else { return false };
         if !self.arrivals.is_only_from(body, at) || !block.labels.is_empty() {

@@ -176,7 +176,7 @@ fn sequences(block: &Block) -> impl DoubleEndedIterator<Item = u32> {
 /// Finds numbers that nobody has.
 struct Inventor {
     taken: HashSet<u32>,
-    /// By block: the last number in it, and the first number in it or behind it.
+    /// By block: the last number in it, and the first number in it or after it.
     last: Vec<Option<u32>>,
     next: Vec<Option<u32>>,
     /// By block: the number in a label like `L100`.

@@ -1,4 +1,4 @@
-//! Lines: what stands before and behind the words of a block.
+//! Lines: what stands before and after the words of a block.
 
 use super::digits::write_padded;
 use super::labels::Standing;
@@ -38,7 +38,7 @@ pub(in crate::emit) struct Line<'p> {
     pub name: Option<&'p str>,
     /// The skip level of the next line.
     pub skip: Option<u8>,
-    /// The condition of the next line, which stands behind its THEN.
+    /// The condition of the next line, which stands after its THEN.
     pub condition: Option<&'p Cond>,
     /// The label that was written last on a line of its own.
     flushed: Option<u32>,

@@ -1,6 +1,6 @@
 //! Loops that can be written as WHILE.
 //!
-//! Law: a header without statements whose branch goes to the block behind it or to
+//! Law: a header without statements whose branch goes to the block after it or to
 //! `exit`, a body that ends with a jump to the header just before `exit`, and no other
 //! way into the body, do what `WHILE[..]DOn` and `ENDn` around that body do.
 //! Side conditions: nothing outside jumps or calls into the body (the control knows no loop
@@ -21,7 +21,7 @@ pub(super) struct Loop {
     pub last: usize,
     /// True where the branch leaves the loop when it holds.
     pub negated: bool,
-    /// The number behind DO: how many loops are round it, and one.
+    /// The number after DO: how many loops are round it, and one.
     pub number: u32,
 }
 

@@ -1,5 +1,5 @@
 //! What the text of every target needs: the layout of a program's blocks, the numbers that jumps find them by,
-//! digits, what a comment can hold, and lines with what stands before and behind their words.
+//! digits, what a comment can hold, and lines with what stands before and after their words.
 //!
 //! Nothing here knows how a target spells what stands on a line.
 

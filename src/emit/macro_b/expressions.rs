@@ -107,7 +107,7 @@ impl Emitter<'_> {
         self.nested -= 1;
     }
 
-    /// Writes what stands behind a minus sign.
+    /// Writes what stands after a minus sign.
     pub(super) fn signed(&mut self, value: &Expr) {
         match value {
             Expr::Binary(..) => self.bracketed(value),

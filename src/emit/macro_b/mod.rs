@@ -31,7 +31,7 @@ const FORMS: Forms = Forms { sequence: 'N', program: 'O', program_digits: 4 };
 /// What tells the dialects of the family apart beyond their tables.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// True where a subprogram call may stand behind other words of its block.
+    /// True where a subprogram call may stand after other words of its block.
     pub words_beside_call: bool,
 }
 
@@ -66,7 +66,7 @@ struct Emitter<'p> {
     out: Sheet<'p>,
     /// Brackets that are open.
     depth: u32,
-    /// True behind a limit on reading ahead: empty blocks there have their use.
+    /// True after a limit on reading ahead: empty blocks there have their use.
     holds_back: bool,
     /// Expressions that are being written inside one another.
     nested: u32,

@@ -23,7 +23,7 @@ pub(super) struct Code<'c> {
 pub(super) struct Operator<'c> {
     /// Its spelling; empty where the control lacks it.
     pub text: &'c str,
-    /// Its rank from 1; 0 where nobody says for sure how tight it binds.
+    /// Its rank from 1; 0 if nobody says for sure how tight it binds.
     pub rank: u32,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Spellings<'c> {
     pub brackets: Option<u32>,
     /// True where ROUND in a word rounds to the word's increment.
     pub round_is_increment: bool,
-    /// Most M codes of a block; one where nobody says.
+    /// Most M codes of a block; one if nobody says.
     pub m_codes: usize,
     arithmetic: [Operator<'c>; 8],
     relations: [Operator<'c>; 6],

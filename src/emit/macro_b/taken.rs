@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const WIDTH: usize = 60;
 
 impl Emitter<'_> {
-    /// Writes the comment, on as many lines as it takes; none where the program takes no register.
+    /// Writes the comment, on as many lines as it takes; none if the program takes no register.
     pub(super) fn taken_registers(&mut self) {
         let (mut named, mut scratch) = (BTreeMap::new(), BTreeSet::new());
         self.program.variables(&mut |var| {

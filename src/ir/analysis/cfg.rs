@@ -19,7 +19,7 @@ pub struct Cfg {
 }
 
 impl Cfg {
-    /// The graph in which a call goes on behind itself and a return goes nowhere. Its roots are
+    /// The graph in which a call goes on after itself and a return goes nowhere. Its roots are
     /// the entry and the blocks that calls enter.
     pub fn of(program: &Program) -> Self {
         let succs = program.blocks.iter().map(|block| block.term.kind.successors()).collect();
@@ -27,7 +27,7 @@ impl Cfg {
     }
 
     /// The graph of every way that control can go: calls enter their block, and returns go
-    /// behind any call of a block, to the labelled blocks where they name one, and (where nobody
+    /// after any call of a block, to the labelled blocks where they name one, and (if nobody
     /// called the program) to the entry. With `come_back` (see [`may_come_back`]) a call of another
     /// program may go on at any labelled block.
     ///

@@ -164,7 +164,7 @@ impl Summaries {
 
     /// Adds to each program what its callees do.
     fn spread(&mut self, graph: &Graph) {
-        // The modal calls stand behind the programs, as one more.
+        // The modal calls stand after the programs, as one more.
         self.written.push(std::mem::take(&mut self.modal));
         graph
             .calls

@@ -209,7 +209,7 @@ impl Modal {
         self.step_length(nc);
         self.tool_word = self.tool_word.after(nc);
         self.step_tap(nc);
-        // Behind the unit and the feed mode, which it counts in, wherever they stand.
+        // After the unit and the feed mode, which it counts in, wherever they stand.
         if let Some(feed) = feed {
             self.feed = feed.constant().map_or(Feed::Unknown, Feed::Known);
         }

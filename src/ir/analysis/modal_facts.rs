@@ -1,7 +1,7 @@
 //! Which modal operation is in force where, as far as the text of the library says.
 //!
 //! A forward analysis over all programs at once: the state at a program's entry
-//! joins the states at all its calls, and the state behind a call is the
+//! joins the states at all its calls, and the state after a call is the
 //! callee's at its returns; a return to a sequence number goes on there as well. A
 //! computed call enters every program that it may be meant for. What a program without a known caller starts in, and what an
 //! unknown callee leaves, is not known.
@@ -17,7 +17,7 @@ use std::rc::Rc;
 /// The modal state at the start of every block of a library.
 #[derive(Clone, Debug)]
 pub struct ModalFacts {
-    /// By block of all programs, one program after the other; none where no path leads. Most blocks change nothing, and
+    /// By block of all programs, one program after the other; none if no path leads. Most blocks change nothing, and
     /// start in one state.
     entries: Vec<Option<Rc<Modal>>>,
     /// By program, the place of its first block; at last, that of the end.
@@ -172,7 +172,7 @@ impl<'m> Analysis<'m> {
             if let StmtKind::ModalCall(call) = &stmt.kind
                 && !(self.copies && nested)
             {
-                // It runs behind moves yet to come, under the modal calls outside its own.
+                // It runs after moves yet to come, under the modal calls outside its own.
                 let inside = Modal::unknown_under(&state);
                 self.call(index, id, call, &Rc::new(inside));
             }
@@ -191,7 +191,7 @@ impl<'m> Analysis<'m> {
         }
     }
 
-    /// Enters a callee and yields the state behind the call as known so far.
+    /// Enters a callee and yields the state after the call as known so far.
     fn call(&mut self, index: usize, id: BlockId, call: &Call, state: &Rc<Modal>) -> Rc<Modal> {
         let routine = match (&call.callee, self.program_of(&call.callee)) {
             (Callee::Block(entry), _) => (index, *entry),

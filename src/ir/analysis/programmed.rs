@@ -1,7 +1,7 @@
 //! Where a program last sent the tool in X and Y, in words that still have the value they had then.
 //!
-//! A forward analysis of one program. Behind a call, at an entry and where paths disagree nothing
-//! is known; nor behind anything that may shift what coordinates mean. A rotation does not count
+//! A forward analysis of one program. After a call, at an entry and where paths disagree nothing
+//! is known; nor after anything that may shift what coordinates mean. A rotation does not count
 //! as that: the program's coordinates stay, the machine turns them.
 
 use super::modal::Modal;
@@ -69,7 +69,7 @@ impl Programmed {
         }
     }
 
-    /// Takes a statement's effect; `modal` is what is in force behind it.
+    /// Takes a statement's effect; `modal` is what is in force after it.
     pub fn step(&mut self, stmt: &Stmt, modal: &Modal, summaries: &Summaries) {
         let before = stmt.site.skip.map(|_| self.clone());
         let mut written = Vars::default();

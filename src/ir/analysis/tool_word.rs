@@ -16,7 +16,7 @@ pub enum ToolWord {
 }
 
 impl ToolWord {
-    /// What it is behind a block.
+    /// What it is after a block.
     pub fn after(self, nc: &Nc) -> Self {
         if nc.has(Op::ToolChange) {
             ToolWord::Changed
@@ -30,7 +30,7 @@ impl ToolWord {
         }
     }
 
-    /// What it is behind a routine of which nothing is known.
+    /// What it is after a routine of which nothing is known.
     pub fn after_unknown(self) -> Self {
         if self == ToolWord::Waits { self } else { ToolWord::Unknown }
     }

@@ -206,7 +206,7 @@ impl<'m> Callees<'m> {
     }
 }
 
-/// What a block makes of what is live behind it.
+/// What a block makes of what is live after it.
 struct Transfer {
     /// What it makes of nothing.
     reads: BitRow,

@@ -62,7 +62,7 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Goes back to what gave the variable its value last, or to where that must be asked; none where it is not known.
+    /// Goes back to what gave the variable its value last, or to where that must be asked; none if it is not known.
     fn back(
         &self,
         (id, at, var): Asked,

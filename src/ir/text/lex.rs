@@ -105,7 +105,7 @@ fn number(bytes: &[u8]) -> usize {
     len
 }
 
-/// The text behind an opening quote and the bytes it takes, both quotes included.
+/// The text after an opening quote and the bytes it takes, both quotes included.
 fn quoted(rest: &str) -> Option<(String, usize)> {
     let mut out = String::new();
     let mut chars = rest.char_indices().skip(1);

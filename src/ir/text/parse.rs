@@ -58,7 +58,7 @@ impl<'t> Parser<'t> {
         Ok(Program { name, file, site, blocks })
     }
 
-    /// A block behind its id.
+    /// A block after its id.
     fn block(&mut self) -> Parsed<Block> {
         let mut labels = Vec::new();
         if self.eat_mark("(") {
@@ -212,7 +212,7 @@ impl<'t> Parser<'t> {
     }
 }
 
-/// The number behind a prefix: `N10`.
+/// The number after a prefix: `N10`.
 pub(super) fn numbered(word: &str, prefix: &str) -> Option<u32> {
     word.strip_prefix(prefix)?.parse().ok()
 }

@@ -33,7 +33,7 @@ impl Parser<'_> {
         Ok(StmtKind::Assign { target, value: self.expr()? })
     }
 
-    /// A statement behind its first word.
+    /// A statement after its first word.
     fn stmt_rest(&mut self, word: &str) -> Parsed<StmtKind> {
         Ok(match word {
             "nc" => StmtKind::Nc(self.nc()?),

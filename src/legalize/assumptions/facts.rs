@@ -139,7 +139,7 @@ enum Sign {
 /// Of 64 bits: four signs of each role.
 const WORDS: usize = Role::ALL.len() * 4 / 64 + 1;
 
-/// What a block rests on hangs on no more than this of each item; none where it may.
+/// What a block rests on hangs on no more than this of each item; none if it may.
 fn part(item: &NcItem) -> Option<Part> {
     match item {
         NcItem::Op(op) => Some((*op as u16, Sign::None)),

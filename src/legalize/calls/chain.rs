@@ -51,10 +51,10 @@ pub fn chain(module: &mut Module, context: &mut Context<'_>) {
 
 /// Returns to a sequence number of the caller by a register that each caller looks at.
 ///
-/// Law: the callee leaves the number in a register and returns; behind the call, the caller jumps to
+/// Law: the callee leaves the number in a register and returns; after the call, the caller jumps to
 /// the block of that number, and goes on where it is 0. Side conditions: every caller is in the
 /// library; a call is not repeated, for such a return ends its repeats. A caller that lacks the number
-/// goes on behind the call where the source would alarm. A program that nothing calls is a main program, in which
+/// goes on after the call where the source would alarm. A program that nothing calls is a main program, in which
 /// the return is a jump.
 pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("return.to.sequence").is_some() && !context.target.is(Question::M99PJumpsHere)
@@ -187,7 +187,7 @@ fn wanted_by(module: &Module, numbers: &BTreeMap<ProgramName, Vec<u32>>) -> BTre
     wanted
 }
 
-/// The programs that the library calls; none where a call is computed.
+/// The programs that the library calls; none if a call is computed.
 fn called(module: &Module) -> Option<BTreeSet<ProgramName>> {
     let calls = module.programs.iter().flat_map(|program| &program.blocks).flat_map(calls_of);
     let callee = |call: &Call| match &call.callee {
@@ -211,7 +211,7 @@ fn places(program: &Program) -> BTreeMap<u32, BlockId> {
     places
 }
 
-/// The calls inside a program of what may return to a sequence number: nobody looks at the register behind them.
+/// The calls inside a program of what may return to a sequence number: nobody looks at the register after them.
 fn subroutines_that_return_to(program: &Program) -> Vec<Span> {
     let returns_to = |id: &BlockId| {
         program.block(*id).is_some_and(|block| matches!(block.term.kind, TermKind::Return { to: Some(_) }))

@@ -1,7 +1,7 @@
-//! Modal calls by a call behind each move, where the target has none.
+//! Modal calls by a call after each move, where the target has none.
 //!
 //! Law: under open modal calls, a block that moves an axis and then calls the innermost one does what they make of it;
-//! inside that macro the ones outside it are open, so the macro is copied with their calls behind its own moves. The
+//! inside that macro the ones outside it are open, so the macro is copied with their calls after its own moves. The
 //! arguments are those of the block that opens it, so those that are numbers are kept in temporaries, and one that may be
 //! vacant is a condition. A word whose value is
 //! vacant is not there: where that may be so of all axes, the call stands under the condition that one is. Side
@@ -88,7 +88,7 @@ fn unsure_moves(
     found
 }
 
-/// A value without its sign: with a vacant variable behind it, the word is not there either.
+/// A value without its sign: with a vacant variable after it, the word is not there either.
 fn unsigned(value: &Expr) -> &Expr {
     match value {
         Expr::Negate(inner) => inner,
@@ -130,7 +130,7 @@ struct Expansion {
 const DEEPEST: usize = 5;
 
 impl Expansion {
-    /// The program with its modal calls made explicit; under `outer`, those calls come behind its
+    /// The program with its modal calls made explicit; under `outer`, those calls come after its
     /// moves where it opens none of its own. It is called with numbers in the locals that are `given`.
     fn expand(
         &mut self,
@@ -226,13 +226,12 @@ impl Expansion {
                         };
                         match before {
                             None if runs => {
-                                let why = "a modal call is open on some paths to this block and not on \
-                                           others";
+                                let why = "a modal call is open on only some paths to this block";
                                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, why));
                             }
                             Some(_) if here && moves && self.native => {
-                                let why = "both the move and the code in its block call the macro: it is \
-                                           taken to run once";
+                                let why = "the move and the code in its block both call the macro: taken \
+                                           to run once";
                                 context.add(index, Diagnostic::new(Code::Conditional, span, why));
                             }
                             Some(mut calls) if runs && self.native => {

@@ -35,7 +35,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let Some(highest) = limits.iter().map(|(_, most, _)| *most).max() else { return };
     limits.sort_by_key(|(_, most, _)| *most);
     let routines = Routines::of(module, highest);
-    // How deep the source nests calls of each kind before it stops itself; none where it has no limit.
+    // How deep the source nests calls of each kind before it stops itself; none if it has no limit.
     let own = |at: usize| here[at].map(|most: u32| routines.depths(most, &LIMITS[at].1));
     let (macros, subprograms) = (own(1), own(2));
     let stops_at = |at: usize| Some(macros.as_ref()?[at] + subprograms.as_ref()?[at]);

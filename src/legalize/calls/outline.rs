@@ -1,7 +1,7 @@
-//! Subroutines inside a program, where the target wants them: behind the program's end, or, where it
+//! Subroutines inside a program, where the target wants them: after the program's end, or, where it
 //! calls programs only, as programs of their own.
 //!
-//! A subroutine at the head of its program, jumped over, is moved behind the end; the order of blocks
+//! A subroutine at the head of its program, jumped over, is moved after the end; the order of blocks
 //! means nothing but to the reader.
 //!
 //! Law: what a call of a block runs is what is reachable from it; a program
@@ -18,7 +18,7 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use thin_vec::ThinVec;
 
-/// Gives each called block a program of its own, or its place behind the program's end.
+/// Gives each called block a program of its own, or its place after the program's end.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("call.local").is_some() {
         module.programs.iter_mut().for_each(move_behind);
@@ -44,7 +44,7 @@ fn entries(program: &Program) -> BTreeSet<BlockId> {
     blocks.collect()
 }
 
-/// Moves the subroutines that a program begins with behind its end.
+/// Moves the subroutines that a program begins with after its end.
 fn move_behind(program: &mut Program) {
     let Some(TermKind::Jump(start)) = program.blocks.first().map(|block| &block.term.kind) else { return };
     let (start, all) = (start.index(), program.blocks.len());
@@ -72,7 +72,7 @@ fn move_behind(program: &mut Program) {
     }
 }
 
-/// Appends the program and, behind it, the programs made of its subroutines.
+/// Appends the program and, after it, the programs made of its subroutines.
 fn outline(mut program: Program, out: &mut Vec<Program>) {
     let entries = entries(&program);
     if entries.is_empty() {

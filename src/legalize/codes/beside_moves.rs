@@ -1,6 +1,6 @@
 //! Spindle, coolant and tool change beside a move, which controls do with its start or when it is done.
 //!
-//! Law: what stands in a block of its own acts when that block comes, on every control. So a code goes before or behind
+//! Law: what stands in a block of its own acts when that block comes, on every control. So a code goes before or after
 //! the move, as the source does it, wherever no source says that the target does the same in one block. Beside a rapid
 //! move or a wait nobody could tell in the work when spindle or coolant act: where the source does not say, they stay.
 //! Where it matters and no source says it, the code goes where the trade has it, and the fact is named.
@@ -26,7 +26,7 @@ pub fn concerns(features: &Features) -> bool {
     features.any_op(|op| op.auxiliary().is_some()) || features.role(Role::Speed)
 }
 
-/// Puts what acts before or behind the move of its block into blocks of its own.
+/// Puts what acts before or after the move of its block into blocks of its own.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = ModalFacts::of(module, &context.entry);
     let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
@@ -128,7 +128,7 @@ fn belongs(item: &NcItem, code: &NcItem) -> bool {
     }
 }
 
-/// A block that moves, and what goes before it and behind it, a block each.
+/// A block that moves, and what goes before it and after it, a block each.
 struct Block<'b> {
     nc: &'b mut Nc,
     before: &'b Modal,
@@ -168,7 +168,7 @@ impl Block<'_> {
         facts
     }
 
-    /// A program stop waits for what goes behind the move.
+    /// A program stop waits for what goes after the move.
     fn stop_last(&mut self) {
         let stops = |item: &NcItem| matches!(item, NcItem::Op(Op::Stop | Op::OptionalStop));
         if self.late.is_empty() || !self.nc.items.iter().any(stops) {
@@ -225,7 +225,7 @@ impl Block<'_> {
             let goes = |kind: Auxiliary| !changes && !kind.waits() && kind != Auxiliary::Speed;
             let first = codes.iter().find(|(kind, _)| goes(*kind));
             let late = first.is_none();
-            // Of those that wait the one that acts last goes first: a stop comes behind a change.
+            // Of those that wait the one that acts last goes first: a stop comes after a change.
             let last = || codes.iter().max_by_key(|(kind, _)| *kind);
             let Some((_, code)) = first.or_else(last) else { return };
             let goes = |item: &NcItem| item == code || belongs(item, code);

@@ -87,7 +87,7 @@ pub(in crate::legalize) struct Number {
     read: bool,
 }
 
-/// The numbers that a code may be; none where that is not known.
+/// The numbers that a code may be; none if that is not known.
 pub(in crate::legalize) fn numbers(
     value: &Expr,
     program: &Program,

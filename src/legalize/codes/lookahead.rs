@@ -16,7 +16,7 @@ use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
-/// Empty blocks behind a limit of one: the control reads two blocks more than it is told.
+/// Empty blocks after a limit of one: the control reads two blocks more than it is told.
 const HOLD_BACK: usize = 3;
 
 /// Replaces waits and limits that the target has not.

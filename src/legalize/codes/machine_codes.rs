@@ -2,7 +2,7 @@
 //!
 //! Law: the M codes of one block act together: the tool is changed, then the spindle turns, coolant comes on, what stops
 //! acts, and a program stop is last; given one a block in that order, the machine ends in the same state. The first stays
-//! with its block, and the others come behind it. Side condition: between two of them the machine may wait for the first to
+//! with its block, and the others come after it. Side condition: between two of them the machine may wait for the first to
 //! be finished.
 //! A code for turns per minute says nothing to a control without constant surface speed, and is left out.
 

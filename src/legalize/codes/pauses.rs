@@ -2,7 +2,7 @@
 //!
 //! Law: what the source ends at a stop is ended by codes before it, wherever no source says that the target's stop does so:
 //! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
-//! change is left to the machine. What a stop ends matters behind it where the program cuts before it says itself what
+//! change is left to the machine. What a stop ends matters after it where the program cuts before it says itself what
 //! runs: then the facts that no source confirms are named.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
@@ -172,7 +172,7 @@ struct Place<'p> {
     index: usize,
     id: BlockId,
     state: Modal,
-    /// What the block of a tool change starts behind it.
+    /// What the block of a tool change starts after it.
     restarted: [bool; 2],
     /// True where a block skip may leave it out.
     skipped: bool,
@@ -193,7 +193,7 @@ impl Place<'_> {
         }
     }
 
-    /// What has to be ended before a stop; `number` is that of the statement behind it.
+    /// What has to be ended before a stop; `number` is that of the statement after it.
     fn stop(
         &mut self,
         pause: Pause,

@@ -1,6 +1,6 @@
 //! The words of drilling cycles that one control's code takes and the other's does not.
 //!
-//! Law: what a cycle is told lasts for the cycles behind it, until cycles are cancelled, and a cycle does nothing with
+//! Law: what a cycle is told lasts for the cycles after it, until cycles are cancelled, and a cycle does nothing with
 //! a word that its code does not take. So where only the target's code takes a dwell, it is told one of 0, and the
 //! dwell of before is told again where the next code that takes one has none of its own. A word that only the
 //! source's code takes is refused, and so is a dwell of before that only the source's code takes; a dwell of 0 is left
@@ -121,7 +121,7 @@ impl Default for Lasting {
 }
 
 impl Lasting {
-    /// Takes a statement's effect; the cycles in force before and behind it are known or not.
+    /// Takes a statement's effect; the cycles in force before and after it are known or not.
     fn step(&mut self, stmt: &Stmt, before: Option<Op>, behind: Option<Op>, context: &Context<'_>) {
         let StmtKind::Nc(nc) = &stmt.kind else { return };
         let old = stmt.site.skip.map(|_| self.clone());

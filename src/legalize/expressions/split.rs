@@ -34,7 +34,7 @@ pub(in crate::legalize) fn place_of(position: Position) -> OperandPlace {
     }
 }
 
-/// True where a line of the target has room for a condition and the statement behind its THEN.
+/// True where a line of the target has room for a condition and the statement after its THEN.
 pub fn shares_line(control: &Control, cond: &Cond, stmt: &StmtKind) -> bool {
     let measure = Measure::new(control);
     let (before, _) = beside(control, OperandPlace::Then);

@@ -1,7 +1,7 @@
 //! Sequence numbers at the head of what became of their blocks.
 //!
 //! Law: where a block of the source became several statements, its number stands at the first of them, once: whoever
-//! starts there by the number starts at its beginning. What only computes a temporary for a statement behind it is its
+//! starts there by the number starts at its beginning. What only computes a temporary for a statement after it is its
 //! beginning, too. Side condition: a number that is a label stays with the block that it finds. Counter-example:
 //! `#101=0`, `N8 #504=#101`, of which a start at N8 leaves out the first.
 

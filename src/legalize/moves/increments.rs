@@ -30,7 +30,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 /// Converts those of the arguments of modal calls: they count in the unit where the call is opened, and
-/// the moves behind which the macro runs may be in the other one.
+/// the moves after which the macro runs may be in the other one.
 pub(in crate::legalize) fn of_modal_calls(module: &mut Module, context: &mut Context<'_>) {
     let source = context.source;
     let modal = |block: &Block| block.stmts.iter().any(|s| matches!(s.kind, StmtKind::ModalCall(_)));
@@ -216,7 +216,7 @@ fn word(value: &mut Expr, role: Role, units: Option<Units>, source: &Control, ta
     convert(value, role.is_angle(), units, source)
 }
 
-/// True where a number without a point counts the same behind this argument's letter on both controls.
+/// True where a number without a point counts the same after this argument's letter on both controls.
 fn kept_by(local: u32, source: &Control, target: &Control) -> bool {
     let letter = target.argument_letter(local);
     let bare = letter.map_or(BareLength::Unknown, |letter| target.bare_argument(letter));

@@ -1,6 +1,6 @@
 //! A rapid move that leaves the interpolation in force alone.
 //!
-//! Law: such a block is a rapid move, behind which the interpolation that was in force is said again. Side conditions:
+//! Law: such a block is a rapid move, after which the interpolation that was in force is said again. Side conditions:
 //! it is known, and is straight (an arc code alone means another thing on each control), and no drilling cycle is in
 //! force, which a rapid code would end.
 

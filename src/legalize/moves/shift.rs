@@ -91,7 +91,7 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
     let StmtKind::Nc(nc) = &mut stmt.kind else { return None };
     let moves = nc.moves() && !nc.has(Op::ReferenceReturn) && !nc.has(Op::MachineOnce);
     let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ShiftCancel));
-    // A modal call behind the move may leave another shift, but not before it.
+    // A modal call after the move may leave another shift, but not before it.
     let cancelled = at.map(|_| Op::ShiftCancel).or(state.op(Group::WorkOffset));
     if let Some(at) = at {
         nc.items.remove(at);

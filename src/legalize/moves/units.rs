@@ -177,7 +177,7 @@ fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
             let Some(block) = program.block(id).filter(|_| !open[index]) else { break };
             let mut state = facts.at(index, id);
             for stmt in &block.stmts {
-                // A modal call that the block sets off comes behind it.
+                // A modal call that the block sets off comes after it.
                 let before = state.op(Group::Units);
                 state.step(stmt);
                 if before.or(state.op(Group::Units)).is_none() {

@@ -114,7 +114,7 @@ fn read(e: &Expr, span: Span, found: &mut Option<Span>) {
     });
 }
 
-/// Whether a block writes the shift of all offsets; none where it may.
+/// Whether a block writes the shift of all offsets; none if it may.
 fn writes(nc: &Nc) -> Option<bool> {
     if !nc.has(Op::WriteWork) {
         return Some(false);

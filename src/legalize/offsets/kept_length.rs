@@ -33,7 +33,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// Whether a control cancels the length there; none where no source says.
+    /// Whether a control cancels the length there; none if no source says.
     fn cancels(&self, control: &Control) -> Option<bool> {
         match control.behaviour(self.question)?.value.as_str() {
             "kept" => Some(false),

@@ -2,7 +2,7 @@
 //!
 //! Law: where a length picks the radius of the same row, lowering names that radius beside it. It is left out where
 //! nothing looks at it: compensation is known to be off there, and on every way on another word names a radius
-//! before a code starts compensation without one. Side condition: behind a call and a return anything may look that
+//! before a code starts compensation without one. Side condition: after a call and a return anything may look that
 //! the library has. Counter-example to leaving it out: `H2 Z.1`, then `G41 X1.` in a block without a D.
 
 use crate::canon::{Group, Op, Role};
@@ -78,7 +78,7 @@ fn comes_with_length(nc: &Nc) -> bool {
     pair && !compensates(nc)
 }
 
-/// Whether the radius in force before a block may be looked at, where that of behind it may.
+/// Whether the radius in force before a block may be looked at, where that of after it may.
 fn before(nc: &Nc, skipped: bool, behind: bool) -> bool {
     if nc.word(Role::RadiusOffset).is_some() { skipped && behind } else { behind || looks(nc) }
 }

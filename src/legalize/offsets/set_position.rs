@@ -1,4 +1,4 @@
-//! Work offsets that are selected behind a position that the program set.
+//! Work offsets that are selected after a position that the program set.
 //!
 //! Law: the code that says where the tool stands shifts all work offsets on some controls until it is taken back, and on
 //! others lasts until an offset is selected. Where it is not known that both controls do the same, a selection that may come
@@ -18,7 +18,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     both && !context.agree(Question::SelectEndsSetPosition)
 }
 
-/// Reports selections behind a set position.
+/// Reports selections after a set position.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     behind(
         module,

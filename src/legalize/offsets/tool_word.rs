@@ -1,6 +1,6 @@
 //! Whether the last tool word names the tool in the spindle.
 //!
-//! Law: behind a block that changes the tool both are one, until a tool word stands without a change.
+//! Law: after a block that changes the tool both are one, until a tool word stands without a change.
 //! Counter-example: `T1 M6`, then `T2`, which makes tool 2 ready while tool 1 is in the spindle.
 
 use crate::canon::Sys;
@@ -15,7 +15,7 @@ use crate::text::Span;
 pub const ADDRESS_T: u32 = 20;
 
 /// Asks wherever the tool in the spindle is read and the target tells the last tool word in its place: that is the
-/// same behind a change, is for review where none is seen, and an error where a tool may wait for its change.
+/// same after a change, is for review where none is seen, and an error where a tool may wait for its change.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     if !stands_in(context.target) || !module.programs.iter().any(reads) {
         return;

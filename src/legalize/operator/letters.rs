@@ -177,7 +177,7 @@ mod tests {
         let output = Place::Output { small: false };
         assert_eq!(of("Ü日a", output), ("UE日A".into(), true, false));
         assert_eq!(of("a", output), ("A".into(), true, false));
-        // U with a dots' sign of its own behind it.
+        // U with a dots' sign of its own after it.
         assert_eq!(of("TU\u{308}R", shown), ("TUR".into(), true, false));
     }
 }

@@ -1,7 +1,7 @@
 //! Formatted output to a port that is not open.
 //!
 //! Law: where the source prints without it and the target does not, the port is opened before such output and
-//! closed behind it. Side condition: nothing in the library opens the port; where something does, whether it is open
+//! closed after it. Side condition: nothing in the library opens the port; where something does, whether it is open
 //! at another place is for a reviewer. Whether it is open is told by the order of the text. Counter-example: a
 //! subprogram that prints for a caller which has opened the port; closing it there would end the caller's output.
 
@@ -52,7 +52,7 @@ fn shut(program: &Program) -> Option<Span> {
     None
 }
 
-/// Opens the port before each run of output, and closes it behind.
+/// Opens the port before each run of output, and closes it after.
 fn open(program: &mut Program) {
     for block in &mut program.blocks {
         let mut out = Vec::with_capacity(block.stmts.len());

@@ -4,7 +4,7 @@
 //! question and the register's number, and the operator enters the value there. Side condition: the
 //! operator does so before cycle start; hence the review diagnostic.
 //! Law of a print: the same text and values go to the output port, since the target prints nowhere else; the
-//! digits of a value are four before and four behind the point, because no source gives the source's format.
+//! digits of a value are four before and four after the point, because no source gives the source's format.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
@@ -13,10 +13,10 @@ use crate::ir::{
 };
 use crate::legalize::{Context, Registers};
 
-/// Digits of a printed value before and behind the point: eight together is what the targets take.
+/// Digits of a printed value before and after the point: eight together is what the targets take.
 const DIGITS: (u32, u32) = (4, 4);
 
-/// Replaces questions; needs the registers, so it runs behind their allocation.
+/// Replaces questions; needs the registers, so it runs after their allocation.
 pub fn questions(module: &mut Module, context: &mut Context<'_>) {
     if context.target.statement("input").is_some() {
         return;

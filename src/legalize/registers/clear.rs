@@ -26,7 +26,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.has(Feature::Clear) && !context.target.is(Question::ClearAll)
 }
 
-/// Expands the clearing of a class; needs the registers, so it runs behind their allocation.
+/// Expands the clearing of a class; needs the registers, so it runs after their allocation.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let registers = &context.registers;
     for program in &mut module.programs {

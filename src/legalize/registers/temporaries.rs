@@ -117,7 +117,7 @@ enum Step {
     Move,
 }
 
-/// Walks a block from its end; `each` is told each step and what is alive behind it.
+/// Walks a block from its end; `each` is told each step and what is alive after it.
 fn backward(block: &Block, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
     block.term.kind.exprs(&mut |e| read(e, live, each));
     for stmt in block.stmts.iter().rev() {

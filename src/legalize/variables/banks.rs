@@ -2,7 +2,7 @@
 //!
 //! Law: the target keeps such a space in a run of registers, so a number of the space means the same on both. Side
 //! condition, for a reviewer: the number is one of the space; where every value that it may have is known, it
-//! is looked up. Counter-example: `V(101)`, which the source does not have, and which is on the target what stands behind the run.
+//! is looked up. Counter-example: `V(101)`, which the source does not have, and which is on the target what stands after the run.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
@@ -65,7 +65,7 @@ impl Space {
     }
 }
 
-/// The whole numbers that constants are; none where one is something else.
+/// The whole numbers that constants are; none if one is something else.
 pub(in crate::legalize) fn all_numbers(constants: Vec<Constant>) -> Option<Numbers> {
     let number = |constant| match constant {
         Constant::Number(value) if value.fract() == 0.0 => whole(value),

@@ -127,7 +127,7 @@ fn kept(nc: &Nc, at: (&Program, &Summaries, BlockId, usize)) -> Option<u32> {
     }
 }
 
-/// Copies the place of the touch behind each probe move that keeps it; where the number of the point is not known,
+/// Copies the place of the touch after each probe move that keeps it; where the number of the point is not known,
 /// the places of those moves.
 fn keep(program: &mut Program, cells: &BTreeSet<Cell>, summaries: &Summaries) -> Vec<Span> {
     let mut open = Vec::new();

@@ -209,7 +209,7 @@ fn read(
     }
 }
 
-/// True where a control's cutter table holds radii; none where that is a setting which nobody stated.
+/// True where a control's cutter table holds radii; none if that is a setting which nobody stated.
 fn holds_radii(control: &Control) -> Option<bool> {
     match control.behaviour(Question::RadiusOffsetTable)?.value.as_str() {
         "radius" => Some(true),
@@ -286,7 +286,7 @@ fn write(stmt: &mut Stmt, (source, target): (&Control, &Control), found: &mut Ve
     found.push((span, Finding::Missing(*state)));
 }
 
-/// By what a number of the source's cutter table is multiplied to be one of the target's; none where nobody stated
+/// By what a number of the source's cutter table is multiplied to be one of the target's; none if nobody stated
 /// what either holds. Where one of them is stated, the other is taken to hold diameters.
 pub(in crate::legalize) fn table_factor(source: &Control, target: &Control) -> Option<f64> {
     let (ours, theirs) = (holds_radii(source), holds_radii(target));

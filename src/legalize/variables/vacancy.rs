@@ -42,7 +42,7 @@ fn guard(program: &mut Program, vars: &[Var]) {
     if shift == 0 {
         return;
     }
-    // Nothing jumps to the entry by its id 0 any more: all ids move behind the guards.
+    // Nothing jumps to the entry by its id 0 any more: all ids move after the guards.
     for block in &mut program.blocks {
         block.term.kind.for_each_target(&mut |to| to.0 += shift);
         for stmt in &mut block.stmts {

@@ -3,7 +3,7 @@
 //! Law: a word whose value is vacant is not there, so a block that writes a table with it writes nothing; twice vacant
 //! is 0, and the target would write that. So where the value may be vacant, the block stands twice: without the value
 //! under the condition that it is vacant, and with it. Side condition: only values that are scaled. A sign before a
-//! vacant variable leaves nothing to write either, unless the source's table has the word there as 0; where nobody
+//! vacant variable leaves nothing to write either, unless the source's table has the word there as 0; if nobody
 //! confirmed that, lowering said so.
 //! Counter-example without it: `G10 L12 P3 R#2` with #2 vacant clears the radius that the source leaves alone.
 //!
@@ -95,7 +95,7 @@ fn runs_again(program: &Program, block: BlockId) -> bool {
     seen.contains(&block) || program.blocks.iter().flat_map(calls_of).any(calls_itself)
 }
 
-/// The statements whose value may be vacant; with `signs` behind a sign too.
+/// The statements whose value may be vacant; with `signs` after a sign too.
 fn places(program: &Program, summaries: &Summaries, signs: bool) -> BTreeSet<(BlockId, usize)> {
     let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
     let mut found = BTreeSet::new();

@@ -1,6 +1,6 @@
 //! Long plain programs, piece by piece, so that memory does not grow with their length.
 //!
-//! Law: a program without jumps, calls and variables is the pieces it is cut into, one behind the other, if each piece
+//! Law: a program without jumps, calls and variables is the pieces it is cut into, one after the other, if each piece
 //! starts in the modal state that the last one left. What a word means never depends on a block of another piece: they
 //! are cut before blocks that name an interpolation, and where none comes, the block that named the one in force
 //! is read once more at the head of the piece, and left out of it. Side conditions, looked for in every piece: plain words,
@@ -36,7 +36,7 @@ const USUAL: Sizes = Sizes { long: 1024 * 1024, piece: 64 * 1024 };
 /// Pieces that each thread is given at a time: few, so that what they need stays in its cache.
 const BATCH: usize = 2;
 
-/// Converts a long plain file; none where it is not one.
+/// Converts a long plain file; none if it is not one.
 pub fn convert(
     inputs: &[Input],
     source: &Control,
@@ -113,7 +113,7 @@ fn convert_pieces(
     Some(sink.finish(source, target, lock.clone()))
 }
 
-/// Reads and lowers a piece; none where it is not plain.
+/// Reads and lowers a piece; none if it is not plain.
 fn lower(input: &Input, piece: Piece, source: &Control) -> Option<Lowered> {
     let entry = source.entry();
     let own = Lines::within(&input.bytes, piece.lines);
@@ -204,7 +204,7 @@ fn piece_made(
 /// The programs so far.
 struct Sink {
     programs: Vec<(Option<String>, Vec<Diagnostic>)>,
-    /// The text of all, behind the framing of a file.
+    /// The text of all, after the framing of a file.
     text: String,
     /// Where the text of each program starts.
     starts: Vec<usize>,

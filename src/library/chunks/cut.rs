@@ -21,7 +21,7 @@ pub struct Pieces<'s> {
     control: &'s Control,
     /// Where the next one starts.
     at: usize,
-    /// The line that named the interpolation in force there; none where that is not sure.
+    /// The line that named the interpolation in force there; none if that is not sure.
     mode: Option<Line>,
     size: usize,
 }
@@ -70,7 +70,7 @@ impl Iterator for Pieces<'_> {
     }
 }
 
-/// True for a line that names an interpolation, false for one that leaves it in force; none where a look at its bytes
+/// True for a line that names an interpolation, false for one that leaves it in force; none if a look at its bytes
 /// cannot tell: comments, skipped blocks, heads of programs, codes that are unknown or belong to cycles.
 fn names_interpolation(line: &[u8], control: &Control) -> Option<bool> {
     let head = control.names().program.as_deref().and_then(|name| name.bytes().next());

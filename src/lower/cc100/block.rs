@@ -16,7 +16,7 @@ const MOST_WORDS: usize = 52;
 
 impl Lowering<'_> {
     /// Lowers a block. Statements act from left to right; the words act together,
-    /// behind the statements or before the first jump.
+    /// after the statements or before the first jump.
     pub(super) fn block(&mut self, block: &Block, mut site: SourceInfo) {
         for error in &block.errors {
             self.findings.add(Diagnostic::new(error.code, error.span, error.message.clone()));
@@ -159,7 +159,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Refuses a block where nobody knows whether a word sees a variable before or
+    /// Refuses a block if nobody knows whether a word sees a variable before or
     /// after the assignment beside it.
     fn check_mixture(&mut self, block: &Block, words: &[(&Word, Span)]) {
         let mut read: Vec<&VarRef> = Vec::new();

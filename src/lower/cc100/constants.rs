@@ -5,7 +5,7 @@
 //! operator edits: whoever takes it for good says so.
 //!
 //! Law: where every assignment to a variable in a program gives it the same
-//! constant, a read behind one of them yields that constant. Side condition: the
+//! constant, a read after one of them yields that constant. Side condition: the
 //! read does follow one, and no other program writes the variable in between;
 //! neither is looked at here, so whoever uses this says so to the reader.
 //! Counter-example: `G=V30` before `V30=22` reads what was left there.
@@ -66,7 +66,7 @@ impl Constants {
         }
     }
 
-    /// Goes on behind an item.
+    /// Goes on after an item.
     pub fn follow(&mut self, item: &ItemKind) {
         match item {
             ItemKind::Assign { target, value, .. } => {

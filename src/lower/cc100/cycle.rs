@@ -2,7 +2,7 @@
 //!
 //! Elsewhere a code of the motion group ends a drilling cycle. Here G80 alone
 //! does: the manual drills with `G0 X=V23 Y=V22` under G81. Law: under a cycle a
-//! code of rapid or feed says nothing, and is in force behind G80. Side
+//! code of rapid or feed says nothing, and is in force after G80. Side
 //! condition: every way to the block agrees on whether a cycle is in force.
 
 use super::graph::Graph;
@@ -61,7 +61,7 @@ fn through(block: &Block, state: State) -> State {
     })
 }
 
-/// Takes the motion codes under a drilling cycle out, and puts them behind its end.
+/// Takes the motion codes under a drilling cycle out, and puts them after its end.
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
     let is_cycle = |stmt: &Stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.ops().any(Op::is_cycle));
     if !program.blocks.iter().flat_map(|block| &block.stmts).any(is_cycle) {

@@ -4,9 +4,9 @@ use crate::ir::analysis::dataflow::{Flow, Lattice, reached_among};
 use crate::ir::{Block, Callee, Program, TermKind};
 use std::collections::BTreeMap;
 
-/// The ways between blocks. A called part that returns goes on behind any call of it, and at its
+/// The ways between blocks. A called part that returns goes on after any call of it, and at its
 /// own beginning where a call repeats it;
-/// a program with very many calls and blocks is taken to go on behind any call at all.
+/// a program with very many calls and blocks is taken to go on after any call at all.
 #[derive(Debug)]
 pub struct Graph {
     ways: Vec<Vec<usize>>,

@@ -141,7 +141,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// True for a program stop. The comment behind it is what the operator reads, and
+    /// True for a program stop. The comment after it is what the operator reads, and
     /// goes with it into one block, as other controls' programmers write it.
     fn stops(&self, block: &Block) -> bool {
         let letters = super::common::letters(&block.items);

@@ -10,7 +10,7 @@
 //! markers go.
 //!
 //! Whether a plain load sets the register no source says. A jump that sees one
-//! behind the last arithmetic is therefore left to a reviewer.
+//! after the last arithmetic is therefore left to a reviewer.
 
 use super::graph::Graph;
 use crate::diag::{Code, Diagnostic};
@@ -107,7 +107,7 @@ impl State {
     }
 }
 
-/// True where another program runs behind the block.
+/// True where another program runs after the block.
 fn leaves(block: &Block) -> bool {
     matches!(&block.term.kind, TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)))
 }

@@ -5,7 +5,7 @@
 //! was last given a whole constant, as counters are, or a sum, difference or product
 //! of values that are whole whatever an operator puts for a constant, or was stepped
 //! when it was whole, and no other program ran since. Counter-examples: `V6=V5+1`
-//! behind `V5=V4/50`; and `V12=V10`, INC, DEC behind `V10=400`, which finds out
+//! after `V5=V4/50`; and `V12=V10`, INC, DEC after `V10=400`, which finds out
 //! whether the operator's V10 is whole.
 
 use super::graph::Graph;

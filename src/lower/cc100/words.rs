@@ -100,7 +100,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// What each word is; none where one of them is not known.
+    /// What each word is; none if one of them is not known.
     fn meanings(&mut self, words: &[(&Word, Span)]) -> Option<Vec<Meaning<'a>>> {
         let numbers: Vec<Option<f64>> = words.iter().map(|(word, _)| self.whole(word)).collect();
         let letters: Vec<(char, Option<f64>)> =

@@ -110,7 +110,7 @@ impl<'c> Findings<'c> {
         self.facts.insert(fact, Told { finding, note: note.map(str::to_owned), last: self.program });
     }
 
-    /// Reports a code for absolute or incremental words that stands behind words of its block.
+    /// Reports a code for absolute or incremental words that stands after words of its block.
     pub fn distance_order(&mut self, items: &[Item]) {
         let mut axes = false;
         for item in items {

@@ -16,7 +16,7 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
             ItemKind::Skip(level) if !words => site.skip = Some(level.unwrap_or(1)),
             ItemKind::Comment(comment) => {
                 let mut text = remark_text(comment.text, source);
-                // The space behind a sign that opens a comment to the end of its line is that sign's.
+                // The space after a sign that opens a comment to the end of its line is that sign's.
                 if matches!(comment.fence, Fence::Apostrophe | Fence::Star) {
                     text.drain(..text.len() - text.trim_start().len());
                 }

@@ -31,7 +31,7 @@ pub(super) struct Reading<'b, 'c> {
 }
 
 impl<'b> Lowering<'b> {
-    /// An NC block; none where something in it is not understood, which is then reported.
+    /// An NC block; none if something in it is not understood, which is then reported.
     pub fn nc(&mut self, items: &'b [Item], codes: &Codes<'b, 'b>) -> Option<()> {
         let span = items.first()?.span.to(items.last()?.span);
         let steps = steps(items, codes);

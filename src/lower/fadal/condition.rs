@@ -10,7 +10,7 @@ use crate::syntax::{self, BinaryOp, ExprKind};
 const DEEPEST: u32 = 100;
 
 impl<'b> Lowering<'b> {
-    /// A condition; none where it is not understood, which is then reported.
+    /// A condition; none if it is not understood, which is then reported.
     pub fn condition(&mut self, e: &syntax::Expr) -> Option<Cond> {
         self.nested_condition(e, 0)
     }

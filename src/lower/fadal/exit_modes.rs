@@ -123,7 +123,7 @@ fn number_of(text: &ProgramText<'_>) -> Option<u32> {
     }
 }
 
-/// The programs that others of the file call, each after those that it calls itself; none where there are no calls.
+/// The programs that others of the file call, each after those that it calls itself; none if there are no calls.
 fn callees_first(texts: &[ProgramText<'_>], control: &Control) -> Option<Vec<usize>> {
     let mut places: BTreeMap<u32, Option<usize>> = BTreeMap::new();
     for (at, text) in texts.iter().enumerate() {

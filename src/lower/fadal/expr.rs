@@ -14,7 +14,7 @@ use thin_vec::ThinVec;
 const DEEPEST: u32 = 200;
 
 impl<'b> Lowering<'b> {
-    /// The value of an expression; none where it is not understood, which is then reported.
+    /// The value of an expression; none if it is not understood, which is then reported.
     pub fn expr(&mut self, e: &syntax::Expr) -> Option<Expr> {
         self.nested(e, 0)
     }

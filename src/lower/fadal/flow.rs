@@ -26,7 +26,7 @@ pub struct Flow<'b> {
     modal_subs: Vec<usize>,
     /// The state where the program returns to its caller.
     left: Option<State>,
-    /// True where it may end in another way than by a return to behind its call.
+    /// True where it may end in another way than by a return to after its call.
     ends_elsewhere: bool,
     calling: BTreeSet<usize>,
 }
@@ -60,14 +60,14 @@ impl<'b> Flow<'b> {
         flow
     }
 
-    /// The state at the head of the run that begins at this block; none where no run does.
+    /// The state at the head of the run that begins at this block; none if no run does.
     /// A run that nothing reaches has a state in which nothing was set.
     pub fn at(&self, block: usize) -> Option<State> {
         let run = self.shape.leaders.binary_search(&block).ok()?;
         Some(self.at.state(run).cloned().unwrap_or_default())
     }
 
-    /// The state where the program returns to its caller; none where it may come back to another place.
+    /// The state where the program returns to its caller; none if it may come back to another place.
     pub fn left(self) -> Option<State> {
         self.left.filter(|_| !self.ends_elsewhere)
     }
@@ -85,7 +85,7 @@ impl<'b> Flow<'b> {
         }
     }
 
-    /// The state behind a block that leaves the flow alone.
+    /// The state after a block that leaves the flow alone.
     pub fn behind(&mut self, block: &Block, state: State) -> State {
         let keep = state.clone();
         self.block(block, None, state).unwrap_or(keep)
@@ -141,7 +141,7 @@ impl<'b> Flow<'b> {
         }
     }
 
-    /// The state behind a block; none where control does not go on there. `run` is
+    /// The state after a block; none if control does not go on there. `run` is
     /// given while the ways are followed, none when they are known.
     fn block(&mut self, block: &Block, run: Option<(usize, usize)>, state: State) -> Option<State> {
         let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
@@ -207,7 +207,7 @@ impl<'b> Flow<'b> {
         let axis = |letter| self.control.role(letter, false, None).is_some_and(crate::canon::Role::is_axis);
         let moves = items.iter().filter_map(word).any(|word| axis(word.letter));
         state.moved |= moves;
-        // A move behind a cycle spells its interpolation out, see `motion`.
+        // A move after a cycle spells its interpolation out, see `motion`.
         let spells = moves && codes.motion().is_none() && !codes.takes_axes() && state.cycle.list() == [0];
         if spells && !state.motion_entry && state.motion.list().len() == 1 {
             state.after_cycle = false;

@@ -127,7 +127,7 @@ impl<'b> Lowering<'b> {
         Some(Spelling { op: Some(self.straight(span)?), drop: None })
     }
 
-    /// Behind the end of a cycle the interpolation from before it is in force again; it is
+    /// After the end of a cycle the interpolation from before it is in force again; it is
     /// spelled out, since a cycle and the interpolation are one group elsewhere.
     fn after_cycle(&mut self, modes: &[&'b CodeMeaning], span: Span) -> Spelling {
         if !self.state.after_cycle {

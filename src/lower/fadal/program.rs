@@ -297,7 +297,7 @@ impl<'b> Lowering<'b> {
     }
 
     /// The construct at `span` is converted as for a control that answers so: where it answers otherwise, the
-    /// construct is not understood; where nobody knows, that is an unconfirmed fact.
+    /// construct is not understood; if nobody knows, that is an unconfirmed fact.
     pub fn suppose(&mut self, question: Question, answer: &str, span: Span) {
         if let Some(other) = self.rely(question, span).filter(|known| *known != answer) {
             self.findings.not_understood(span, otherwise(question, other));

@@ -24,7 +24,7 @@ pub struct Sub {
     pub number: u32,
     /// Its blocks, the defining one included.
     pub blocks: Range<usize>,
-    /// True where the next subroutine begins behind it, not the area's end.
+    /// True where the next subroutine begins after it, not the area's end.
     pub followed: bool,
 }
 

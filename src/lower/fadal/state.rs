@@ -54,7 +54,7 @@ impl<T: Copy + Ord> Values<T> {
         self.any
     }
 
-    /// The values, in order; none where nothing is known.
+    /// The values, in order; none if nothing is known.
     pub fn list(&self) -> &[T] {
         &self.list
     }
@@ -116,7 +116,7 @@ pub struct State {
     pub motion: Values<u32>,
     /// G codes of the drilling cycle, in thousandths; 0 for none.
     pub cycle: Values<u32>,
-    /// True where a cycle was ended and no interpolation was given behind that.
+    /// True where a cycle was ended and no interpolation was given after that.
     pub after_cycle: bool,
     /// True where the interpolation is the one from before a cycle.
     pub resumed: bool,

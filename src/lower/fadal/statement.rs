@@ -30,7 +30,7 @@ impl<'b> Lowering<'b> {
         }
     }
 
-    /// One macro statement; none where it is not understood, which is then reported.
+    /// One macro statement; none if it is not understood, which is then reported.
     fn statement(&mut self, item: &'b Item, depth: u32) -> Option<()> {
         match &item.kind {
             // The block begins there already.

@@ -75,7 +75,7 @@ impl<'b> Lowering<'b> {
         Expr::Number(number.value)
     }
 
-    /// A digit behind the point of a speed picks the belt range and is no speed.
+    /// A digit after the point of a speed picks the belt range and is no speed.
     fn speed(&mut self, value: Expr, span: Span) -> Option<Expr> {
         match value.constant() {
             Some(speed) if speed.fract() != 0.0 && self.findings.is(Question::SpindleRangeSuffix, span) => {

@@ -9,7 +9,7 @@ use crate::syntax::{Expr, Item, ItemKind, Word};
 #[derive(Debug)]
 pub struct Codes<'b, 'c> {
     items: &'b [Item],
-    /// The words with a code's letter, with their meaning; none where the table has no row.
+    /// The words with a code's letter, with their meaning; none if the table has no row.
     pub rows: Vec<(&'b Item, Option<&'c CodeMeaning>)>,
     letters: Vec<(char, Option<f64>)>,
     control: &'c Control,
@@ -62,12 +62,12 @@ impl<'b, 'c> Codes<'b, 'c> {
         beside.into_iter().any(|word| word.letter == letter && word.thousandths.is_some())
     }
 
-    /// The constant that stands behind a letter.
+    /// The constant that stands after a letter.
     pub fn number(&self, letter: char) -> Option<f64> {
         self.value(letter).and_then(constant)
     }
 
-    /// What stands behind a letter.
+    /// What stands after a letter.
     pub fn value(&self, letter: char) -> Option<&'b Expr> {
         self.items.iter().filter_map(word).find(|word| word.letter == letter)?.value.as_ref()
     }

@@ -14,7 +14,7 @@ use smallvec::SmallVec;
 /// The words of a block, in order.
 pub(super) type Words<'w> = SmallVec<[(&'w Word, Span); 12]>;
 
-/// The site of a block, with the comments behind a THEN.
+/// The site of a block, with the comments after a THEN.
 pub(super) fn site(block: &Block, source: &[u8]) -> SourceInfo {
     let mut site = site_of(block, source);
     for item in &block.items {
@@ -173,7 +173,7 @@ impl<'a> Lowering<'a> {
                 self.unknown_behaviour(Question::SkipMidblock, place);
             }
             // Values and switch are read when the block begins: one block with all words, one without
-            // those behind the sign.
+            // those after the sign.
             let before = items.get(..index).unwrap_or_default();
             return self.on_switch(level, &site, Some(before), items);
         }
@@ -236,7 +236,7 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    /// The items of a block, or those behind a THEN, in order.
+    /// The items of a block, or those after a THEN, in order.
     pub(super) fn items(&mut self, items: &'a [Item], site: &SourceInfo) {
         let mut words = Words::new();
         let (mut groups, mut assigns) = (0u32, 0u32);

@@ -36,7 +36,7 @@ impl<'a> Lowering<'a> {
         let (first, second) = (found.next(), found.next());
         match (first, second) {
             (None, _) => self.nc(words, site),
-            // Behind a macro call M30. is an argument.
+            // After a macro call M30. is an argument.
             (Some((at, id)), second) if second.is_none() || self.takes_arguments(id) => {
                 self.flow_word(id, at, words, site);
             }

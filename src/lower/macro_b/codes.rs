@@ -72,7 +72,7 @@ impl<'c> Codes<'c> {
         !std::mem::replace(&mut self.numbers, true)
     }
 
-    /// The code of a letter and a number; none where the number cannot be one.
+    /// The code of a letter and a number; none if the number cannot be one.
     pub fn find(&mut self, letter: char, number: f64) -> Option<CodeId> {
         let plane = usize::from(letter == 'M');
         let whole = number as usize;

@@ -57,7 +57,7 @@ impl<'a> Lowering<'a> {
         self.builder.end(kind, site.clone());
     }
 
-    /// The block that jumps for all computed jumps, behind the program's text.
+    /// The block that jumps for all computed jumps, after the program's text.
     pub(super) fn close_hub(&mut self) {
         let Some((hub, span)) = self.hub.take() else { return };
         if self.builder.is_open() {
@@ -94,12 +94,12 @@ impl<'a> Lowering<'a> {
         self.builder.start(then);
         let motion = self.motion;
         self.items(body, site);
-        // Behind it the mode is either: the words that need it must say which.
+        // After it the mode is either: the words that need it must say which.
         self.motion.joined |= self.motion.code != motion.code;
         self.builder.start(otherwise);
     }
 
-    /// Which forms a control takes: without IF, without THEN, with words behind it.
+    /// Which forms a control takes: without IF, without THEN, with words after it.
     fn check_form(&mut self, then: bool, bare: bool, body: &[Item], span: Span) {
         let jump = body.iter().filter(|item| acts(item)).all(|item| matches!(item.kind, ItemKind::Goto(_)));
         let words = body.iter().any(|item| matches!(item.kind, ItemKind::Word(_)));
@@ -116,7 +116,7 @@ impl<'a> Lowering<'a> {
                 None => self.findings.not_understood(span, "a condition needs IF before it"),
             }
         }
-        // One macro statement behind THEN is what every control of the family takes.
+        // One macro statement after THEN is what every control of the family takes.
         if jump || (then && !words) {
             return;
         }

@@ -8,7 +8,7 @@ use std::ops::Range;
 /// A program's place in its file.
 #[derive(Debug)]
 pub(super) struct Piece {
-    /// Its name; none where no O word begins it.
+    /// Its name; none if no O word begins it.
     pub name: Option<ProgramName>,
     /// The block with the O word.
     pub head: Option<usize>,

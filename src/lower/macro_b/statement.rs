@@ -11,7 +11,7 @@ use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
-    /// One statement; `rest` is what stands behind it in its block.
+    /// One statement; `rest` is what stands after it in its block.
     pub(super) fn statement(&mut self, item: &'a Item, rest: &'a [Item], site: &SourceInfo) {
         match &item.kind {
             ItemKind::Assign { target, value, by_sign: false } => {
@@ -56,7 +56,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// An assignment; one to the alarm or the stop variable is that statement, and the
-    /// comment behind it is its message.
+    /// comment after it is its message.
     fn assign(&mut self, target: Place, value: Expr, text: Option<String>, site: &SourceInfo) {
         let Place::System(state @ (Sys::Alarm | Sys::StopMessage), _) = target else {
             return self.builder.push(StmtKind::Assign { target, value }, site.clone());
@@ -128,7 +128,7 @@ fn comment(items: &[Item]) -> Option<Span> {
     })
 }
 
-/// The variable `count` places behind `first`.
+/// The variable `count` places after `first`.
 pub(super) fn behind(first: Var, count: usize) -> Var {
     Var { number: first.number.saturating_add(count as u32), ..first }
 }

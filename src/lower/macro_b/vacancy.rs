@@ -51,7 +51,7 @@ fn signed(kind: &StmtKind) -> impl Iterator<Item = Var> + '_ {
     })
 }
 
-/// What is sure at the head of each block; none where control never comes.
+/// What is sure at the head of each block; none if control never comes.
 fn solve(program: &Program, returns_anywhere: bool, modal: bool) -> Vec<Option<Every<Var>>> {
     let mut heads = Flow::new(program.blocks.len());
     heads.flow(0, &Every(Sure::new()));

@@ -91,7 +91,7 @@ impl<'a> Lowering<'a> {
         self.builder.push(StmtKind::Nc(nc), site.clone());
     }
 
-    /// The codes of a block; none where one has no meaning: then that of its words is not known either.
+    /// The codes of a block; none if one has no meaning: then that of its words is not known either.
     fn block_codes(&mut self, words: &Words<'a>) -> Option<BlockCodes<'a>> {
         let mut codes = BlockCodes::new();
         let mut known = true;

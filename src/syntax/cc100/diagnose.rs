@@ -59,7 +59,7 @@ pub(super) fn diagnose(text: &str, line: Span, error: &Error<Rule>) -> SyntaxErr
     fault(code, Span::new(start, (start + lexeme.len() as u32).min(line.end)), message)
 }
 
-/// Reading stops behind the `SQR` of `SQRT`: the whole name is meant.
+/// Reading stops after the `SQR` of `SQRT`: the whole name is meant.
 fn name_start(text: &str, at: usize) -> usize {
     let before = text.get(..at).unwrap_or("");
     let start = before.trim_end_matches(|letter: char| letter.is_ascii_alphabetic()).len();

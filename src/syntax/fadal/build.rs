@@ -38,7 +38,7 @@ pub(super) struct Build<'s> {
 }
 
 impl Build<'_> {
-    /// The place of a pair in the file, blanks behind it left out.
+    /// The place of a pair in the file, blanks after it left out.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let span = pair.as_span();
         let length = span.as_str().trim_ascii_end().len();
@@ -291,7 +291,7 @@ fn label(text: &str) -> Label {
 }
 
 /// Where the comments that `text` begins with, `(A) (B (C))`, are closed: the offset
-/// behind the last closing bracket; 0 where none is closed.
+/// after the last closing bracket; 0 where none is closed.
 fn closing(text: &str) -> usize {
     let mut depth = 0usize;
     let mut closed = 0;

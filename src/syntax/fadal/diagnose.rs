@@ -9,7 +9,7 @@ use crate::syntax::support::{expected, fault, found, lexeme_at, stopped_at};
 use crate::text::Span;
 use pest::error::{Error, ErrorVariant};
 
-/// Statements that stand behind `#` only.
+/// Statements that stand after `#` only.
 const STATEMENTS: [&str; 10] =
     ["IF", "GOTO", "PRINT", "SPRINT", "INPUT", "SINPUT", "CLEAR", "WAIT", "START", "INDEX"];
 

@@ -13,7 +13,7 @@ use std::iter::Peekable;
 
 type Row<'p> = Peekable<Pairs<'p, Rule>>;
 
-/// Rank of what stands behind NOT: a comparison and all that binds closer.
+/// Rank of what stands after NOT: a comparison and all that binds closer.
 const BEHIND_NOT: u8 = 3;
 
 /// An operator and how close it binds. The manual ranks functions, the minus,

@@ -1,4 +1,4 @@
-//! Fadal: NC lines, and macro lines behind `#`. One line is one block.
+//! Fadal: NC lines, and macro lines after `#`. One line is one block.
 
 mod build;
 mod check;

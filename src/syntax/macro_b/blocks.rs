@@ -170,7 +170,7 @@ fn unread(span: Span, end: Option<Span>, fault: SyntaxError) -> Block {
     Block { span, tokens, items, errors: vec![fault] }
 }
 
-/// The `;` that ends a block and the blanks behind it.
+/// The `;` that ends a block and the blanks after it.
 fn end_of_block(bytes: &[u8], span: Span) -> Option<Span> {
     let text = bytes.len() - bytes.iter().rev().take_while(|byte| is_blank(**byte)).count();
     (bytes.get(text.checked_sub(1)?) == Some(&b';') && !inside_open_comment(bytes))

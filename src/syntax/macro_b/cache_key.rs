@@ -7,7 +7,7 @@ pub const LONGEST: usize = 64;
 
 /// The simplest line that is read as this one is, and is as sound as this one: digits in a row are one digit, 0 where
 /// all of them are 0 and else 1. A number is left as it is where it is long, or where its value decides about the
-/// line: that of a G code or of a loop, and behind a slash, where one digit is read otherwise than several.
+/// line: that of a G code or of a loop, and after a slash, where one digit is read otherwise than several.
 ///
 /// Also says where in the line ends what each of its bytes stands for. None of a long line.
 pub fn cache_key<'k>(line: &[u8], key: &'k mut [u8; LONGEST], ends: &mut [u8; LONGEST]) -> Option<&'k [u8]> {
@@ -48,7 +48,7 @@ fn is_numeric(byte: u8) -> bool {
     matches!(byte, b'0'..=b'9' | b'.')
 }
 
-/// True where the value of the number behind this text decides about the line.
+/// True where the value of the number after this text decides about the line.
 fn is_asked_for(mut before: &[u8]) -> bool {
     // What may stand between a letter and its number, and DO.
     while let [rest @ .., b'O' | b'o' | b'-' | b'+' | b' ' | b'\t' | 0 | 0x7f] = before {

@@ -44,7 +44,7 @@ pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Ve
     check_expressions(rules, source, items, &mut Faults(errors));
 }
 
-/// Checks all but what expressions compute, also behind a condition.
+/// Checks all but what expressions compute, also after a condition.
 fn check_each(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Vec<SyntaxError>) {
     let mut faults = Faults(errors);
     let may_call = may_call_macro(items);
@@ -85,7 +85,7 @@ fn may_call_macro(items: &[Item]) -> bool {
 
 fn check_word(rules: &Rules, word: &Word, span: Span, may_call: bool, faults: &mut Faults<'_>) {
     let whole = rules.whole_letters.contains(&word.letter) && !word.comma;
-    // Behind a call M, S and T are arguments like any other.
+    // After a call M, S and T are arguments like any other.
     if !whole || may_call {
         return;
     }
@@ -146,7 +146,7 @@ fn check_call(items: &[Item], faults: &mut Faults<'_>) {
     }
 }
 
-/// Quotients and function calls whose constants have no value. Behind a condition they may never be computed.
+/// Quotients and function calls whose constants have no value. After a condition they may never be computed.
 fn check_expressions(rules: &Rules, source: &[u8], items: &[Item], faults: &mut Faults<'_>) {
     let body = items.iter().find_map(|item| match &item.kind {
         ItemKind::If { body, .. } => body.first(),

@@ -94,7 +94,7 @@ fn expectation(next: &[u8], expected: &[Lex]) -> String {
     }
 }
 
-/// The parenthesis behind a function's name.
+/// The parenthesis after a function's name.
 fn function_with_parenthesis(text: &[u8]) -> Option<usize> {
     const NAMES: [&[u8]; 10] =
         [b"SIN", b"COS", b"TAN", b"SQRT", b"ABS", b"ROUND", b"FIX", b"FUP", b"ATAN", b"SQR"];
@@ -140,7 +140,7 @@ pub fn outside_text(source: &[u8], line: Span) -> bool {
     at_line_start && !holds_code && rest.iter().any(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// A line that begins as code does: a letter or `#` with a digit behind it.
+/// A line that begins as code does: a letter or `#` with a digit after it.
 fn looks_like_code(line: &[u8]) -> bool {
     let line = line.trim_ascii_start();
     let line = line.strip_prefix(b"/").unwrap_or(line);

@@ -120,7 +120,7 @@ pub struct Lexeme {
 /// The leaves of one block.
 pub type Row = SmallVec<[Lexeme; 32]>;
 
-/// Adds to a row what a grammar read as one: a leaf, or several that are written together, and the blanks behind it.
+/// Adds to a row what a grammar read as one: a leaf, or several that are written together, and the blanks after it.
 pub fn push(row: &mut Row, kind: Lex, start: u32, text: &[u8]) {
     let mut cut = Cut { row, at: start, rest: text };
     match kind {
@@ -227,7 +227,7 @@ impl Cut<'_> {
         }
     }
 
-    /// Digits, and the bit that may stand behind those of a variable.
+    /// Digits, and the bit that may stand after those of a variable.
     fn integer(&mut self) {
         self.take(Lex::Integer, self.run(u8::is_ascii_digit));
         if self.rest.first() == Some(&b'.') {

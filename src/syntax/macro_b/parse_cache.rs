@@ -73,7 +73,7 @@ pub fn is_sound(rules: &Rules, line: &[u8], find: impl FnOnce() -> bool) -> bool
     is_sound
 }
 
-/// The leaves of a block as they are remembered; none where they do not tile it.
+/// The leaves of a block as they are remembered; none if they do not tile it.
 fn leaves(row: &Row, block: Span, ends: &[u8]) -> Option<Leaves> {
     let mut leaves = Vec::with_capacity(row.len());
     let mut ends = ends.iter().zip(0..);

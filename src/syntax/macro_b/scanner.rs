@@ -41,7 +41,7 @@ pub struct Scanned {
 }
 
 /// Scans the block at the start of `rest` (up to the end of its line) and says where it
-/// ends; none where anything but plain words stands in it.
+/// ends; none if anything but plain words stands in it.
 pub fn scan<T: Take>(source: &[u8], rest: Span, take: &mut T) -> Option<u32> {
     let line = source.get(..rest.end as usize)?;
     let mut at = rest.start as usize;
@@ -77,7 +77,7 @@ pub fn scan<T: Take>(source: &[u8], rest: Span, take: &mut T) -> Option<u32> {
     Some(rest.end)
 }
 
-/// False for most blocks that [`scan`] declines: a statement stands behind the sequence number.
+/// False for most blocks that [`scan`] declines: a statement stands after the sequence number.
 pub fn begins_plain(text: &[u8]) -> bool {
     let first = match text {
         [b'N' | b'n', rest @ ..] => &text[1 + pass(rest, 0, |byte| byte.is_ascii_digit())..],
@@ -118,7 +118,7 @@ fn sequence(digits: &[u8]) -> Option<u32> {
     (1..=9).contains(&digits.len()).then(number)
 }
 
-/// A letter, a sign and a number, directly behind one another; the number is worth something with `NUMBERS` only.
+/// A letter, a sign and a number, directly after one another; the number is worth something with `NUMBERS` only.
 #[inline]
 fn word<const NUMBERS: bool>(line: &[u8], start: usize, letter: u8) -> Option<Scanned> {
     let sign = line.get(start + 1).copied().filter(|byte| matches!(byte, b'-' | b'+'));
@@ -174,12 +174,12 @@ fn comment(line: &[u8], start: usize) -> Option<usize> {
     plain.then_some(start + close + 2)
 }
 
-/// `;` with the blanks that end the line behind it.
+/// `;` with the blanks that end the line after it.
 fn end(line: &[u8], at: usize, take: &mut impl Take) -> Option<u32> {
     take.end(span(at, at + 1));
     let behind = pass(line, at + 1, is_blank);
     match line.get(behind) {
-        // Tape leader behind the block counts as blanks; the grammar's side knows it.
+        // Tape leader after the block counts as blanks; the grammar's side knows it.
         Some(0 | 0x7f) => None,
         None if behind > at + 1 => {
             take.space(span(at + 1, behind));

@@ -7,7 +7,7 @@ pub const DEEPEST: usize = 50;
 /// What one pass over the bytes of a block tells.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shape {
-    /// Just past the block: behind its `;`, or where the line ends.
+    /// Just past the block: after its `;`, or where the line ends.
     pub end: usize,
     /// How deep brackets nest.
     pub depth: usize,

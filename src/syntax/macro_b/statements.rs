@@ -5,7 +5,7 @@ use super::tree::Builder;
 use crate::syntax::{Comment, Fence, Item, ItemKind, OutputPart, ProgramName, SyntaxError, Target, Word};
 use crate::text::Span;
 
-/// IFs that may stand behind one another in a block.
+/// IFs that may stand after one another in a block.
 pub const MOST_CONDITIONS: usize = 20;
 
 impl Builder<'_> {

@@ -60,7 +60,7 @@ impl Builder<'_> {
         self.row.get(self.at + by).map_or(Span::default(), |leaf| leaf.span)
     }
 
-    /// Where the next leaf stands; the end of the row behind the last one.
+    /// Where the next leaf stands; the end of the row after the last one.
     pub fn here(&self) -> Span {
         match (self.row.get(self.at), self.row.last()) {
             (Some(leaf), _) => leaf.span,

@@ -12,7 +12,7 @@ const VALUES: usize = 60;
 /// Labels that a computed jump is sent to, at the most.
 const LABELS: usize = 40;
 
-/// Reads both sides. What the target alone reads, in registers that no variable of the source has, is tried where nobody
+/// Reads both sides. What the target alone reads, in registers that no variable of the source has, is tried if nobody
 /// calls the program: a main program finds there what the job before left.
 pub fn inputs_of_both(
     (source, program): (&Side<'_>, ProgramRef),

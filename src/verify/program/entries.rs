@@ -181,7 +181,7 @@ impl Verifier<'_, '_> {
         found.hair.or(found.difference)
     }
 
-    /// The other units that the source and the target may find than that of a scenario, true for inch; none where
+    /// The other units that the source and the target may find than that of a scenario, true for inch; none if
     /// profiles state both.
     ///
     /// A unit that a profile states stays. What returns runs in the unit of its callers, on both sides the same, and so does
@@ -206,7 +206,7 @@ impl Verifier<'_, '_> {
     }
 }
 
-/// True where the control stopped the program, so that it says nothing of what comes behind.
+/// True where the control stopped the program, so that it says nothing of what comes after.
 fn stopped(run: &Run) -> bool {
     matches!(&run.end, End::Alarm { stop, .. } if stop.program_number.is_none())
 }

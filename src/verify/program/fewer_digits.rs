@@ -15,7 +15,7 @@ impl Verifier<'_, '_> {
     }
 
     /// True where the target does something else with fewer digits: rounded, and off by errors that are drawn, and their
-    /// opposites, for where rounding hits a tie other errors miss it. What comes behind an event where the source says
+    /// opposites, for where rounding hits a tie other errors miss it. What comes after an event where the source says
     /// nothing of what the target should do counts for nothing: `upto`.
     pub(super) fn is_sensitive(
         &self,

@@ -32,7 +32,7 @@ pub(super) struct Pair<'p> {
 }
 
 impl Verifier<'_, '_> {
-    /// Why a difference is not held against the conversion; none where it is. `excuse` is what an assumption says of it.
+    /// Why a difference is not held against the conversion; none if it is. `excuse` is what an assumption says of it.
     pub(super) fn weigh(
         &self,
         pair: &Pair<'_>,

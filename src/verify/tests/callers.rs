@@ -263,7 +263,7 @@ fn a_cycle_is_called_by_its_code() {
     assert!(tried("", "-1.5")[0] && tried("G21\n", "-1.6")[1]);
 }
 
-/// O2 is called in both units behind an alarm, and writes an offset: the unit that it is tried in is that of both sides.
+/// O2 is called in both units after an alarm, and writes an offset: the unit that it is tried in is that of both sides.
 #[test]
 fn what_no_run_comes_to_is_in_one_unit_on_both_sides() {
     let controls = [("fanuc", "metric"), ("haas", "inch")].map(|(dialect, units)| control(dialect, units));

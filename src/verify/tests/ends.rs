@@ -1,4 +1,4 @@
-//! What is there behind the end of a program.
+//! What is there after the end of a program.
 
 use super::*;
 use crate::control::scenario::{AXES, Axes, Tool};

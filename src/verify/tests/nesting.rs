@@ -26,7 +26,7 @@ fn library(inside: &str, behind: &str) -> String {
 #[test]
 fn a_depth_that_data_decides_is_a_condition() {
     use Outcome::{Different, Undecided};
-    // Moves on the way down, on the way up, behind all of it, and nowhere.
+    // Moves on the way down, on the way up, after all of it, and nowhere.
     for (inside, behind) in [
         ("G0X#1\nG65P2A[#1-1]", "G0X99."),
         ("G65P2A[#1-1]\nG0X#1", "G0X99."),

@@ -65,7 +65,7 @@ fn what_a_called_program_hands_on_is_never_vacant() {
     assert_eq!(found[0].outcome, Outcome::Different);
 }
 
-/// Which settings stand before a code that the target lacks, and which behind it, nobody could tell.
+/// Which settings stand before a code that the target lacks, and which after it, nobody could tell.
 #[test]
 fn settings_are_told_apart_across_a_code_that_is_left_out() {
     let program = |ramps: &str| format!("O1\nG90 G0 X1.\nS800 M3\n{ramps}S1200 M3\nG1 X2. F10.\nM2\n");
@@ -260,7 +260,7 @@ fn a_length_that_may_be_lost_is_the_same_at_a_return() {
     assert_eq!(found("H3"), Outcome::Different);
 }
 
-/// A rotation puts Y at 1/2*sqrt(3) inches, which no word says: a cycle that is run there rounds it, and what is read behind
+/// A rotation puts Y at 1/2*sqrt(3) inches, which no word says: a cycle that is run there rounds it, and what is read after
 /// it is half a ten-thousandth off at the most.
 #[test]
 fn a_place_that_is_read_behind_a_rounded_word_is_as_far_off() {

@@ -68,7 +68,7 @@ fn a_speed_that_is_replaced_beside_a_rapid_move_shows_on_neither_side() {
     assert_eq!(found("S1500\nG28X0.Y0.M3S800\n"), Outcome::Different);
 }
 
-/// A speed behind a cycle that stops the spindle and lets it turn again starts nothing that may stand.
+/// A speed after a cycle that stops the spindle and lets it turn again starts nothing that may stand.
 #[test]
 fn a_speed_behind_a_cycle_starts_nothing() {
     let text = "O1\nG21G90G17G54\nS800M3\nG0X0.Y0.Z20.\nM1\nG99G86X4.Z-3.R2.F120.\nG80\n";

@@ -50,7 +50,7 @@ fn an_l_below_100_repeats_a_move() {
     near(*feeds(&run).last().unwrap(), [10.0, 0.0, 0.0]);
 }
 
-/// Format 1: H is for length and diameter; a D behind it counts (D-hole macro), G49 leaves it (slot program).
+/// Format 1: H is for length and diameter; a D after it counts (D-hole macro), G49 leaves it (slot program).
 #[test]
 fn the_length_picks_the_cutter_too() {
     let cutter = |before: &str| {

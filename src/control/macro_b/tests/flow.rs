@@ -110,7 +110,7 @@ fn alarms_and_messages_show_their_text() {
     assert_eq!(alarm(&haas("O1\n#3000=1\n")), "1001");
 }
 
-/// The comment behind the stop, none before it.
+/// The comment after the stop, none before it.
 #[test]
 fn a_stop_shows_its_comment() {
     let texts = |text: &str| -> Vec<EventKind> {

@@ -269,7 +269,7 @@ fn the_block_skip_switch_is_a_slash() {
         &program(on(), 2, 1, vec![mv(1.0), mv(2.0)], jump(2)),
         &["/GOTO 10", "GOTO 20", "N10 X1.", "X2.", "N20 M30"],
     );
-    // While the switch is on, the control passes over `/GOTO 10` and comes to what stands behind it.
+    // While the switch is on, the control passes over `/GOTO 10` and comes to what stands after it.
     fanuc(&program(on(), 1, 2, vec![mv(1.0)], jump(2)), &["/GOTO 10", "X1.", "N10 M30"]);
     fanuc(
         &blocks([

@@ -32,7 +32,7 @@ pub trait Analysis {
     /// What a block makes of what is known at its head: statements, terminator, and what that calls.
     fn block(&self, id: BlockId, block: &Block, state: &mut Self::State);
 
-    /// What becomes of it on the way from one block to another, as control goes; none where nothing goes that way.
+    /// What becomes of it on the way from one block to another, as control goes; none if nothing goes that way.
     fn edge<'s>(&self, from: BlockId, to: BlockId, state: &'s Self::State) -> Option<Cow<'s, Self::State>> {
         let _ = (from, to);
         Some(Cow::Borrowed(state))
@@ -48,7 +48,7 @@ pub trait Analysis {
 
 /// An analysis that knows something between the statements of a block too.
 pub trait Steps: Analysis {
-    /// What a statement makes of what is known before it; going backwards, behind it.
+    /// What a statement makes of what is known before it; going backwards, after it.
     fn stmt(&self, place: (BlockId, usize), stmt: &Stmt, state: &mut Self::State);
 
     /// What is known at the first statement that the analysis comes to: after the terminator, where it goes backwards.
@@ -62,7 +62,7 @@ pub trait Steps: Analysis {
         self.each(id, block, state, &mut |_, _| {});
     }
 
-    /// Calls `f` with each statement's number and what is known before it, or (backwards) behind it.
+    /// Calls `f` with each statement's number and what is known before it, or (backwards) after it.
     fn each(
         &self,
         id: BlockId,
@@ -93,7 +93,7 @@ impl<S> Default for States<S> {
 }
 
 impl<S> States<S> {
-    /// What is known at a block's head; none where the analysis does not come.
+    /// What is known at a block's head; none if the analysis does not come.
     pub fn at(&self, id: BlockId) -> Option<&S> {
         self.0.get(id.index())?.as_ref()
     }
@@ -104,7 +104,7 @@ pub fn solve<A: Analysis>(analysis: &A, program: &Program, cfg: &Cfg) -> States<
     solve_within(analysis, program, cfg, usize::MAX).unwrap_or_default()
 }
 
-/// The same; none where it would look at more statements and blocks than so many, each as often as it does.
+/// The same; none if it would look at more statements and blocks than so many, each as often as it does.
 pub fn solve_within<A: Analysis>(
     analysis: &A,
     program: &Program,
@@ -159,7 +159,7 @@ impl<S> Default for Cursor<S> {
 
 impl<S: Lattice> Cursor<S> {
     /// What is known before statement `at` of a block (past the last: before its terminator) by an analysis that goes
-    /// forwards; none where control does not come. Questions in the order of statements are cheap.
+    /// forwards; none if control does not come. Questions in the order of statements are cheap.
     pub fn seek<A: Steps<State = S>>(
         &mut self,
         analysis: &A,

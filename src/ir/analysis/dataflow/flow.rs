@@ -43,7 +43,7 @@ impl Worklist {
 /// Where ranks are a reverse postorder, a node comes after what leads to it.
 #[derive(Clone, Debug)]
 pub struct Flow<S> {
-    /// By node; none where no way leads.
+    /// By node; none if no way leads.
     states: Vec<Option<S>>,
     /// By node: how often something was joined into its state.
     joined: Vec<u32>,
@@ -97,7 +97,7 @@ impl<S: Lattice> Flow<S> {
         self.work.pop()
     }
 
-    /// The state of a node; none where no way led there so far.
+    /// The state of a node; none if no way led there so far.
     pub fn state(&self, node: usize) -> Option<&S> {
         self.states.get(node)?.as_ref()
     }

@@ -48,7 +48,7 @@ type State = Vec<Values>;
 /// The values of a program's variables.
 pub struct Ranges<'p> {
     rules: Rules<'p>,
-    /// At the start of each block; none where it takes too long to find out.
+    /// At the start of each block; none if it takes too long to find out.
     starts: Option<States<State>>,
     /// Where the last question was, and the values there.
     cursor: RefCell<Cursor<State>>,
@@ -190,7 +190,7 @@ impl Rules<'_> {
         self.places.get(&var).and_then(|at| state.get(*at)).cloned().unwrap_or(Values::ANY)
     }
 
-    /// What is known where a condition holds or does not; none where it never does.
+    /// What is known where a condition holds or does not; none if it never does.
     fn narrowed(&self, cond: &Cond, holds: bool, state: &State) -> Option<State> {
         let negated = (!holds).then(|| Cond::Not(Box::new(cond.clone())));
         let mut kept = state.clone();

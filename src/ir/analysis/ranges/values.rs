@@ -56,7 +56,7 @@ impl Values {
         }
     }
 
-    /// The least and the greatest; none where there is no value.
+    /// The least and the greatest; none if there is no value.
     pub fn bounds(&self) -> Option<(f64, f64)> {
         match self {
             Self::Few(values) => Some((*values.first()?, *values.last()?)),

@@ -75,7 +75,7 @@ struct Ways<'w> {
 }
 
 impl Ways<'_> {
-    /// What all of them write; none where none comes to a return.
+    /// What all of them write; none if none comes to a return.
     fn through(&self, cfg: &Cfg) -> Option<BitRow> {
         let program = self.module.programs.get(self.routine.0)?;
         let starts = solve(self, program, cfg);

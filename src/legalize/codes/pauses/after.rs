@@ -1,4 +1,4 @@
-//! Whether a program cuts behind a place before it says itself what runs.
+//! Whether a program cuts after a place before it says itself what runs.
 
 use crate::canon::{Group, Op, Role, Running};
 use crate::ir::{BlockId, Call, Callee, Module, Nc, NcItem, StmtKind, TermKind};
@@ -80,7 +80,7 @@ impl After {
     }
 
     /// True where some way from the statement `number` of a block cuts before it says what runs. What a caller does
-    /// behind a return is taken to cut.
+    /// after a return is taken to cut.
     pub fn matters(&self, program: usize, block: BlockId, number: usize, running: Running) -> bool {
         let mut seen = BTreeSet::new();
         let (cuts, returns) = self.walk((program, block), number, running, &mut seen, 0);

@@ -104,7 +104,7 @@ impl Kept {
         Stmt { kind, site: SourceInfo { span: stmt.site.span, ..SourceInfo::default() } }
     }
 
-    /// Goes on behind a statement, and says what must be done at it.
+    /// Goes on after a statement, and says what must be done at it.
     pub fn step(&self, stmt: &Stmt, modal: &mut Modal, feed: &mut Feed) -> Does {
         let (was, known) = (modal.op(Group::Cycle), modal.feed());
         modal.step(stmt);

@@ -100,7 +100,7 @@ impl<'c> Numbers<'c> {
         self.table().iter().enumerate().all(|(number, alike)| *alike != Some(false) || !has(number))
     }
 
-    /// What is known of a computed number by its constant part: the run that it lies in, or that begins behind it.
+    /// What is known of a computed number by its constant part: the run that it lies in, or that begins after it.
     pub(super) fn of(&mut self, number: &Expr) -> &Finding {
         let start = constant_part(number).filter(|start| *start >= 100.0);
         let start = start.and_then(whole);

@@ -4,7 +4,7 @@ use super::{found, says};
 
 /// Source and meaning, from the manual's examples and rules.
 const BLOCKS: &[(&str, &str)] = &[
-    // R variables are set by their sign and used behind one, which multiplies.
+    // R variables are set by their sign and used after one, which multiplies.
     ("R8+50.0", "param.8 = 50"),
     ("F+R8", "nc feed=param.8"),
     ("R9+10. R8-18. R7+R6", "param.9 = 10; param.8 = -18; param.7 = param.6"),
@@ -51,7 +51,7 @@ const BLOCKS: &[(&str, &str)] = &[
     ("M6 T+R9", "nc tool.change tool=param.9"),
     ("M5 M9", "nc spindle.stop coolant.off"),
     ("S250. M4", "nc speed=250 spindle.ccw"),
-    // The digit behind the point of a speed is the belt range.
+    // The digit after the point of a speed is the belt range.
     ("S500.1", "nc speed=500"),
     ("M7 M8", "nc coolant.mist; nc coolant.flood"),
     ("G4 P500", "nc dwell dwell.ms=500"),

@@ -101,7 +101,7 @@ fn motion_modes_are_followed_over_ways_and_calls() {
     // The mode comes back from a subroutine.
     let text = program("O1\nL100\nG3 X1. I1.\nM17\nM30\nG0 X0\nL101\nX5.\nM2\n");
     assert!(text.contains("nc motion.linear axis.x=5"), "{text}");
-    // Behind a cycle the mode from before it is spelled out, unless a program was called since.
+    // After a cycle the mode from before it is spelled out, unless a program was called since.
     let cycled = |call: &str| format!("O1\nG0 X0\n{call}G81 Z-1. R0+.1\nG80\nX5.\nM2\n");
     assert!(program(&cycled("")).contains("nc motion.rapid axis.x=5"));
     assert!(program(&cycled("M98 P7\n")).contains("nc axis.x=5"));

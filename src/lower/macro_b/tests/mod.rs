@@ -18,7 +18,7 @@ use crate::ir::{Module, Program, validate};
 use crate::lower::{Lowered, fanuc, haas};
 use crate::syntax::{self, Label, parse_file};
 
-/// The control of a name: a dialect, or a dialect with the lines of a profile behind a colon.
+/// The control of a name: a dialect, or a dialect with the lines of a profile after a colon.
 fn control(name: &str) -> Control {
     let (dialect, profile) = name.split_once(':').unwrap_or((name, ""));
     Control::from_profile(&format!("dialect = \"{dialect}\"\n{profile}"))

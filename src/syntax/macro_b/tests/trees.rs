@@ -118,7 +118,7 @@ fn what_only_one_reads() {
     }
 }
 
-/// Seed 001:1056 ranks AND with the products, OR and XOR with the sums; the table of Haas has them behind the
+/// Seed 001:1056 ranks AND with the products, OR and XOR with the sums; the table of Haas has them after the
 /// comparisons, as true and false are numbers there.
 #[test]
 fn bit_operators_have_their_own_ranks() {
