@@ -217,7 +217,7 @@ impl Control {
     pub fn variable_class(&self, name: &str, number: u32) -> Option<&VariableClass> {
         self.classes()
             .iter()
-            .find(|row| row.name == name && row.class != "letter" && (row.first..=row.last).contains(&number))
+            .find(|row| (row.first..=row.last).contains(&number) && row.name == name && row.class != "letter")
     }
 
     /// The class of a letter variable (`VX`).
@@ -225,7 +225,7 @@ impl Control {
         let number = letter_number(letter)?;
         self.classes()
             .iter()
-            .find(|row| row.name == name && row.class == "letter" && (row.first..=row.last).contains(&number))
+            .find(|row| (row.first..=row.last).contains(&number) && row.name == name && row.class == "letter")
     }
 
     /// All classes of variables, in order.

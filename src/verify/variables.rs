@@ -24,19 +24,20 @@ pub(super) fn variables_differ<'r>(
         return None;
     }
     let mut by_place = None;
-    let shared = |name: &str| class_of(source.0.control, name).is_some_and(|class| class.class != "local");
     let mut all: BTreeSet<&str> = names.variables.keys().map(String::as_str).collect();
     all.extend(source.1.variables.keys().chain(target.1.variables.keys()).map(String::as_str));
-    for name in all.into_iter().filter(|name| shared(name)) {
+    for name in all {
+        let class = class_of(source.0.control, name).filter(|class| class.class != "local");
+        let Some(class) = class else { continue };
         let Some(there) = names.variable(name, source.0.control, target.0.control) else { continue };
-        let value = |side: &Side<'_>, run: &Run, name: &str| {
-            let nullable = class_of(side.control, name).is_some_and(|class| class.nullable);
-            run.variables.get(name).copied().or((!nullable).then_some(0.0))
+        let value = |run: &Run, name: &str, nullable: &dyn Fn() -> bool| {
+            run.variables.get(name).copied().or_else(|| (!nullable()).then_some(0.0))
         };
-        let (a, b) = (value(source.0, source.1, name), value(target.0, target.1, &there));
+        let is_nullable = class.nullable;
+        let may_be_there = || class_of(target.0.control, &there).is_some_and(|class| class.nullable);
+        let (a, b) = (value(source.1, name, &|| is_nullable), value(target.1, &there, &may_be_there));
         // What a control without vacancy never wrote is vacant on one that has it, and reads as 0 there.
         let never = |a: Option<f64>, b: Option<f64>| b.is_none() && a == Some(0.0);
-        let is_nullable = class_of(source.0.control, name).is_some_and(|class| class.nullable);
         let same = match (a, b) {
             (Some(a), Some(b)) => (a - b).abs() <= HAIR * a.abs().max(b.abs()).max(1.0),
             (None, None) => true,
@@ -79,9 +80,13 @@ pub fn writes_elsewhere(
         })
     };
     let found = all.into_iter().find(|name| {
+        let (before, after) = (began.get(*name).copied(), run.variables.get(*name).copied());
+        if before == after {
+            return false;
+        }
         let nullable = class_of(to, name).is_some_and(|class| class.nullable);
-        let value = |all: &BTreeMap<String, f64>| all.get(*name).copied().or((!nullable).then_some(0.0));
-        value(began) != value(&run.variables)
+        let value = |held: Option<f64>| held.or((!nullable).then_some(0.0));
+        value(before) != value(after)
             && class_of(to, name).is_some_and(|class| class.class != "local")
             && !is_scratch(name)
             && !names.is_named(name, to)
