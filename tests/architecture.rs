@@ -1,7 +1,10 @@
 //! The rules of the house, as `docs/ARCHITECTURE.md` states them.
 
+#[path = "support/imports.rs"]
+mod imports;
 mod support;
 
+use imports::{imports, module_of};
 use macroglot::dialect::registry;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -13,6 +16,10 @@ const ROOMS: &[&str] = &[
     "text", "canon", "assume", "diag", "dialect", "syntax", "ir", "lower", "opt", "legalize", "emit",
     "control", "verify", "library", "report", "cli",
 ];
+
+/// The rooms inside folders, from left to right: none imports from one further right, nor what the folder offers others.
+const INNER: &[(&str, &[&str])] =
+    &[("src/verify", &["sides", "compare", "explore", "certificate", "entry", "triage", "driver"])];
 
 const REGISTRY: &str = "src/dialect/registry.rs";
 
@@ -66,8 +73,8 @@ const SPELL_NOTHING: &[&str] = &["src/legalize/", "src/verify/", "src/library/",
 const OTHER_SIGNS: &[(&str, &str)] = &[
     ("src/legalize/operator/letters.rs", "signs of texts: what stands behind the sign of a diameter"),
     ("src/legalize/operator/questions.rs", "signs of texts that formatted output reads as something else"),
-    ("src/verify/letters.rs", "letters of texts, as operators read them"),
-    ("src/verify/texts.rs", "signs of texts that read alike"),
+    ("src/verify/compare/letters.rs", "letters of texts, as operators read them"),
+    ("src/verify/compare/texts.rs", "signs of texts that read alike"),
     ("src/report/markdown.rs", "the sign of a heading"),
     ("src/report/html.rs", "a number of a character"),
     ("src/report/plot.rs", "colours"),
@@ -175,6 +182,30 @@ fn rooms_import_from_the_left_only() {
 }
 
 #[test]
+fn inner_rooms_import_from_the_left_only() {
+    let mut found = Vec::new();
+    for (folder, rooms) in INNER {
+        for (path, source) in rust_files(folder).into_iter().filter(|(path, _)| !is_test(path)) {
+            let inside = path.trim_start_matches(folder).trim_start_matches('/');
+            let Some((room, _)) = inside.split_once('/') else {
+                assert_eq!(inside, "mod.rs", "{path} stands in no room");
+                continue;
+            };
+            let at = rooms.iter().position(|name| *name == room);
+            let at = at.unwrap_or_else(|| panic!("{folder}/{room} has no place in the order"));
+            for (line, import) in imports(&path, &without_comments(&without_tests(&source))) {
+                let Some(rest) = import.strip_prefix(module_of(folder).as_slice()) else { continue };
+                let other = rest.first().map_or("mod.rs", String::as_str);
+                if !rooms[..=at].contains(&other) {
+                    found.push(format!("{path}:{line}: {other}, which is not left of {room}"));
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "imports from the right:\n{}", found.join("\n"));
+}
+
+#[test]
 fn every_room_is_in_the_order() {
     let library = text("src/lib.rs");
     let modules = library.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
@@ -225,6 +256,10 @@ fn the_rules_have_teeth() {
         assert!(!spells(literal, &sigils, &statements), "{literal}");
     }
     assert!(declares("pub mod fadal;", "fadal") && !declares("use super::fadal;", "fadal"));
+    let tree = "use super::super::b::{C, d::{self, E}};\nlet x = crate::f::g(self::h::I, $crate::no);";
+    let all = imports("src/a/k/l.rs", tree);
+    let all: Vec<String> = all.iter().map(|(line, path)| format!("{line} {}", path.join("."))).collect();
+    assert_eq!(all, ["1 a.b.C", "1 a.b.d.self", "1 a.b.d.E", "2 f.g", "2 a.k.l.h.I"]);
     assert_eq!(code_of("let a = 1; // .unwrap() is not code"), "let a = 1; ");
     assert_eq!(code_of(r#"let a = "https://x"; b"#), r#"let a = "https://x"; b"#);
     assert_eq!(without_tests("a\n#[cfg(test)]\nmod tests {\n    b\n}\nc\n"), "a\n\n\n\n\nc\n");
@@ -282,6 +317,11 @@ fn code_of(line: &str) -> &str {
         }
     }
     line
+}
+
+/// A source without its comments; lines keep their numbers.
+fn without_comments(source: &str) -> String {
+    source.lines().map(|line| format!("{}\n", code_of(line))).collect()
 }
 
 fn words(line: &str) -> Vec<&str> {

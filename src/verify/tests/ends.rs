@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::control::scenario::{AXES, Axes, Tool};
-use crate::verify::{compare::Tolerance, exit_state::seen_differs};
+use crate::verify::compare::{Tolerance, seen_differs};
 
 /// A main program that ends in another mode, feed or shift does the same so far as anyone can tell who does not start
 /// another one; a called program does something else.

@@ -206,7 +206,7 @@ fn where_a_rotation_put_the_machine_it_stays() {
 /// A place that is read back can be said again: 0.127 mm are 0.005 inch, a whole number of increments in both.
 #[test]
 fn the_machine_stands_where_words_of_either_unit_can_say() {
-    use crate::verify::{inputs::Inputs, scenarios::Proposals};
+    use crate::verify::explore::{Inputs, Proposals};
     let inputs = Inputs { rotary: [true; 3], ..Inputs::default() };
     let mut proposals = Proposals::new(&inputs, Effort::default());
     for _ in 0..24 {

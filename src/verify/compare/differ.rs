@@ -1,0 +1,128 @@
+//! What differs between two events.
+
+use super::kinds::returns;
+use super::paths::{apart, arcs_apart};
+use super::texts::say_the_same;
+use crate::control::Stop;
+use crate::control::trace::{EventKind, Position};
+
+/// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
+const LEAST_WAIT: f64 = 0.000_501;
+
+/// What differs where only the feed does.
+pub const ANOTHER_FEED: &str = "the feed differs";
+
+/// The events' difference, if they have one; ends may lie `allowed` apart, arcs between their ends `paths`; `room`
+/// is what the target's text could have had more.
+pub fn differ(
+    (source, target): (&EventKind, &EventKind),
+    room: Option<usize>,
+    (allowed, paths): (f64, f64),
+    largest: &mut f64,
+) -> Option<&'static str> {
+    use EventKind::*;
+    let mut beyond = |most: f64| {
+        *largest = largest.max(if most <= allowed { most } else { 0.0 });
+        most > allowed
+    };
+    let far = |a: &Position, b: &Position| apart(a, b);
+    let differs = |a: f64, b: f64| exceeds((a - b).abs(), 1e-6 * a.abs().max(b.abs()).max(1.0));
+    let about = |a: f64, b: f64| exceeds((a - b).abs(), 1e-4 * a.abs());
+    let written = |a: f64, b: f64| exceeds((a - b).abs(), allowed.max(1e-9 * a.abs()));
+    match (source, target) {
+        (Rapid { from, to }, Rapid { from: other_from, to: other }) => (beyond(far(from, other_from))
+            || beyond(far(to, other)))
+        .then_some("the rapid move goes elsewhere"),
+        (Feed { to, feed, mode, .. }, Feed { to: other, feed: other_feed, mode: other_mode, .. }) => {
+            if beyond(far(to, other)) {
+                return Some("the feed move goes elsewhere");
+            }
+            (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
+        }
+        (
+            Arc { to, feed, mode, sweep, .. },
+            Arc { to: other, feed: other_feed, mode: other_mode, sweep: other_sweep, .. },
+        ) => {
+            if beyond(far(to, other)) {
+                Some("the arc ends elsewhere")
+            } else if exceeds(arcs_apart(source, target), paths) {
+                Some(match exceeds((sweep - other_sweep).abs(), 90.0) {
+                    true => "the arc goes the other way, or makes another number of turns",
+                    false => "the arc differs",
+                })
+            } else {
+                (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
+            }
+        }
+        (Thread { to, lead, .. }, Thread { to: other, lead: other_lead, .. }) => {
+            (beyond(far(to, other)) || about(*lead, *other_lead)).then_some("the thread differs")
+        }
+        (
+            Probe { aim, to, hit, feed, .. },
+            Probe { aim: other_aim, to: other, hit: other_hit, feed: other_feed, .. },
+        ) => {
+            let apart = beyond(far(aim, other_aim)) || beyond(far(to, other));
+            (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move differs")
+        }
+        (Dwell { seconds }, Dwell { seconds: other }) => {
+            exceeds((seconds - other).abs(), LEAST_WAIT).then_some("the wait differs")
+        }
+        (
+            Spindle { direction, speed, surface },
+            Spindle { direction: other, speed: other_speed, surface: other_surface },
+        ) => (direction != other || exceeds((speed - other_speed).abs(), 0.5) || surface != other_surface)
+            .then_some("the spindle's direction or speed differs"),
+        (Coolant { state }, Coolant { state: other }) => (state != other).then_some("the coolant differs"),
+        (ToolChange { tool }, ToolChange { tool: other })
+        | (ToolReady { tool }, ToolReady { tool: other }) => (tool != other).then_some("the tool differs"),
+        (ToolLength { value, .. }, ToolLength { value: other, .. }) => {
+            written(*value, *other).then_some("the tool length in force differs")
+        }
+        (CutterRadius { side, value, .. }, CutterRadius { side: other_side, value: other, .. }) => {
+            (side != other_side || written(*value, *other)).then_some("the cutter radius in force differs")
+        }
+        (WorkOffset { number }, WorkOffset { number: other }) => {
+            (number != other).then_some("the work offset in force at the return differs")
+        }
+        (
+            Write { state, subscripts, value },
+            Write { state: other_state, subscripts: other_subscripts, value: other },
+        ) => (state != other_state || subscripts != other_subscripts || written(*value, *other))
+            .then_some("the written state of the machine differs"),
+        (Message { text }, Message { text: other }) | (Output { text }, Output { text: other }) => {
+            (!say_the_same(text, other, room)).then_some("the text differs")
+        }
+        // The operator is shown more than before.
+        (Stop, Message { .. }) => None,
+        (Asked { answer }, Asked { answer: other }) => {
+            differs(*answer, *other).then_some("the answer differs")
+        }
+        (Alarm(stop), Alarm(other)) => alarm_differs(stop, other, room),
+        (End { .. }, End { .. }) => (returns(source) != returns(target))
+            .then_some("one ends the program, the other returns to its caller"),
+        (Alarm(_), _) => Some("the source stops with an alarm, the target goes on"),
+        (_, Alarm(_)) => Some("the target stops with an alarm, the source goes on"),
+        _ => (source != target).then_some("they do different things"),
+    }
+}
+
+/// An alarm of the program's own must be one on the target too, of the same number and text. Of a jump to a number that
+/// no block has the target may say itself what the source's control says: both stop there.
+fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'static str> {
+    match (source.program_number, target.program_number) {
+        (None, None) => None,
+        (Some(number), Some(other)) if exceeds((number - other).abs(), 1e-6) => {
+            Some("the alarm's number differs")
+        }
+        (Some(_), Some(_)) => {
+            (!say_the_same(&source.text, &target.text, room)).then_some("the alarm's text differs")
+        }
+        (None, Some(_)) if source.no_label => None,
+        _ => Some("one alarm comes from the program, the other from the control"),
+    }
+}
+
+/// True where a difference is larger than allowed, or no number at all.
+fn exceeds(difference: f64, allowed: f64) -> bool {
+    difference.is_nan() || difference > allowed
+}

@@ -1,0 +1,24 @@
+//! Whether two runs amount to the same for who watches the machines.
+
+mod differ;
+mod exit_state;
+mod found;
+mod kinds;
+mod letters;
+mod loose;
+mod observe;
+mod pairs;
+mod paths;
+mod pauses;
+mod substitutes;
+mod texts;
+mod tolerance;
+mod variables;
+
+#[cfg(test)]
+pub use exit_state::seen_differs;
+pub use found::Difference;
+pub use kinds::{is_cut, returns};
+pub use pairs::compare;
+pub use tolerance::Tolerance;
+pub use variables::writes_elsewhere;

@@ -1,0 +1,309 @@
+//! Whether two runs amount to the same.
+
+use super::differ::{ANOTHER_FEED, differ};
+use super::exit_state::left_differs;
+use super::found::{Comparison, Difference};
+use super::kinds::{is_cut, setting};
+use super::letters;
+use super::loose::{Found, farthest};
+use super::observe::{Act, observe};
+use super::paths::{apart, ends, goes_nowhere, leaves};
+use super::pauses::{Runs, ends_cycle, may_do_so, may_turn};
+use super::substitutes::{
+    cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
+};
+use super::tolerance::Tolerance;
+use super::variables::variables_differ;
+use crate::control::trace::{Event, EventKind, Position, Told};
+use crate::control::{End, Run};
+use crate::verify::sides::{Side, SymbolMap};
+
+/// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
+/// the end, and the centre in two axes, each by a half.
+const ARC_ROUNDINGS: f64 = 2.0;
+
+/// Compares what an observer could tell of two runs, and the variables that outlive them.
+pub fn compare<'r>(
+    source: (&Side<'_>, &'r Run),
+    target: (&Side<'_>, &'r Run),
+    names: &SymbolMap,
+    tolerance: Tolerance,
+) -> Comparison<'r> {
+    let cut = is_cut(source.1) || is_cut(target.1);
+    let mut found = farthest([source.1, target.1], |[ours, theirs]| {
+        let (ours, theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
+        let found = Comparison::default();
+        let mut pairs = Pairs {
+            target: target.0,
+            one_side: std::ptr::eq(source.0, target.0),
+            tolerance,
+            found,
+            at: [None; 2],
+            runs: [Runs::new(), Runs::new()],
+            uncancelled: false,
+        };
+        let far = pairs.walk(&ours, &theirs, cut);
+        let what = pairs.found;
+        let blocks = what.difference.as_ref().map(|found| [found.source, found.target]);
+        let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
+        Found { pairs: what.difference.is_some().then_some(far), blocks, what }
+    });
+    if found.difference.is_some() || cut {
+        return found;
+    }
+    let left = left_differs(source, target, tolerance, &mut found.substituted);
+    let seen = |what| Difference::new(None, None, what);
+    let end = end_differs(&source.1.end, &target.1.end).map(seen);
+    let variable = end.or_else(|| variables_differ(source, target, names));
+    // What a place may have put off says less than anything else.
+    found.difference = match (variable, left.map(seen)) {
+        (Some(variable), Some(left)) if variable.by_place => Some(left),
+        (variable, left) => variable.or(left),
+    };
+    found
+}
+
+/// How many settings stand on each side before an alarm of one of them: it keeps them from doing anything, and the other side
+/// goes on, and may set them otherwise first.
+fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
+    let settings = sides.map(|acts| acts.iter().take_while(|act| setting(&act.what).is_some()).count());
+    let alarm = |side: usize| {
+        sides[side].get(settings[side]).is_some_and(|act| matches!(*act.what, EventKind::Alarm(_)))
+    };
+    if alarm(0) == alarm(1) { [0; 2] } else { settings }
+}
+
+/// Where the first of these acts shows: what was found running does at what comes next.
+fn told_at<'r>(acts: &[Act<'r>]) -> Option<&'r Event> {
+    let act = acts.iter().find(|act| act.told != Told::Found).or_else(|| acts.first());
+    act.map(|act| act.event)
+}
+
+/// Two runs side by side.
+struct Pairs<'p, 'r> {
+    target: &'p Side<'p>,
+    /// True for two runs of one side, of which all that differs is told.
+    one_side: bool,
+    tolerance: Tolerance,
+    found: Comparison<'r>,
+    /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
+    at: [Option<(Position, f64)>; 2],
+    /// What runs on each side.
+    runs: [Runs; 2],
+    /// True where the source returns without a work offset, which the target cannot.
+    uncancelled: bool,
+}
+
+impl<'r> Pairs<'_, 'r> {
+    /// Pairs the acts of both sides up to the first difference; after the last of a run that was `cut`
+    /// nothing is missed. How many it came by.
+    fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) -> usize {
+        let (mut i, mut j) = (0, 0);
+        loop {
+            let (a, b) = (ours.get(i), theirs.get(j));
+            let what = match (a, b) {
+                (None, None) => return i + j,
+                (Some(a), Some(b)) => match self.differ(a, b, self.near(a, b)) {
+                    None => {
+                        self.moved(0, a);
+                        self.moved(1, b);
+                        (i, j) = (i + 1, j + 1);
+                        continue;
+                    }
+                    Some(what) => what,
+                },
+                _ if cut => return i + j,
+                (Some(_), None) => "the target does less than the source".to_owned(),
+                (None, Some(_)) => "the target does more than the source".to_owned(),
+            };
+            let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
+            let unseen = before_alarm([here, there]);
+            if unseen != [0; 2] {
+                here.iter().take(unseen[0]).for_each(|act| self.moved(0, act));
+                there.iter().take(unseen[1]).for_each(|act| self.moved(1, act));
+                (i, j) = (i + unseen[0], j + unseen[1]);
+                continue;
+            }
+            let ended = |(acts, other): (&&[Act<'r>], usize)| !self.one_side && self.runs[other].ended(acts);
+            if let Some(side) = [here, there].iter().zip([1, 0]).position(ended) {
+                [here, there][side].iter().take(2).for_each(|act| self.moved(side, act));
+                (i, j) = if side == 0 { (i + 2, j) } else { (i, j + 2) };
+                continue;
+            }
+            // What a cycle does to a spindle that may stand on one side has no counterpart on the other.
+            let cycles = [here, there].map(|acts| acts.first().is_some_and(|act| act.told == Told::Cycle));
+            if cycles.contains(&true) && self.runs.iter().any(Runs::may_stand) {
+                a.into_iter().filter(|_| cycles[0]).for_each(|act| self.moved(0, act));
+                b.into_iter().filter(|_| cycles[1]).for_each(|act| self.moved(1, act));
+                (i, j) = (i + usize::from(cycles[0]), j + usize::from(cycles[1]));
+                continue;
+            }
+            if self.runs[1].may_be_let_go(there, here) {
+                let text = "no source says whether a stop releases a held spindle";
+                self.found.substituted.insert(text.to_owned());
+                b.into_iter().for_each(|b| self.moved(1, b));
+                j += 1;
+                continue;
+            }
+            let runs = |side: usize, acts: &[Act<'r>], others: &[Act<'r>], runs: &[Runs; 2]| {
+                acts.first().is_some_and(|act| {
+                    may_do_so(act, others, side == 1)
+                        || runs[side].is_told(&runs[1 - side], act)
+                        || runs[side].lets_go(acts)
+                        || runs[side].stays_open(act)
+                        || runs[side].is_idle_speed(acts)
+                })
+            };
+            if runs(0, here, there, &self.runs) {
+                a.into_iter().for_each(|a| self.moved(0, a));
+                i += 1;
+            } else if a.is_some_and(|a| self.passes(0, a)) {
+                i += 1;
+            } else if runs(1, there, here, &self.runs) {
+                b.into_iter().for_each(|b| self.moved(1, b));
+                j += 1;
+            } else if b.is_some_and(|b| self.passes(1, b)) {
+                j += 1;
+            } else {
+                let (source, target) = (told_at(here), told_at(there));
+                let difference = Difference::new(source, target, what);
+                match (a, b) {
+                    (Some(a), Some(b)) if self.drifts(a, b) => {}
+                    (Some(a), Some(b)) if self.differ(a, b, self.tolerance.rounded).is_none() => {
+                        self.found.hair.get_or_insert(difference);
+                    }
+                    _ => {
+                        self.found.difference = Some(difference);
+                        return i + j;
+                    }
+                }
+                a.into_iter().for_each(|a| self.moved(0, a));
+                b.into_iter().for_each(|b| self.moved(1, b));
+                (i, j) = (i + 1, j + 1);
+            }
+        }
+    }
+
+    fn moved(&mut self, side: usize, act: &Act<'r>) {
+        if let Some(to) = leaves(&act.what) {
+            self.at[side] = Some((to, act.event.rounded));
+        }
+        self.runs[side].take(act);
+    }
+
+    /// How far apart two acts may lie that count as the same: what their words rounded, a least increment at the
+    /// most.
+    fn near(&self, source: &Act<'r>, target: &Act<'r>) -> f64 {
+        self.tolerance.between(source.event.rounded, target.event.rounded).min(self.tolerance.rounded)
+    }
+
+    /// True where one side's act has no counterpart and needs none: a move within the least increment that
+    /// leaves the tool where the other side's is, a limit on reading ahead, or what the target cannot do and
+    /// no axis moves for.
+    fn passes(&mut self, side: usize, act: &Act<'r>) -> bool {
+        let what: &EventKind = &act.what;
+        if let Some((from, to)) = ends(what) {
+            // Before its first move a side stands where the other began.
+            let began = self.at[side].is_none().then_some((from, 0.0));
+            let near = self.at[1 - side].or(began).is_some_and(|(other, rounded)| {
+                let allowed = self.tolerance.between(act.event.rounded, rounded);
+                apart(&to, &other) <= allowed.min(self.tolerance.rounded)
+            });
+            let passes = near && goes_nowhere(what, self.tolerance.rounded);
+            if passes {
+                self.moved(side, act);
+            }
+            return passes;
+        }
+        if side == 1 {
+            return is_idle(what) || (self.uncancelled && matches!(what, EventKind::WorkOffset { .. }));
+        }
+        if let Some(text) = cannot_cancel(self.target, what) {
+            self.found.substituted.insert(text);
+            self.uncancelled = true;
+            return true;
+        }
+        if let Some(text) = goes_on(self.target, what, self.runs[1].coolant()) {
+            self.found.substituted.insert(text);
+            self.moved(0, act);
+            return true;
+        }
+        let left_out = is_left_out(self.target, what).or_else(|| returns_to_caller(what));
+        self.found.substituted.extend(left_out.clone());
+        left_out.is_some()
+    }
+
+    /// True where two acts are the same but for what incremental words rounded, one move after the other.
+    fn drifts(&mut self, source: &Act<'r>, target: &Act<'r>) -> bool {
+        let allowed = self.tolerance.between(source.event.rounded, target.event.rounded);
+        let same = allowed > self.tolerance.rounded && self.differ(source, target, allowed).is_none();
+        if same {
+            let what = "positions drift apart by more than a least increment: the rounding of incremental moves \
+                 adds up";
+            self.found.substituted.insert(what.into());
+        }
+        same
+    }
+
+    /// What differs between two acts, if anything does, where positions may lie so far apart.
+    fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, allowed: f64) -> Option<String> {
+        let stands = stands_for(self.target, &source.what, &target.what);
+        let (a, b) = (&source.what, &target.what);
+        let on = self.runs[0].goes_on(a) && self.runs[1].goes_on(b);
+        if (on || ends_cycle(source, target)) && may_turn(source, target) {
+            let text = "no source says whether the spindle still turns after a tool change or a stop";
+            self.found.substituted.insert(text.to_owned());
+            return None;
+        }
+        if let Some(text) = stands.or_else(|| is_builders(a, b).filter(|_| a != b)) {
+            self.found.substituted.insert(text);
+            return None;
+        }
+        // A size of the tool was rounded where it was written, which another block did.
+        let allowed = match **a {
+            EventKind::ToolLength { .. } | EventKind::CutterRadius { .. } => {
+                allowed.max(self.tolerance.rounded)
+            }
+            _ => allowed,
+        };
+        let mut largest = self.found.largest;
+        let paths = match source.event.rounded.max(target.event.rounded) {
+            // What the words of an arc rounded moves its middle farther than its ends.
+            rounded if rounded > 0.0 => ARC_ROUNDINGS * allowed.max(self.tolerance.rounded),
+            _ => ARC_ROUNDINGS * allowed,
+        };
+        let what = differ((&source.what, &target.what), target.room, (allowed, paths), &mut largest);
+        match what {
+            None => {
+                self.found.largest = largest;
+                self.found.substituted.extend(letters::doubt(a, b, self.target.control));
+                self.found.texts.extend(texts(&source.what, &target.what));
+                None
+            }
+            Some(what) => match has_no_feed(a).filter(|_| what == ANOTHER_FEED) {
+                Some(text) => {
+                    self.found.substituted.insert(text);
+                    None
+                }
+                None => Some(what.to_owned()),
+            },
+        }
+    }
+}
+
+fn end_differs(source: &End, target: &End) -> Option<String> {
+    let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
+    (!same).then(|| "one side ends with an alarm, the other does not".to_owned())
+}
+/// Texts that count as the same and are written differently.
+fn texts(source: &EventKind, target: &EventKind) -> Option<(String, String)> {
+    let show = |what: &EventKind| match what {
+        EventKind::Message { text } | EventKind::Output { text } => Some(text.trim().to_owned()),
+        EventKind::Stop => Some(String::new()),
+        EventKind::Alarm(stop) => {
+            stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
+        }
+        _ => None,
+    };
+    Some((show(source)?, show(target)?)).filter(|(a, b)| a != b)
+}

@@ -1,0 +1,211 @@
+//! Constants at a program's head that decide where it goes, edited alike on both sides.
+//!
+//! A literal that a main program assigns at its head is what its operator edits. Where it decides a branch, no
+//! circumstances go the other way; so both texts are run anew with another literal there. Which literal of the target is
+//! the same one is found without the compiler: it is the first thing that the target's program assigns to the register that
+//! the lock has for the variable, and it has the same value. Ways that the source goes so count where both sides did the
+//! same. Where they part, the program is undecided: a person sees whether that literal is the one.
+
+use super::verifier::Verifier;
+use crate::control::ProgramRef;
+use crate::syntax::{Expr, ExprKind, Item, ItemKind};
+use crate::text::Span;
+use crate::verify::certificate::{Edit, Why};
+use crate::verify::explore::{Proposals, inputs, unit};
+use crate::verify::sides::{EditedText, Job, Side, name_of};
+use crate::verify::triage::moved;
+use std::collections::BTreeSet;
+
+/// Constants of a program that are edited, at the most.
+const CONSTANTS: usize = 16;
+
+/// Values that each is given, at the most.
+const VALUES: usize = 32;
+
+/// Edits for ways that the target alone has left.
+const FOR_THE_TARGET: usize = 48;
+
+/// The first assignment of a variable, where it is a literal.
+#[derive(Clone, Debug, PartialEq)]
+struct Constant {
+    name: String,
+    value: f64,
+    span: Span,
+}
+
+impl Verifier<'_, '_> {
+    /// Goes ways that constants decide. What other programs call has no head that an operator edits.
+    pub(super) fn edited(&mut self, there: ProgramRef) {
+        if self.called || self.witness.is_some() || self.compared == 0 || self.went_every_way() {
+            return;
+        }
+        let Job { source, target, names, .. } = self.job;
+        let theirs = constants(target, there, false);
+        let numbers = inputs(source, self.program).numbers;
+        let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
+        for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
+            let named = names.variable(&constant.name, source.control, target.control);
+            let twin = theirs.iter().find(|twin| Some(&twin.name) == named.as_ref());
+            let Some(twin) = twin.filter(|twin| twin.value == constant.value) else { continue };
+            for value in values(constant.value, &numbers) {
+                if self.went_every_way() || steps == 0 || for_target == 0 || self.is_out_of_time() {
+                    return;
+                }
+                for_target -= usize::from(self.coverage.is_complete());
+                self.edit(there, (&constant, twin), value, &mut steps);
+            }
+        }
+    }
+
+    /// Runs both sides with another literal, where the source goes a new way by it.
+    fn edit(
+        &mut self,
+        there: ProgramRef,
+        (ours, theirs): (&Constant, &Constant),
+        value: f64,
+        steps: &mut u64,
+    ) {
+        let Job { source, target, names, assumptions, effort, spent } = *self.job;
+        let Some(text) = EditedText::new(&source.texts(), self.program, ours.span, value) else { return };
+        let blocks = text.parse(&source.texts());
+        let Some(new_source) = source.edited(self.program, &text, text.own(&blocks)) else { return };
+        let told = Constant { value, ..ours.clone() };
+        if !constants(&new_source, self.program, true)
+            .iter()
+            .any(|c| (&c.name, c.value) == (&told.name, value))
+        {
+            return;
+        }
+        let found = inputs(&new_source, self.program);
+        let inch = unit(source, target).or(found.inch);
+        let Some(mut scenario) = Proposals::new(&found, effort).next() else { return };
+        scenario.inch = inch;
+        self.given.start(&mut scenario);
+        let run = (source.execute)(&new_source.library, self.program, source.control, &scenario);
+        *steps = steps.saturating_sub(run.steps);
+        let mut coverage = self.coverage.clone();
+        let new = coverage.add_moved(&run, &back(&text, self.program.file));
+        if !new && self.target_coverage.is_complete() {
+            return;
+        }
+        let Some(other) = EditedText::new(&target.texts(), there, theirs.span, value) else { return };
+        let blocks = other.parse(&target.texts());
+        let Some(new_target) = target.edited(there, &other, other.own(&blocks)) else { return };
+        new_target.take_over(target, new_source.stands_as(source));
+        if !constants(&new_target, there, false).iter().any(|c| c.name == theirs.name && c.value == value) {
+            return;
+        }
+        let entered = new_source.links().entered(&run).chain([self.program]);
+        let assumptions = moved(assumptions, entered, self.program, |place| text.now(place));
+        let job =
+            Job { source: &new_source, target: &new_target, names, assumptions: &assumptions, effort, spent };
+        let mut pair = Verifier { given: self.given.clone(), ..Verifier::new(&job, self.program) };
+        pair.compare(&scenario, &run, there);
+        let mut target_coverage = self.target_coverage.clone();
+        let new_there = target_coverage.add_gone(&pair.target_coverage, &back(&other, there.file));
+        if !new_there && !new && pair.witness.is_none() {
+            return;
+        }
+        let edit = Edit {
+            variable: ours.name.clone(),
+            line: source.line_of(self.program.file, ours.span.start).0,
+            register: theirs.name.clone(),
+            target_line: target.line_of(there.file, theirs.span.start).0,
+            value,
+        };
+        if let Some(witness) = &pair.witness {
+            let text = format!(
+                "with {value} for {} in line {} and for {} in line {} they differ: {}",
+                edit.variable, edit.line, edit.register, edit.target_line, witness.what
+            );
+            return self.because(Why::Edited, &text);
+        }
+        // What comes to no end on both sides, as a stop that is jumped back to, is compared as far as it went.
+        if (pair.compared == 0 && pair.endless.is_empty()) || !pair.reasons.is_empty() {
+            return;
+        }
+        self.coverage = coverage;
+        self.target_coverage = target_coverage;
+        self.tried += 1;
+        self.compared += pair.compared;
+        self.largest = self.largest.max(pair.largest);
+        self.texts.extend(pair.texts);
+        for (fact, text) in pair.unconfirmed {
+            self.unconfirmed.entry(fact).or_insert(text);
+        }
+        self.edits.push(edit);
+    }
+}
+
+/// The variables whose first assignment in a program's text is a literal; of a head, those before anything can branch.
+fn constants(side: &Side<'_>, program: ProgramRef, head: bool) -> Vec<Constant> {
+    let (mut written, mut found) = (BTreeSet::new(), Vec::new());
+    for block in side.text(program) {
+        let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
+        for item in &block.items {
+            if head && branches(item) {
+                return found;
+            }
+            for (name, value) in writes(item) {
+                // What may be anything may be this variable.
+                let Some(name) = name else { return found };
+                let first = written.insert(name.clone());
+                if let Some(value) = value.filter(|_| first && !skipped)
+                    && let Some(number) = literal(value)
+                {
+                    found.push(Constant { name, value: number, span: value.span });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// What an item writes: the variable's name where that is written, and the value where it is an assignment for sure.
+fn writes(item: &Item) -> Vec<(Option<String>, Option<&Expr>)> {
+    match &item.kind {
+        ItemKind::Assign { target, value, by_sign: false } => vec![(name_of(target), Some(value))],
+        ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } | ItemKind::Timer(target) => {
+            vec![(name_of(target), None)]
+        }
+        ItemKind::Input { targets, .. } => targets.iter().map(|target| (name_of(target), None)).collect(),
+        ItemKind::Transfer { cells, .. } => {
+            cells.iter().filter(|cell| !cell.store).map(|cell| (name_of(&cell.variable), None)).collect()
+        }
+        ItemKind::If { body, .. } => body.iter().flat_map(writes).map(|(name, _)| (name, None)).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn branches(item: &Item) -> bool {
+    use ItemKind::*;
+    matches!(item.kind, If { .. } | Do { .. } | End { .. } | Goto(_) | Branch { .. } | Label(_))
+}
+
+fn literal(e: &Expr) -> Option<f64> {
+    match &e.kind {
+        ExprKind::Number(number) => Some(number.value),
+        ExprKind::Negate(inner) => match &inner.kind {
+            ExprKind::Number(number) => Some(-number.value),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Values worth a try: what conditions name, and what lies about the constant.
+fn values(constant: f64, numbers: &[f64]) -> Vec<f64> {
+    let about =
+        [0.0, 1.0, constant - 1.0, constant + 1.0, constant + 0.5, -constant, constant * 2.0, constant / 2.0];
+    let mut seen = BTreeSet::from([(constant + 0.0).to_bits()]);
+    let all = about.into_iter().chain(numbers.iter().copied()).map(|value| value + 0.0);
+    all.filter(|value| seen.insert(value.to_bits())).take(VALUES).collect()
+}
+
+/// Where the places of an edited program stood before, by the file that it stands in.
+fn back(text: &EditedText, edited: usize) -> impl Fn(usize, Span) -> Span {
+    move |file, span| match file == edited {
+        true => Span::new(text.before(span.start), text.before(span.end)),
+        false => span,
+    }
+}

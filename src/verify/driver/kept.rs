@@ -1,0 +1,35 @@
+//! How the runs of a program kept what its conversion supposes.
+
+use super::verifier::Verifier;
+use crate::assume::Predicate;
+use crate::verify::certificate::{Assumed, Why};
+use crate::verify::triage::Tried;
+
+impl Verifier<'_, '_> {
+    /// Counts what a pair of runs shows of the program's own assumptions; `same` where they did the same to their ends.
+    pub(super) fn count(&mut self, tried: &[Tried<'_>], same: bool) {
+        for tried in tried.iter().filter(|tried| tried.program == self.program) {
+            let (kept, broken) = self.assumed.entry(tried.at).or_default();
+            *kept += usize::from(same && tried.is_kept());
+            *broken += usize::from(tried.is_broken());
+        }
+    }
+
+    /// What the conversion supposes of the program, and how its runs kept that. What none kept is not shown.
+    pub(super) fn assumptions(&mut self) -> Vec<Assumed> {
+        let job = self.job;
+        let mut list = Vec::new();
+        for (at, assumption) in job.assumptions.get(&self.program).into_iter().flatten().enumerate() {
+            let (kept, broken) = self.assumed.get(&at).copied().unwrap_or_default();
+            let (line, column) = job.source.line_of(self.program.file, assumption.place.start);
+            let (kind, text) = (assumption.predicate.kind(), assumption.text.to_string());
+            if kept == 0 && self.compared > 0 && assumption.predicate.is_seen() {
+                self.because(Why::NoRunKept, &format!("no run met the condition of line {line}: {text}"));
+            }
+            let [kept, broken] =
+                [kept, broken].map(|runs| (assumption.predicate != Predicate::Unseen).then_some(runs));
+            list.push(Assumed { kind, text, line, column, kept, broken });
+        }
+        list
+    }
+}

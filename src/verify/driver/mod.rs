@@ -1,0 +1,16 @@
+//! The verification of a program from its first run to its certificate.
+
+mod edited;
+mod elsewhere;
+mod entries;
+mod fewer_digits;
+mod kept;
+mod otherwise;
+mod run;
+mod search;
+mod summary;
+mod trial;
+mod verifier;
+mod weigh;
+
+pub use run::{prepare, verify};

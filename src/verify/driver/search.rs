@@ -1,0 +1,128 @@
+//! The search for scenarios: in which both sides go every way that they can.
+
+use super::verifier::Verifier;
+use crate::control::{End, ProgramRef, Run, Scenario};
+use crate::verify::certificate::Why;
+use crate::verify::compare::{is_cut, returns};
+use crate::verify::explore::{Proposals, inputs_of_both, unit};
+use crate::verify::sides::{Effort, Job};
+use crate::verify::triage::telling_numbers;
+
+/// How much longer the first run may be where it comes to no end.
+const LONGER: u64 = 10;
+
+/// Scenarios that are compared even where nothing is left to be reached.
+const FEWEST: usize = 16;
+
+/// Runs of which none can be compared to its end before a program with no ways left is given up.
+const BARREN: usize = 48;
+
+/// How often a run may execute each block of a long program, on the average.
+const EACH_BLOCK: u64 = 4;
+
+/// Runs that come to no end before a program is given up.
+const ENDLESS: usize = 4;
+
+/// Runs of both sides for ways that the target alone has left, after the source has gone all of its own.
+const FOR_THE_TARGET: usize = 48;
+
+/// Telling scenarios that are kept, at the most, and those that are, whether they go new ways or not.
+const TELLING: usize = 4;
+const ANYWAY: usize = 2;
+
+impl Verifier<'_, '_> {
+    /// Tries the source in scenario after scenario, and compares in those that reach anything new. While the target has
+    /// ways left, each is run on both sides.
+    pub(super) fn search(&mut self, there: ProgramRef) {
+        let Job { source, target, names, effort, .. } = *self.job;
+        let mut found = inputs_of_both((source, self.program), (target, there), names, self.called);
+        found.try_also(&telling_numbers(self.job.assumptions, self.program, names));
+        let blocks = source.blocks(self.program).len() as u64;
+        let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
+        let inch = unit(source, target).or(found.inch);
+        let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
+        self.skips = proposals.skips().to_vec();
+        let (mut endless, mut for_target) = (0, 0);
+        while let Some(mut scenario) = proposals.next() {
+            if self.is_out_of_time() {
+                break;
+            }
+            scenario.milliseconds = scenario.milliseconds.map(|most| most.min(self.clock.left()));
+            scenario.inch = inch;
+            self.given.start(&mut scenario);
+            self.theirs = proposals.theirs().clone();
+            let run = self.run_longer(&mut scenario);
+            self.tried += 1;
+            self.steps += run.steps;
+            let new = self.coverage.add(&run);
+            if is_cut(&run) && !new {
+                endless += 1;
+            }
+            let telling = proposals.are_telling();
+            let spare = self.compared < FEWEST && self.tried.is_multiple_of(2);
+            let wanted = !self.target_coverage.is_complete() && for_target < FOR_THE_TARGET;
+            if new || telling || spare || wanted {
+                for_target += usize::from(!new && !telling && !spare);
+                let new_there = self.compare(&scenario, &run, there);
+                self.tell(scenario, &run, new || new_there);
+            }
+            let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
+            let barren = self.compared == 0 && self.tried >= BARREN;
+            let done = self.coverage.is_complete() && gone && !telling && (self.compared >= FEWEST || barren);
+            if self.witness.is_some()
+                || done
+                || endless >= ENDLESS
+                || self.compared >= effort.scenarios
+                || self.steps >= effort.all_steps
+            {
+                break;
+            }
+        }
+        self.theirs.clear();
+        if self.compared == 0 {
+            for text in std::mem::take(&mut self.endless) {
+                self.because(Why::Endless, &text);
+            }
+            self.because(Why::NothingCompared, "no scenario could be run on both sides");
+        }
+    }
+
+    /// Keeps a scenario that tells much of the program: one that went a new way, and the first ones of all.
+    fn tell(&mut self, scenario: Scenario, run: &Run, new: bool) {
+        let ended = match &run.end {
+            End::Ended => true,
+            End::Alarm { stop, .. } => stop.program_number.is_some(),
+            _ => false,
+        };
+        self.returns |= run.events.last().is_some_and(|last| returns(&last.what));
+        if ended && self.telling.len() < TELLING && (new || self.telling.len() < ANYWAY) {
+            self.telling.push((scenario, self.theirs.clone()));
+        }
+    }
+
+    /// True once its time is up: then it is not decided.
+    pub(super) fn is_out_of_time(&mut self) -> bool {
+        let is_up = self.clock.is_up();
+        if is_up {
+            let text = "the processor time for its verification is up: give it more with \
+                        --program-seconds, or give all programs more with --library-seconds";
+            self.because(Why::OutOfTime, text);
+        }
+        is_up
+    }
+
+    /// True where neither side has ways left.
+    pub(super) fn went_every_way(&self) -> bool {
+        self.coverage.is_complete() && self.target_coverage.is_complete()
+    }
+
+    /// A run of the source; a long way to its end is tried once.
+    fn run_longer(&self, scenario: &mut Scenario) -> Run {
+        let run = self.run_source(scenario);
+        if !is_cut(&run) || self.tried > 0 {
+            return run;
+        }
+        scenario.steps = scenario.steps.saturating_mul(LONGER);
+        self.run_source(scenario)
+    }
+}

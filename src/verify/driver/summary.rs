@@ -1,0 +1,92 @@
+//! What is written of a program once it was verified.
+
+use super::verifier::Verifier;
+use crate::canon::Op;
+use crate::control::ProgramRef;
+use crate::verify::certificate::{Outcome, ProgramCertificate, Reason, Why};
+use crate::verify::explore::{Coverage, NotReached};
+use crate::verify::triage::through;
+
+/// Ways not gone that a reason names.
+const NAMED: usize = 3;
+
+impl Verifier<'_, '_> {
+    pub(super) fn certificate(mut self, there: Option<ProgramRef>) -> ProgramCertificate {
+        let source_file = self.job.source.files.get(self.program.file);
+        let target_file = there.and_then(|there| self.job.target.files.get(there.file));
+        let ways = |coverage: &Coverage, side| there.map_or(Vec::new(), |_| coverage.not_reached(side));
+        let not_reached = ways(&self.coverage, self.job.source);
+        let target_not_reached = ways(&self.target_coverage, self.job.target);
+        for (missed, whose) in [(&not_reached, ""), (&target_not_reached, " of the target")] {
+            if !missed.is_empty() {
+                self.because(Why::NotReached, &in_words(missed, whose));
+            }
+        }
+        for text in self.unconfirmed.clone().into_values().flatten() {
+            self.because(Why::Unconfirmed, &text);
+        }
+        let assumptions = self.assumptions();
+        let mut outcome = match (&self.witness, self.reasons.is_empty()) {
+            (Some(_), _) => Outcome::Different,
+            (None, false) => Outcome::Undecided,
+            (None, true) => Outcome::Same,
+        };
+        let mut run_alone = false;
+        if let Some(witness) = &self.witness {
+            let through = through(self.job, self.program, &self.shown, self.tolerance);
+            run_alone = through.is_alone(&self.given);
+            if let Some(excuse) = through.excuses() {
+                let text = format!("run by itself it differs ({}), but {excuse}", witness.what);
+                self.because(Why::NotByItself, &text);
+                outcome = Outcome::Undecided;
+            }
+        }
+        let (branches_total, branches_covered) = self.coverage.totals();
+        let (target_branches_total, target_branches_covered) = self.target_coverage.totals();
+        let reasons = self
+            .reasons
+            .into_iter()
+            .flat_map(|(why, texts)| texts.into_iter().map(move |text| Reason { why, text }));
+        ProgramCertificate {
+            source: source_file.map_or_else(String::new, |file| file.name.to_owned()),
+            source_sha256: self.job.source.sha256(self.program.file).to_owned(),
+            program: self.job.source.name(self.program).map(ToString::to_string),
+            target: target_file.map(|file| file.name.to_owned()),
+            target_sha256: there.map(|there| self.job.target.sha256(there.file).to_owned()),
+            outcome,
+            reasons: reasons.collect(),
+            given: self.given.modes.iter().map(Op::to_string).collect(),
+            never_come_to: self.given.never_come_to,
+            run_alone,
+            scenarios_tried: self.tried,
+            scenarios_compared: self.compared,
+            branches_covered,
+            branches_total,
+            not_reached,
+            target_branches_covered,
+            target_branches_total,
+            target_not_reached,
+            edits: self.edits,
+            tolerance_mm: self.tolerance.rounded,
+            largest_difference_mm: self.largest,
+            rounding_sensitive: self.sensitive,
+            unconfirmed: self.unconfirmed.into_keys().collect(),
+            texts: self.texts.into_iter().take(20).collect(),
+            witness: self.witness,
+            started: self.started,
+            entered: self.entered,
+            assumptions,
+        }
+    }
+}
+
+/// The ways that were never gone, the first of them by name.
+fn in_words(missed: &[NotReached], whose: &str) -> String {
+    let named = missed
+        .iter()
+        .take(NAMED)
+        .map(|way| format!("'{}' in line {}{whose} was never {}", way.text.trim(), way.line, way.way));
+    let more = missed.len().saturating_sub(NAMED);
+    let rest = (more > 0).then(|| format!("and {more} more branches{whose} were not reached"));
+    named.chain(rest).collect::<Vec<_>>().join("; ")
+}

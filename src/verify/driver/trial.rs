@@ -1,0 +1,80 @@
+//! One scenario on both sides.
+
+use super::verifier::{Pair, Verifier};
+use crate::control::trace::EventKind;
+use crate::control::{End, ProgramRef, Run, Scenario};
+use crate::verify::certificate::{Moment, Why, unconfirmed};
+use crate::verify::compare::{Difference, compare, is_cut, writes_elsewhere};
+use crate::verify::sides::Job;
+use crate::verify::triage::{ROUNDS, excuse, facts, tried};
+
+impl Verifier<'_, '_> {
+    /// Compares the runs of a scenario. True where the target's went a new way.
+    pub(super) fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) -> bool {
+        let Job { source, target, names, .. } = self.job;
+        let circumstances = self.circumstances(scenario, run);
+        let other = (target.execute)(&target.library, there, target.control, &circumstances);
+        self.entered.extend(source.links().entered(run));
+        let assumed = facts(self.job, run);
+        let new_there = self.target_coverage.add(&other);
+        for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
+            match &library_run.end {
+                End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
+                End::StepBudget | End::TimeBudget => {
+                    let text = format!("the {side} did not end in {} blocks", library_run.steps);
+                    let alone = side == "target" && !is_cut(run);
+                    if alone { self.because(Why::Endless, &text) } else { self.endless.extend([text]) }
+                }
+                End::Ended | End::Alarm { .. } => {}
+            }
+            for event in &library_run.events {
+                if let EventKind::Unsure { fact } = &event.what {
+                    let is_new = !assumed.contains(fact.as_str());
+                    let kept = self.unconfirmed.entry(fact.clone()).or_default();
+                    if is_new && kept.is_none() {
+                        *kept = Some(unconfirmed(fact, side, &Moment::of(library, library_run, event)));
+                    }
+                }
+            }
+        }
+        let found = compare((source, run), (target, &other), names, self.tolerance);
+        self.largest = self.largest.max(found.largest);
+        self.texts.extend(found.texts);
+        for text in found.substituted {
+            self.because(Why::Substituted, &text);
+        }
+        let ended = !is_cut(run) && !is_cut(&other);
+        // A hair that the last digit decides is no fault of the conversion; any other is.
+        let hair = found.hair;
+        let hangs = hair.is_some() && self.wavers((there, &circumstances), &other);
+        if let Some(hair) = hair.as_ref().filter(|_| hangs) {
+            let text = format!("rounding may decide this: add a tolerance or round first ({})", hair.what);
+            self.because(Why::Substituted, &text);
+        }
+        let difference = hair.filter(|_| !hangs).or(found.difference).or_else(|| {
+            let what = writes_elsewhere(source, (target, &other), &circumstances.variables, names)?;
+            Some(Difference::new(None, None, what))
+        });
+        let tried = tried(self.job, run, &other);
+        let excuse = difference.as_ref().and_then(|d| excuse(&tried, run, &other, d));
+        self.count(&tried, ended && difference.is_none());
+        self.compared += usize::from(ended && excuse.is_none());
+        let upto = difference.as_ref().map(|difference| difference.target);
+        if let Some(difference) = &difference {
+            let pair = Pair { scenario, run, there, circumstances: &circumstances, other: &other };
+            match self.weigh(&pair, difference, excuse) {
+                Some((why, text)) => {
+                    if why == Why::Unconfirmed {
+                        self.unconfirmed.insert(ROUNDS.into(), None);
+                    }
+                    self.because(why, &text);
+                }
+                None => self.witnessed(&pair, difference),
+            }
+        }
+        if self.witness.is_none() && self.sensitive != Some(true) && !is_cut(&other) {
+            self.sensitive = Some(self.is_sensitive((there, &circumstances), &other, upto));
+        }
+        new_there
+    }
+}

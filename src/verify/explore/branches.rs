@@ -1,0 +1,142 @@
+//! The branches of a program, and which ways they went.
+
+use super::constants::impossible;
+use crate::control::{ProgramRef, Run};
+use crate::syntax::{ItemKind, Target, for_each_item};
+use crate::text::Span;
+use crate::verify::sides::Side;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A way that a branch never went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NotReached {
+    /// The line of the branch.
+    pub line: u32,
+    /// Its column.
+    pub column: u32,
+    /// What it says.
+    pub text: String,
+    /// The way: `true`, `false`, or `taken` for a computed jump.
+    pub way: &'static str,
+}
+
+/// A branch: its file and place.
+type Place = (usize, Span);
+
+/// The branches of one program, or of several that count as one.
+#[derive(Clone)]
+pub struct Coverage {
+    branches: BTreeMap<Place, (bool, BTreeSet<i64>)>,
+    /// The bytes of the longest branch.
+    longest: u32,
+    /// All ways that were seen anywhere, those of called programs too.
+    seen: BTreeSet<(usize, Span, i64)>,
+    /// Ways that constants make impossible.
+    impossible: BTreeSet<(Place, i64)>,
+}
+
+impl Coverage {
+    /// The branches that stand in programs of a side; which ways are impossible is told `as_run` on its emulated control, or
+    /// by what sources confirm.
+    pub fn new(side: &Side<'_>, programs: &[ProgramRef], as_run: bool) -> Self {
+        let (mut branches, mut never) = (BTreeMap::new(), BTreeSet::new());
+        for program in programs {
+            for block in side.text(*program) {
+                for_each_item(&block.items, &mut |item| {
+                    let (span, computed) = match &item.kind {
+                        ItemKind::If { condition, .. } => (condition.span, false),
+                        ItemKind::Do { condition: Some(condition), .. } => (condition.span, false),
+                        ItemKind::Branch { .. } => (item.span, false),
+                        ItemKind::Goto(Target::Computed(target)) => (target.span, true),
+                        _ => return,
+                    };
+                    branches.insert((program.file, span), (computed, BTreeSet::new()));
+                });
+            }
+            never.extend(
+                impossible(side, *program, as_run).into_iter().map(|(span, way)| ((program.file, span), way)),
+            );
+        }
+        let longest =
+            branches.keys().map(|(_, span): &Place| span.end.saturating_sub(span.start)).max().unwrap_or(0);
+        Self { branches, longest, seen: BTreeSet::new(), impossible: never }
+    }
+
+    /// Notes where a run went. True where that was new.
+    pub fn add(&mut self, run: &Run) -> bool {
+        self.add_moved(run, &|_, span| span)
+    }
+
+    /// As [`Coverage::add`], for a text whose places stood elsewhere before it was edited.
+    pub fn add_moved(&mut self, run: &Run, place: &dyn Fn(usize, Span) -> Span) -> bool {
+        let before = self.seen.len();
+        for (branch, ways) in run.branches.iter() {
+            let Some(program) = run.programs.get(branch.at.program as usize) else { continue };
+            let span = place(program.file, branch.at.span);
+            for way in ways {
+                self.seen.insert((program.file, span, *way));
+            }
+            for seen in self.touched(program.file, span) {
+                seen.extend(ways);
+            }
+        }
+        self.seen.len() > before
+    }
+
+    /// The ways seen of the branches that share bytes with a place: those that begin before its end, and no farther
+    /// before its start than the longest is long.
+    fn touched(&mut self, file: usize, span: Span) -> impl Iterator<Item = &mut BTreeSet<i64>> {
+        let first = span.start.saturating_sub(self.longest).min(span.end);
+        let near = (file, Span::new(first, 0))..(file, Span::new(span.end, 0));
+        let near = self.branches.range_mut(near).filter(move |((_, other), _)| span.start < other.end);
+        near.map(|(_, (_, seen))| seen)
+    }
+
+    /// Takes in the ways that were gone in a text whose places stood elsewhere before it was edited. True
+    /// where one of them was missing.
+    pub fn add_gone(&mut self, other: &Self, place: &dyn Fn(usize, Span) -> Span) -> bool {
+        let before = self.missing().count();
+        for ((file, span), (_, gone)) in &other.branches {
+            if let Some((_, seen)) = self.branches.get_mut(&(*file, place(*file, *span))) {
+                seen.extend(gone);
+            }
+        }
+        self.missing().count() < before
+    }
+
+    /// How many ways there are, and how many of them were gone.
+    pub fn totals(&self) -> (usize, usize) {
+        let ways = |computed: bool| if computed { 1 } else { 2 };
+        let all: usize = self.branches.values().map(|(computed, _)| ways(*computed)).sum();
+        let total = all - self.impossible.len();
+        (total, total - self.missing().count())
+    }
+
+    /// True where nothing is left to be reached.
+    pub fn is_complete(&self) -> bool {
+        self.missing().next().is_none()
+    }
+
+    fn missing(&self) -> impl Iterator<Item = (Place, &'static str)> + '_ {
+        self.branches.iter().flat_map(|(place, (computed, seen))| {
+            let none = (*computed && seen.is_empty()).then_some((*place, "taken"));
+            let lacks =
+                |way: i64| !computed && !seen.contains(&way) && !self.impossible.contains(&(*place, way));
+            let no = lacks(0).then_some((*place, "false"));
+            let yes = lacks(1).then_some((*place, "true"));
+            none.into_iter().chain(no).chain(yes)
+        })
+    }
+
+    /// The ways that were never gone.
+    pub fn not_reached(&self, side: &Side<'_>) -> Vec<NotReached> {
+        let report = |((file, span), way): (Place, &'static str)| {
+            let source = side.files.get(file).map_or(&[][..], |file| file.parsed.source);
+            let (line, column) = side.line_of(file, span.start);
+            let text = source.get(span.range()).map(String::from_utf8_lossy).unwrap_or_default();
+            NotReached { line, column, text: text.into_owned(), way }
+        };
+        self.missing().map(report).collect()
+    }
+}

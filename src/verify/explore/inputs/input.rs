@@ -1,0 +1,54 @@
+//! What programs take from outside: variables, state of the machine, answers and switches.
+
+use crate::canon::Sys;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a program takes from outside.
+#[derive(Clone, Debug, Default)]
+pub struct Inputs {
+    /// The variables that are read before the text writes them.
+    pub variables: Vec<Input>,
+    /// Variables that conditions hold against each other, by place in `variables`.
+    pub pairs: Vec<(usize, usize)>,
+    /// Numbers that the program's conditions name, and their neighbours.
+    pub numbers: Vec<f64>,
+    /// State of the machine that the program reads, and the numbers that it is compared with.
+    pub cells: BTreeMap<(Sys, Vec<u32>), Vec<f64>>,
+    /// The switches that skip blocks, `/` alone as 1.
+    pub skips: BTreeSet<u8>,
+    /// True where the operator is asked.
+    pub asks: bool,
+    /// True for each of A, B and C that a program of the library moves.
+    pub rotary: [bool; 3],
+    /// True if the control has tool offsets past 99.
+    pub many_tools: bool,
+    /// The unit that the machine must be set to, where the program checks it: true for inch.
+    pub inch: Option<bool>,
+}
+
+/// A variable that a run is started with.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// True where it may be vacant.
+    pub nullable: bool,
+    /// The numbers that it is compared with, and their neighbours; those are the values worth trying.
+    pub values: Vec<f64>,
+    /// True for a register of the target that no variable of the source has: the name is the target's.
+    pub theirs: bool,
+}
+
+/// Numbers that are tried in each variable besides its own, at the most.
+const MORE: usize = 24;
+
+impl Inputs {
+    /// Has these numbers tried too: any variable may be what they are computed from.
+    pub fn try_also(&mut self, numbers: &[f64]) {
+        for input in &mut self.variables {
+            let new: Vec<f64> = numbers.iter().copied().filter(|n| !input.values.contains(n)).collect();
+            input.values.extend(new.into_iter().take(MORE));
+        }
+        self.numbers.extend(numbers);
+    }
+}

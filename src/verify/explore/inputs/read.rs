@@ -1,0 +1,44 @@
+//! What a program takes from outside, by its text.
+
+use super::input::Inputs;
+use super::reader::Reader;
+use crate::control::ProgramRef;
+use crate::syntax::{Item, ItemKind, Label};
+use crate::verify::sides::Side;
+use std::collections::BTreeSet;
+
+/// Reads a program.
+pub fn inputs(side: &Side<'_>, program: ProgramRef) -> Inputs {
+    inputs_by(side, program, &labels(side, program).into_iter().take(LABELS).collect::<Vec<_>>())
+}
+
+/// Labels that a computed jump is sent to, at the most, where one side is looked at.
+const LABELS: usize = 20;
+
+/// The numbers that jumps in a program can find.
+pub fn labels(side: &Side<'_>, program: ProgramRef) -> BTreeSet<u32> {
+    let items = side.text(program).iter().flat_map(|block| &block.items);
+    let number = |item: &Item| match &item.kind {
+        ItemKind::Sequence { number, .. } | ItemKind::Label(Label::Number(number)) => Some(*number),
+        _ => None,
+    };
+    items.filter_map(number).collect()
+}
+
+/// Reads a program whose computed jumps are sent to these labels.
+pub fn inputs_by(side: &Side<'_>, program: ProgramRef, order: &[u32]) -> Inputs {
+    let mut reader = Reader::new(side.control);
+    for (at, one) in side.links().called_from(program, |_| true).into_iter().enumerate() {
+        reader.own = at == 0;
+        reader.labels =
+            if at == 0 { order.to_vec() } else { labels(side, one).into_iter().take(LABELS).collect() };
+        side.text(one).iter().for_each(|block| reader.items(&block.items, at == 0));
+    }
+    Inputs { rotary: side.links().rotary(), many_tools: has_many_tools(side), ..reader.finish() }
+}
+
+/// True if a table of tool offsets has more rows than two digits count.
+fn has_many_tools(side: &Side<'_>) -> bool {
+    let rows = side.control.dialect().system.iter().filter(|row| row.state.is_tool_offset());
+    rows.filter_map(|row| row.subscripts.first()).any(|subscript| subscript.count > 99)
+}

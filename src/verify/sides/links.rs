@@ -1,0 +1,192 @@
+//! How the programs of a side stand to each other: which of them call which, and what runs call each.
+//!
+//! Worked out once for a side, whatever the number of programs that are verified.
+
+use super::program_texts::ProgramTexts;
+use crate::canon::Op;
+use crate::control::{ProgramRef, Run, trace};
+use crate::syntax::{Block, ExprKind, Item, ItemKind, ProgramName};
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// Calls nest no deeper than this on an emulated control, so what lies deeper no run comes to.
+const DEEPEST: usize = 100;
+
+/// The programs of a side.
+#[derive(Debug, Default)]
+pub struct Links {
+    /// All programs, in the order of files and places.
+    programs: Vec<ProgramRef>,
+    /// The first file of each name.
+    files: HashMap<String, usize>,
+    /// Of each file, by the names that are written; none for those without.
+    named: Vec<HashMap<Option<ProgramName>, Vec<ProgramRef>>>,
+    /// Of each file, by their names as runs have them.
+    ran: Vec<HashMap<String, Vec<ProgramRef>>>,
+    /// What the text of each calls, each program once, in the order of the text.
+    callees: HashMap<ProgramRef, Vec<ProgramRef>>,
+    /// Those that another one calls.
+    called: HashSet<ProgramRef>,
+    /// True for each of A, B and C that a program has a word of.
+    rotary: [bool; 3],
+}
+
+/// The letters of the rotary axes.
+const ROTARY: [char; 3] = ['A', 'B', 'C'];
+
+impl Links {
+    /// Reads the texts of a side.
+    pub fn new(side: &ProgramTexts<'_>) -> Self {
+        let mut links = Self::default();
+        for (file, loaded) in side.library.files.iter().enumerate() {
+            links.files.entry(loaded.name.to_owned()).or_insert(file);
+            links.named.push(HashMap::new());
+            links.ran.push(HashMap::new());
+            let all = (0..).map(|program| ProgramRef { file, program });
+            all.take_while(|program| side.has(*program)).for_each(|program| links.take_in(side, program));
+        }
+        links
+    }
+
+    /// True if a program that was edited calls the same and moves the same axes as before.
+    pub fn hold_in(
+        &self,
+        (before, now): (&ProgramTexts<'_>, &ProgramTexts<'_>),
+        program: ProgramRef,
+    ) -> bool {
+        rotary_in(before.text(program)) == rotary_in(now.text(program))
+            && callees_of(now, program) == self.callees(program)
+    }
+
+    fn take_in(&mut self, side: &ProgramTexts<'_>, program: ProgramRef) {
+        let callees = callees_of(side, program);
+        let moved = rotary_in(side.text(program));
+        self.rotary.iter_mut().zip(moved).for_each(|(all, here)| *all |= here);
+        self.called.extend(callees.iter().filter(|callee| **callee != program));
+        self.callees.insert(program, callees);
+        let name = side.name(program);
+        if let (Some(named), Some(ran)) = (self.named.last_mut(), self.ran.last_mut()) {
+            named.entry(name.cloned()).or_default().push(program);
+            ran.entry(name.map_or_else(String::new, as_run)).or_default().push(program);
+        }
+        self.programs.push(program);
+    }
+
+    /// All programs, in the order of files and places.
+    pub fn programs(&self) -> &[ProgramRef] {
+        &self.programs
+    }
+
+    /// The first file of this name.
+    pub fn file(&self, name: &str) -> Option<usize> {
+        self.files.get(name).copied()
+    }
+
+    /// The programs of a file that have this name, or none.
+    pub fn named(&self, file: usize, name: Option<&ProgramName>) -> &[ProgramRef] {
+        let named = self.named.get(file).and_then(|named| named.get(&name.cloned()));
+        named.map_or(&[], Vec::as_slice)
+    }
+
+    /// What the text of a program calls.
+    pub fn callees(&self, program: ProgramRef) -> &[ProgramRef] {
+        self.callees.get(&program).map_or(&[], Vec::as_slice)
+    }
+
+    /// True where another program calls it: then that one has set what it takes.
+    pub fn is_called(&self, program: ProgramRef) -> bool {
+        self.called.contains(&program)
+    }
+
+    /// True for each of A, B and C that a program has a word of.
+    pub fn rotary(&self) -> [bool; 3] {
+        self.rotary
+    }
+
+    /// A program, then those that it calls, then those that these call, each once; `follows` says which to go on to.
+    pub fn called_from(&self, program: ProgramRef, follows: impl Fn(&ProgramRef) -> bool) -> Vec<ProgramRef> {
+        let (mut all, mut seen) = (vec![program], HashSet::from([program]));
+        let mut level = 0..1;
+        for _ in 0..DEEPEST {
+            for at in level.clone() {
+                let callees = all.get(at).map_or(&[][..], |caller| self.callees(*caller));
+                all.extend(callees.iter().copied().filter(|callee| follows(callee) && seen.insert(*callee)));
+            }
+            level = level.end..all.len();
+            if level.is_empty() {
+                break;
+            }
+        }
+        all
+    }
+
+    /// The programs that a run calls so: several without a name stand in one file.
+    pub fn of_run(&self, ran: &trace::Program) -> &[ProgramRef] {
+        self.ran.get(ran.file).and_then(|names| names.get(&ran.name)).map_or(&[], Vec::as_slice)
+    }
+
+    /// The program that a number of a run's places stands for.
+    pub fn at(&self, run: &Run, number: u32) -> Option<ProgramRef> {
+        self.of_run(run.programs.get(number as usize)?).first().copied()
+    }
+
+    /// The programs that a run came through.
+    pub fn entered<'r>(&'r self, run: &'r Run) -> impl Iterator<Item = ProgramRef> + 'r {
+        run.programs.iter().filter_map(|ran| self.of_run(ran).first().copied())
+    }
+
+    /// True if a run came through a program.
+    pub fn enters(&self, run: &Run, program: ProgramRef) -> bool {
+        run.programs.iter().any(|ran| self.of_run(ran).contains(&program))
+    }
+
+    /// Every program that a run may have come through, and how it came to it first.
+    pub fn entries<'r>(&self, run: &'r Run) -> BTreeMap<ProgramRef, &'r trace::Program> {
+        let mut found = BTreeMap::new();
+        for ran in &run.programs {
+            for program in self.of_run(ran) {
+                found.entry(*program).or_insert(ran);
+            }
+        }
+        found
+    }
+}
+
+/// What the text of a program calls, each program once.
+fn callees_of(side: &ProgramTexts<'_>, program: ProgramRef) -> Vec<ProgramRef> {
+    let mut seen = HashSet::new();
+    let all = side.text(program).iter().flat_map(|block| calls(side, &block.items));
+    all.filter(|callee| seen.insert(*callee)).collect()
+}
+
+/// True for each rotary axis that blocks have a word of.
+fn rotary_in(blocks: &[Block]) -> [bool; 3] {
+    let mut found = [false; 3];
+    for item in blocks.iter().flat_map(|block| &block.items) {
+        let ItemKind::Word(word) = &item.kind else { continue };
+        let axis = ROTARY.iter().position(|letter| *letter == word.letter);
+        axis.and_then(|axis| found.get_mut(axis)).into_iter().for_each(|moved| *moved = true);
+    }
+    found
+}
+
+/// A program's name as runs have it.
+fn as_run(name: &ProgramName) -> String {
+    name.short().into_owned()
+}
+
+/// The programs that a block may call: those whose numbers stand in its P words, and cycles that a code of theirs calls.
+fn calls<'s>(side: &'s ProgramTexts<'_>, items: &'s [Item]) -> impl Iterator<Item = ProgramRef> + 's {
+    items.iter().filter_map(|item| {
+        let ItemKind::Word(word) = &item.kind else { return None };
+        let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else {
+            return None;
+        };
+        if word.letter == 'G' {
+            let row = side.control.code('G', number.value, &[]).filter(|row| row.op == Op::CallCycle);
+            return row.and_then(|_| side.library.cycle((number.value % 100.0) as u32));
+        }
+        let is_number = word.letter == 'P' && number.value >= 1.0 && number.value.fract() == 0.0;
+        // A float outside the range becomes its nearest end.
+        is_number.then(|| side.numbered(number.value as u32)).flatten()
+    })
+}

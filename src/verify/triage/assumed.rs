@@ -1,0 +1,274 @@
+//! Tries on runs what a conversion supposes.
+//!
+//! A conversion is right for the runs of the source that keep its assumptions. So what comes after the place where the
+//! source breaks one is not held against it; what the target alone does otherwise is. Nothing else of a conversion is
+//! known here.
+
+use crate::assume::{Assumption, Predicate};
+use crate::control::trace::{Computed, Event, EventKind};
+use crate::control::{End, ProgramRef, Run};
+use crate::text::Span;
+use crate::verify::compare::Difference;
+use crate::verify::sides::{Assumptions, Job, Side, SymbolMap};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// What a run shows of an assumption.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Held {
+    /// It did not come to it.
+    Untried,
+    /// It kept it.
+    Kept,
+    /// It broke it.
+    Broken {
+        /// How many events came before.
+        before: usize,
+        /// What the run did, in words.
+        what: String,
+    },
+}
+
+/// What two runs show of an assumption.
+#[derive(Clone, Debug)]
+pub struct Tried<'a> {
+    /// The program whose assumption it is.
+    pub program: ProgramRef,
+    /// Its place among those of the program.
+    pub at: usize,
+    /// The assumption.
+    pub assumption: &'a Assumption,
+    /// The source's run.
+    pub source: Held,
+    /// The target's.
+    pub target: Held,
+    /// How many events came before the target did first what it is about; none if it does nothing of the kind.
+    since: Option<usize>,
+}
+
+impl Tried<'_> {
+    /// True where one of the runs broke it.
+    pub fn is_broken(&self) -> bool {
+        [&self.source, &self.target].into_iter().any(|held| matches!(held, Held::Broken { .. }))
+    }
+
+    /// True where the source kept it, and the target did not break it.
+    pub fn is_kept(&self) -> bool {
+        self.source == Held::Kept && !self.is_broken()
+    }
+}
+
+/// Tries what the programs suppose that a run of the source came through.
+pub fn tried<'j>(job: &Job<'j>, run: &Run, other: &Run) -> Vec<Tried<'j>> {
+    let entered: BTreeSet<ProgramRef> = job.source.links().entered(run).collect();
+    let all = entered.into_iter().filter_map(|program| Some((program, job.assumptions.get(&program)?)));
+    let tried = all.flat_map(|(program, all)| {
+        let there = job.names.program(job.source, program, job.target);
+        all.iter().enumerate().map(move |(at, assumption)| Tried {
+            program,
+            at,
+            assumption,
+            source: on_source(&assumption.predicate, (job.source, program), run),
+            target: on_target(&assumption.predicate, there.map(|there| (job.target, there)), other),
+            since: there.and_then(|there| since(&assumption.predicate, (job.target, there), other)),
+        })
+    });
+    tried.collect()
+}
+
+/// The facts that programs take to be as the tables have them, of those that a run came through.
+pub fn facts(job: &Job<'_>, run: &Run) -> BTreeSet<Arc<str>> {
+    let all = job.source.links().entered(run).filter_map(|program| job.assumptions.get(&program)).flatten();
+    all.filter_map(|assumption| assumption.predicate.fact()).collect()
+}
+
+/// Why a difference is not held against the conversion: what the source did before it, or in it. None where it kept all
+/// that is assumed so far, or the target was not there yet.
+pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Difference<'_>) -> Option<String> {
+    let place_in = |run: &Run, at: Option<&Event>| {
+        at.and_then(|event| run.events.iter().position(|e| std::ptr::eq(e, event)))
+    };
+    let (place, there) = (place_in(run, difference.source), place_in(other, difference.target));
+    let too_deep = matches!(&other.end, End::Alarm { stop, .. } if stop.nesting.is_some());
+    tried.iter().find_map(|tried| match &tried.source {
+        Held::Broken { before, what }
+            if place.is_none_or(|place| *before <= place)
+                && (there.zip(tried.since).is_none_or(|(there, since)| since <= there)) =>
+        {
+            // Levels count only where the target ran out of them.
+            let counts = too_deep || !matches!(tried.assumption.predicate, Predicate::Nesting { .. });
+            counts.then(|| {
+                format!("a run {what}, against a condition of the conversion: {}", tried.assumption.text)
+            })
+        }
+        _ => None,
+    })
+}
+
+/// What a run of the source shows.
+fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> Held {
+    match predicate {
+        // The emulated controls go by the tables, and both sides are set to one unit.
+        Predicate::Fact(_) | Predicate::Unit => Held::Kept,
+        Predicate::Unseen => Held::Untried,
+        Predicate::Subscripts(subscripts) => {
+            let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
+            let name = of.0.control.numbered().unwrap_or_default();
+            judged(
+                here,
+                |number| subscripts.safe.contains(*number),
+                |n| format!("computes the variable {name}{n}"),
+            )
+        }
+        Predicate::Arguments { function, places, domain } => {
+            let here = computed(&run.arguments, of, run, Some(places)).filter(|one| one.what.0 == *function);
+            judged(here, |(_, arguments)| domain.contains(*arguments), call)
+        }
+        Predicate::Codes { letter, places, same } => {
+            let here =
+                computed(&run.computed_codes, of, run, Some(places)).filter(|one| one.what.0 == *letter);
+            judged(here, |(_, number)| same.contains(number), |(l, n)| format!("computes the code {l}{n}"))
+        }
+        Predicate::Nesting { counts, most, .. } => nesting(run, *counts, *most),
+        Predicate::Alarms(most) => alarm(run, of, *most),
+    }
+}
+
+/// What a run of the target shows. Where its blocks came from is not known here: whatever its program does counts.
+/// Registers that its subscripts reach are compared by what comes of them.
+fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &Run) -> Held {
+    let Some(of) = of else { return Held::Untried };
+    match predicate {
+        Predicate::Fact(_) | Predicate::Unit | Predicate::Unseen | Predicate::Subscripts(_) => Held::Untried,
+        Predicate::Arguments { function, domain, .. } => {
+            let here = computed(&run.arguments, of, run, None).filter(|one| one.what.0 == *function);
+            judged(here, |(_, arguments)| domain.contains(*arguments), call)
+        }
+        Predicate::Codes { letter, same, .. } => {
+            let here = computed(&run.computed_codes, of, run, None).filter(|one| one.what.0 == *letter);
+            judged(here, |(_, number)| same.contains(number), |(l, n)| format!("computes the code {l}{n}"))
+        }
+        Predicate::Nesting { .. } => match &run.end {
+            End::Alarm { stop, .. } if stop.nesting.is_some() => Held::Broken {
+                before: run.events.len().saturating_sub(1),
+                what: "nests calls too deep".into(),
+            },
+            _ => Held::Kept,
+        },
+        Predicate::Alarms(most) => alarm(run, of, *most),
+    }
+}
+
+/// How many events come before a run does first what an assumption is about.
+fn since(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> Option<usize> {
+    match predicate {
+        Predicate::Subscripts(_) => {
+            computed(&run.computed_numbers, of, run, None).map(|one| one.before).min()
+        }
+        Predicate::Codes { .. } => computed(&run.computed_codes, of, run, None).map(|one| one.before).min(),
+        _ => None,
+    }
+}
+
+/// What a run computed in a program, in these blocks of it or anywhere.
+fn computed<'r, T: Copy>(
+    all: &'r [Computed<T>],
+    (side, program): (&'r Side<'_>, ProgramRef),
+    run: &'r Run,
+    places: Option<&'r [Span]>,
+) -> impl Iterator<Item = Computed<T>> + 'r {
+    let holds = |block: Span, place: &Span| {
+        block.start <= place.start && place.start < block.end.max(block.start.saturating_add(1))
+    };
+    all.iter().copied().filter(move |one| {
+        let here = places.is_none_or(|places| places.iter().any(|place| holds(one.at.span, place)));
+        here && side.links().at(run, one.at.program) == Some(program)
+    })
+}
+
+/// The first that is outside; else that all were inside.
+fn judged<T>(
+    all: impl Iterator<Item = Computed<T>>,
+    inside: impl Fn(&T) -> bool,
+    words: impl Fn(&T) -> String,
+) -> Held {
+    let mut held = Held::Untried;
+    for one in all {
+        if !inside(&one.what) {
+            match &held {
+                Held::Broken { before, .. } if *before <= one.before => {}
+                _ => held = Held::Broken { before: one.before, what: words(&one.what) },
+            }
+        } else if held == Held::Untried {
+            held = Held::Kept;
+        }
+    }
+    held
+}
+
+fn call((function, [a, b]): &(crate::canon::Func, [f64; 2])) -> String {
+    match function {
+        crate::canon::Func::Pow => format!("computes POW[{a},{b}]"),
+        _ => format!("computes {}[{a}]", function.name().to_uppercase()),
+    }
+}
+
+/// How deep calls nest in a run, of the kinds that count.
+fn nesting(run: &Run, counts: [bool; 2], most: u32) -> Held {
+    let mut open: Vec<bool> = Vec::new();
+    for (before, event) in run.events.iter().enumerate() {
+        match event.what {
+            EventKind::Enter { level, .. } => open.push(counts[usize::from(level)]),
+            EventKind::Leave => drop(open.pop()),
+            _ => continue,
+        }
+        let depth = open.iter().filter(|counts| **counts).count();
+        if depth > most as usize {
+            let what = format!("nests calls {depth} deep, more than the {most} levels of the target");
+            return Held::Broken { before, what };
+        }
+    }
+    Held::Kept
+}
+
+/// Whether the number of the alarm that a program ended a run with is small enough.
+fn alarm(run: &Run, (side, program): (&Side<'_>, ProgramRef), most: f64) -> Held {
+    match &run.end {
+        End::Alarm { at, stop } if side.links().at(run, at.program) == Some(program) => {
+            match stop.program_number {
+                Some(number) if number > most => Held::Broken {
+                    before: run.events.len().saturating_sub(1),
+                    what: format!("raises the alarm {number}"),
+                },
+                Some(_) => Held::Kept,
+                None => Held::Untried,
+            }
+        }
+        _ => Held::Untried,
+    }
+}
+
+/// Numbers that scenarios must try for what is assumed of a program, and of those that a person would say it calls.
+pub fn telling_numbers(assumptions: &Assumptions, program: ProgramRef, names: &SymbolMap) -> Vec<f64> {
+    let held: Vec<u32> = names.variables.values().copied().collect();
+    let all = assumptions.get(&program).into_iter().flatten();
+    all.flat_map(|assumption| assumption.predicate.telling_numbers(&held)).collect()
+}
+
+/// What these programs suppose, where the places of one of them stand elsewhere now.
+pub fn moved(
+    assumptions: &Assumptions,
+    programs: impl Iterator<Item = ProgramRef>,
+    edited: ProgramRef,
+    now: impl Fn(u32) -> u32,
+) -> Assumptions {
+    let supposed = |program: ProgramRef| Some((program, assumptions.get(&program)?.clone()));
+    let mut moved: Assumptions = programs.filter_map(supposed).collect();
+    for assumption in moved.get_mut(&edited).into_iter().flatten() {
+        let places = assumption.predicate.places_mut().into_iter().flatten();
+        for place in places.chain([&mut assumption.place]) {
+            (place.start, place.end) = (now(place.start), now(place.end));
+        }
+    }
+    moved
+}

@@ -1,0 +1,12 @@
+//! Whether a difference is held against the conversion: what it supposes, what callers do, where the source's control
+//! stops by itself, and what no source says of rounding.
+
+mod assumed;
+mod callers;
+mod rounding;
+mod stops;
+
+pub use assumed::{Tried, excuse, facts, moved, telling_numbers, tried};
+pub use callers::{Shown, through, ways};
+pub use rounding::{ROUNDS, hangs_on_rounding};
+pub use stops::{off_its_circle, stops_by_itself};
