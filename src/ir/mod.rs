@@ -20,8 +20,8 @@
 //! from 0 (vacant equals vacant only); the other relations treat it as 0.
 //! Assigning a variable, or [`Expr::Vacant`], to another copies vacancy. A
 //! word whose value is vacant is as if it were not written. Variables of the
-//! classes [`Class::Global`], [`Class::Parametric`], [`Class::Register`] and
-//! [`Class::Temp`] are never vacant; where the target's registers may be, it is
+//! classes [`Class::Global`], [`Class::Parametric`], [`Class::Register`],
+//! [`Class::Temp`] and [`Class::Static`] are never vacant; where the target's registers may be, it is
 //! legalization's duty to keep them from it.
 //!
 //! **Evaluation.** Operands are evaluated left to right; reading never changes
@@ -47,7 +47,7 @@
 //!
 //! **What is observable**: machine motion and the order of all operations,
 //! offsets and positions set, messages, alarms, output, what the operator is
-//! asked, and the final values of variables other than locals and temporaries.
+//! asked, and the final values of variables other than locals, temporaries and statics.
 //! Common variables end at power-off, retained ones do not.
 //!
 //! **Sites.** Every statement and terminator keeps the span it came from, its
@@ -66,8 +66,8 @@ mod walk;
 pub use build::Builder;
 pub use expr::{BinOp, Cond, Expr, Relation};
 pub use stmt::{
-    Argument, Bank, Call, Callee, Class, Nc, NcItem, OutputPart, Place, PrintPart, Remark, SourceInfo, Stmt,
-    StmtKind, TermKind, Terminator, Var,
+    Argument, Bank, Call, Callee, Class, FLAGS, LOCAL_FLAGS, Nc, NcItem, OutputPart, Place, PrintPart,
+    Remark, SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 pub use validate::{Valid, validate};
 

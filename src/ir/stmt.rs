@@ -24,6 +24,9 @@ pub enum Class {
     Register,
     /// Introduced by the compiler, local to one program. Never vacant.
     Temp,
+    /// A register of the compiler's own that all programs see: what a local becomes on a control without locals.
+    /// Never vacant, and nothing outside looks at it.
+    Static,
 }
 
 impl Class {
@@ -46,6 +49,22 @@ pub struct Var {
     /// Its number.
     pub number: u32,
 }
+
+impl Var {
+    /// The flag that says whether a variable has a value, for a control that knows no vacant ones. A flag of a local is
+    /// a local of the same level.
+    #[must_use]
+    pub const fn flag(self) -> Self {
+        let first = if matches!(self.class, Class::Local) { LOCAL_FLAGS } else { FLAGS };
+        Self { number: self.number + first, ..self }
+    }
+}
+
+/// Flags of locals have numbers from here on.
+pub const LOCAL_FLAGS: u32 = 100;
+
+/// Flags of other variables have numbers from here on.
+pub const FLAGS: u32 = 100_000;
 
 /// The space that a computed variable number counts in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

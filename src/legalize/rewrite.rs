@@ -2,8 +2,8 @@
 
 use crate::canon::Role;
 use crate::ir::{
-    BinOp, BlockId, Builder, Call, Class, Cond, Expr, Nc, NcItem, OutputPart, Place, PrintPart, Program,
-    SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
+    BinOp, Block, BlockId, Builder, Call, Callee, Class, Cond, Expr, Nc, NcItem, OutputPart, Place,
+    PrintPart, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::text::Span;
 use std::collections::VecDeque;
@@ -132,6 +132,23 @@ fn rebuild_where(
         each(&mut builder, Part::Term(block.term));
     }
     *program = builder.finish(program.name.take(), program.file, std::mem::take(&mut program.site));
+}
+
+/// Puts blocks before a program, the last of which goes on at the block after them: ids of the program's own blocks move.
+pub(super) fn put_first(program: &mut Program, mut blocks: Vec<Block>) {
+    let shift = blocks.len() as u32;
+    for block in &mut program.blocks {
+        block.term.kind.for_each_target(&mut |to| to.0 += shift);
+        for stmt in &mut block.stmts {
+            if let StmtKind::ModalCall(call) = &mut stmt.kind
+                && let Callee::Block(entry) = &mut call.callee
+            {
+                entry.0 += shift;
+            }
+        }
+    }
+    blocks.append(&mut program.blocks);
+    program.blocks = blocks;
 }
 
 /// Picks the expressions that [`rewrite_program`] is about.

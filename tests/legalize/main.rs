@@ -10,6 +10,7 @@ mod domain;
 mod dwell;
 mod functions;
 mod harness;
+mod levels;
 mod operands;
 mod oversize;
 mod truth;

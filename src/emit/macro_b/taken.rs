@@ -18,7 +18,7 @@ impl Emitter<'_> {
             let Some(number) = self.register(var) else { return };
             let label = self.names.variable(var).and_then(|register| register.label.as_deref());
             match (label, var.class) {
-                (_, Class::Temp | Class::Register) => drop(scratch.insert(number)),
+                (_, Class::Temp | Class::Static | Class::Register) => drop(scratch.insert(number)),
                 (Some(label), _) => drop(named.insert(number, label)),
                 _ => {}
             }

@@ -61,7 +61,31 @@ impl CallGraph {
         }
     }
 
-    fn callees_first(&self) -> Vec<usize> {
+    /// Those that a program calls.
+    pub fn callees(&self, program: usize) -> impl Iterator<Item = usize> + '_ {
+        self.callees[program].iter().map(|(callee, _)| *callee)
+    }
+
+    /// By program, a number that it shares with those that it comes back to: that call it, and that it calls.
+    pub fn components(&self) -> Vec<usize> {
+        let mut component = vec![usize::MAX; self.callees.len()];
+        // Callers first: what leads back to one that is not taken yet comes from its own component.
+        for root in self.callees_first().into_iter().rev() {
+            let mut work = vec![root];
+            while let Some(at) = work.pop() {
+                if component[at] == usize::MAX {
+                    component[at] = root;
+                    work.extend(
+                        self.callers[at].iter().copied().filter(|from| component[*from] == usize::MAX),
+                    );
+                }
+            }
+        }
+        component
+    }
+
+    /// All programs, callees before their callers if they do not call one another.
+    pub fn callees_first(&self) -> Vec<usize> {
         let mut order = Vec::with_capacity(self.callees.len());
         let mut seen = vec![false; self.callees.len()];
         for root in 0..self.callees.len() {

@@ -59,6 +59,13 @@ impl Temps {
         before != (self.but, self.some.len())
     }
 
+    /// Adds all of several.
+    pub fn join_all(&mut self, others: &[&Self]) {
+        for other in others {
+            self.join(other);
+        }
+    }
+
     /// Takes out all of another, which is not all but some.
     pub fn subtract(&mut self, other: &Self) {
         other.some.iter().for_each(|temp| self.remove(*temp));

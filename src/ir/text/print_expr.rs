@@ -12,6 +12,7 @@ pub(super) const CLASSES: &[(Class, &str)] = &[
     (Class::Parametric, "param"),
     (Class::Register, "register"),
     (Class::Temp, "tmp"),
+    (Class::Static, "static"),
 ];
 
 /// Name of each operator, and how tight it binds.

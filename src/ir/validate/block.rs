@@ -39,7 +39,7 @@ impl Check<'_> {
             StmtKind::Assign { target: Place::Var(var), value: Expr::Vacant } if !var.class.nullable() => {
                 self.add(Problem::NeverVacant(*var));
             }
-            StmtKind::ClearAll(class) if class.nullable() || *class == Class::Temp => {
+            StmtKind::ClearAll(class) if class.nullable() || matches!(class, Class::Temp | Class::Static) => {
                 self.add(Problem::Clear);
             }
             StmtKind::SetNames { first, .. } if !exists(*first) => self.add(Problem::Variable(*first)),

@@ -20,9 +20,9 @@ use crate::legalize::offsets::{
     tool_word,
 };
 use crate::legalize::operator::{alarms, letters, messages, ports, questions};
-use crate::legalize::registers::{allocate, clear, temporaries};
+use crate::legalize::registers::{allocate, clear, frames, temporaries};
 use crate::legalize::variables::{
-    banks, computed_numbers, probe_points, retention, state, vacancy, vacant_writes,
+    banks, computed_numbers, probe_points, retention, state, vacancy, vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -271,6 +271,13 @@ const CODES: &[Pass] = &[
 ];
 
 const EXPRESSIONS: &[Pass] = &[
+    Pass::rewrites(
+        "vacancy-flags",
+        "flags say what is vacant, on a target where nothing is",
+        vacancy_flags::run,
+    )
+    .when(vacancy_flags::concerns)
+    .changes_flow(),
     Pass::each("functions", "functions and operators become those of the target", functions::run)
         .when(|c, _| c.has(Feature::Function))
         .changes_flow(),
@@ -312,8 +319,13 @@ const TIDY_LEGAL: &[Pass] = &[FOLD, RETARGET, BRANCHES, UNREACHABLE, DEAD_STORES
 
 // What these put in, they put in for something that stood there before.
 const REGISTERS: &[Pass] = &[
+    Pass::rewrites("frames", "locals get registers of their level, on a target without locals", frames::run)
+        .when(frames::concerns)
+        .needs(&["computed-numbers"])
+        .changes_flow(),
     Pass::rewrites("temporaries", "temporaries that are never alive together share one", temporaries::run)
-        .when(|c, _| c.has(Feature::Temp))
+        .when(|c, context| c.has(Feature::Temp) || frames::concerns(c, context))
+        .needs(&["frames"])
         .brings_nothing(),
     Pass::rewrites("registers", "every variable gets its register", allocate::run)
         .needs(&["temporaries", "computed-numbers"])

@@ -72,7 +72,7 @@ fn allocate(
         let name = name_of(var, module, context.source);
         match pool.take(var.class, name.as_deref()) {
             Some(number) => {
-                if var.class == Class::Temp {
+                if matches!(var.class, Class::Temp | Class::Static) {
                     registers.scratch.insert(number);
                 } else if let Some(name) = name {
                     registers.chosen.insert(name, number);

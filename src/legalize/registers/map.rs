@@ -44,7 +44,7 @@ impl Registers {
 
     /// The registers of variables that a program of the source has.
     pub fn held(&self) -> impl Iterator<Item = u32> + '_ {
-        let named = self.of.iter().filter(|(var, _)| var.class != Class::Temp);
+        let named = self.of.iter().filter(|(var, _)| !matches!(var.class, Class::Temp | Class::Static));
         named.map(|(_, register)| register.number)
     }
 }

@@ -5,9 +5,11 @@
 
 pub(in crate::legalize) mod allocate;
 pub(in crate::legalize) mod clear;
+pub(in crate::legalize) mod frames;
 pub(in crate::legalize) mod locked;
 pub(in crate::legalize) mod map;
 pub(in crate::legalize) mod names;
 mod pool;
 mod runs;
+mod statics;
 pub(in crate::legalize) mod temporaries;

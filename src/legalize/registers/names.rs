@@ -47,7 +47,7 @@ pub(in crate::legalize) fn name_of(var: Var, module: &Module, source: &Control) 
         Class::Global => "global",
         Class::Parametric => "parametric",
         Class::Register => return Some(format!("register {}", var.number)),
-        Class::Temp => return None,
+        Class::Temp | Class::Static => return None,
     };
     let rows = source.classes();
     let row = rows.iter().find(|row| row.class == class && (row.first..=row.last).contains(&var.number));

@@ -52,12 +52,13 @@ impl<'a> Pool<'a> {
             return Some(number);
         }
         let keeps = |row: &&&VariableClass| row.retained != Some(false);
-        let volatile = matches!(class, Class::Temp | Class::Register | Class::Common | Class::Local);
+        let volatile =
+            matches!(class, Class::Temp | Class::Static | Class::Register | Class::Common | Class::Local);
         let preferred = self.rows.iter().filter(|row| keeps(row) != volatile);
         let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
         let again = |number: &u32| {
             let taken = self.used.contains(number) || self.target.is_reserved(&self.name, *number);
-            class == Class::Temp && !taken && !self.reached.contains(*number)
+            matches!(class, Class::Temp | Class::Static) && !taken && !self.reached.contains(*number)
         };
         let free: Vec<u32> = preferred
             .chain(rest)

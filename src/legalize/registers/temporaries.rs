@@ -1,89 +1,250 @@
 //! Colours temporaries: two that are never alive together share a register.
 //!
-//! Temporaries are numbered anew, library-wide: a colour is a number, and a program uses the lowest it
-//! can. A temporary that is alive across a call, or a move where a modal call may be open, must not share with any of the callee's, so each such one
-//! gets a number that no other has.
+//! Temporaries are numbered anew, library-wide: a colour is a number, and a program uses the lowest it can. One that is
+//! alive over a call shares none with what the call may run; those programs are coloured first. One that is alive at a
+//! move where a modal call may be open, or over a call of what is not known, gets a number that no other has.
+//!
+//! Law: no two share a register of which one is written while the other is alive. Side condition: a program that its own
+//! call comes back to has one set of temporaries for both levels, so none may be alive over that call. Counter-example:
+//! a macro that calls itself between the two halves of a long expression.
 
-use crate::ir::analysis::{Cfg, Temps, Transfer, live_after};
-use crate::ir::{Block, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
+use super::statics::{Statics, lowest};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::{CallGraph, Cfg, Temps, Transfer, live_after};
+use crate::ir::{Block, Callee, Class, Expr, Module, Place, Program, StmtKind, TermKind, Var};
 use crate::legalize::Context;
-use foldhash::{HashMap, HashMapExt};
-use std::collections::BTreeSet;
+use crate::syntax::ProgramName;
+use crate::text::Span;
+use foldhash::HashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Gives temporaries their colours.
-pub fn run(module: &mut Module, _: &mut Context<'_>) {
+/// Colours of a call's programs that are told apart; no control has so many registers.
+const MOST_COLOURS: usize = 2000;
+
+/// Gives temporaries, and statics if there are any, their colours.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
-    let mut shared = 0;
-    let mut waiting: Vec<(&mut Program, Plan)> = Vec::new();
-    for program in &mut module.programs {
-        let plan = Plan::of(program, modal);
-        shared = plan.colours.values().copied().max().unwrap_or(0).max(shared);
-        if plan.across.is_empty() {
-            rename(program, &plan);
-        } else {
-            waiting.push((program, plan));
-        }
+    let statics = Statics::of(module);
+    let plans = module.programs.iter().enumerate();
+    let mut plans: Vec<Plan> =
+        plans.map(|(at, program)| Plan::of(at, program, modal, statics.as_ref())).collect();
+    if statics.is_some() || plans.iter().any(|plan| !plan.over.is_empty()) {
+        over_calls(module, &mut plans, statics.as_ref(), context);
+    } else {
+        plans.iter_mut().for_each(|plan| plan.colour(&BTreeSet::new()));
     }
-    let mut lone = shared;
-    for (program, mut plan) in waiting {
-        for temp in std::mem::take(&mut plan.across) {
+    let highest = plans.iter().flat_map(|plan| plan.colours.values().copied()).max().unwrap_or(0);
+    let mut lone = statics.iter().map(Statics::highest).max().unwrap_or(0).max(highest);
+    for (program, plan) in module.programs.iter_mut().zip(&mut plans) {
+        for temp in std::mem::take(&mut plan.alone) {
             lone += 1;
             plan.colours.insert(temp, lone);
         }
-        rename(program, &plan);
+        rename(program, plan, statics.as_ref());
     }
 }
 
+/// Colours callees before their callers, so that what is alive over a call keeps off all that the call may run.
+fn over_calls(module: &Module, plans: &mut [Plan], statics: Option<&Statics>, context: &mut Context<'_>) {
+    let calls = Calls::of(module);
+    let graph = CallGraph::new(calls.callees);
+    let component = graph.components();
+    // By component: the colours of all that a call of it may run; none if they are too many to be told.
+    let mut used: Vec<Option<Temps>> = vec![Some(Temps::default()); plans.len()];
+    for index in graph.callees_first() {
+        let plan = &mut plans[index];
+        let mut alone = BTreeSet::new();
+        for (temp, Over { callees, anything, place }) in &plan.over {
+            let known: Vec<usize> =
+                callees.iter().filter_map(|name| calls.names.get(name).copied()).collect();
+            let again = known.iter().any(|callee| component[*callee] == component[index]);
+            if again {
+                refuse(index, *place, context);
+            }
+            let colours: Option<Vec<&Temps>> =
+                known.iter().map(|callee| used[component[*callee]].as_ref()).collect();
+            let colours = colours.filter(|_| !anything && !again && known.len() == callees.len());
+            match colours {
+                Some(colours) => plan.kept_off.entry(*temp).or_default().join_all(&colours),
+                None => drop(alone.insert(*temp)),
+            }
+        }
+        if let Some(statics) = statics {
+            let through = statics.through(index);
+            let temps: Vec<u32> = plan.apart.keys().copied().collect();
+            temps.iter().for_each(|temp| plan.kept_off.entry(*temp).or_default().join_all(&[&through]));
+        }
+        plan.colour(&alone);
+        plan.alone = alone;
+        let mut mine = used[component[index]].take();
+        if let Some(all) = &mut mine {
+            plan.colours.values().for_each(|colour| all.insert(*colour));
+            let written = statics.map(|statics| statics.written(index));
+            written.iter().for_each(|colours| all.join_all(&[colours]));
+        }
+        let others =
+            graph.callees(index).map(|callee| component[callee]).filter(|other| *other != component[index]);
+        for other in others {
+            mine = mine.zip(used[other].as_ref()).map(|(mut all, more)| {
+                all.join_all(&[more]);
+                all
+            });
+        }
+        used[component[index]] = mine.filter(|all| all.iter().count() <= MOST_COLOURS);
+    }
+}
+
+fn refuse(index: usize, place: Span, context: &mut Context<'_>) {
+    let what = "this calls the program again before it has ended, while a value in between must outlive the call: the registers for such values are the same at every level";
+    let help = "compute the value before the call, and keep it in a local variable";
+    context.add_once(index, what, Diagnostic::new(Code::OutOfRegisters, place, what).with_help(help));
+}
+
+/// Who calls whom.
+struct Calls {
+    names: BTreeMap<ProgramName, usize>,
+    callees: Vec<BTreeSet<(usize, bool)>>,
+}
+
+impl Calls {
+    fn of(module: &Module) -> Self {
+        let names: BTreeMap<ProgramName, usize> =
+            module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
+        let called = |block: &Block| match &block.term.kind {
+            TermKind::Call { call, .. } => match &call.callee {
+                Callee::Program(name) => names.get(name).copied(),
+                _ => None,
+            },
+            TermKind::Chain(name) => names.get(name).copied(),
+            _ => None,
+        };
+        let callees =
+            |program: &Program| program.blocks.iter().filter_map(called).map(|to| (to, false)).collect();
+        let callees = module.programs.iter().map(callees).collect();
+        Self { names, callees }
+    }
+}
+
+/// The calls that a temporary is alive over.
+#[derive(Debug, Default)]
+struct Over {
+    callees: BTreeSet<ProgramName>,
+    /// True if one of them may run what is not known, or what stands in the program itself.
+    anything: bool,
+    place: Span,
+}
+
 /// What a program's temporaries need.
+#[derive(Default)]
 struct Plan {
-    /// Colours of those that may share, from 1.
+    /// By temporary: those that are alive where it is written, or are written where it is alive.
+    apart: HashMap<u32, Temps>,
+    /// By temporary: colours of others that it must not have.
+    kept_off: HashMap<u32, Temps>,
+    /// Those alive over calls.
+    over: BTreeMap<u32, Over>,
+    /// Temporaries that are copied to one another.
+    copies: Vec<(u32, u32)>,
+    /// The colours, from 1.
     colours: HashMap<u32, u32>,
-    /// Those alive across a call.
-    across: BTreeSet<u32>,
+    /// Those that get a colour that nothing else has.
+    alone: BTreeSet<u32>,
     /// By block: true where it names any.
     naming: Vec<bool>,
 }
 
 impl Plan {
     /// Of a program; in a library with modal calls every move may be a call.
-    fn of(program: &Program, modal: bool) -> Self {
-        let mut plan = Self { colours: HashMap::new(), across: BTreeSet::new(), naming: Vec::new() };
+    fn of(index: usize, program: &Program, modal: bool, statics: Option<&Statics>) -> Self {
+        let mut plan = Self::default();
         if program.temporaries().next().is_none() {
             return plan;
         }
         let (live, naming) = live_out(program);
-        let mut apart: HashMap<u32, Temps> = HashMap::new();
-        for ((block, mut now), names) in program.blocks.iter().zip(live).zip(&naming) {
+        let statics = statics.map(|statics| (statics, statics.live_after(index, program)));
+        for (id, ((block, mut now), names)) in program.blocks.iter().zip(live).zip(&naming).enumerate() {
             if now.is_empty() && !names {
                 continue;
             }
-            if matches!(block.term.kind, TermKind::Call { .. }) {
-                plan.across.extend(now.iter());
-            }
-            backward(block, &mut now, &mut |step, now| match step {
-                Step::Move if modal => plan.across.extend(now.iter()),
-                Step::Write { temp, .. } => {
-                    now.iter().for_each(|other| apart.entry(other).or_default().insert(temp));
-                    apart.entry(temp).or_default().join(now);
+            if let TermKind::Call { call, .. } = &block.term.kind {
+                for temp in now.iter() {
+                    let over = plan.over.entry(temp).or_default();
+                    over.place = block.term.site.span;
+                    match &call.callee {
+                        Callee::Program(name) => drop(over.callees.insert(name.clone())),
+                        _ => over.anything = true,
+                    }
                 }
-                Step::Move | Step::Read => {}
-            });
-        }
-        let mut temps: Vec<u32> = apart.keys().copied().filter(|temp| !plan.across.contains(temp)).collect();
-        temps.sort_unstable();
-        let mut taken: Vec<u32> = Vec::new();
-        for temp in temps {
-            let others = apart[&temp].iter().filter(|other| *other != temp);
-            taken.clear();
-            taken.extend(others.filter_map(|other| plan.colours.get(&other).copied()));
-            taken.sort_unstable();
-            taken.dedup();
-            // The first that is not where it would be leaves its place free.
-            let free = (1..).zip(&taken).find(|(colour, taken)| colour != *taken);
-            plan.colours.insert(temp, free.map_or(taken.len() as u32 + 1, |(colour, _)| colour));
+            }
+            let others = statics.as_ref().map(|(statics, after)| (*statics, &after[id]));
+            plan.block(block, &mut now, modal, others);
         }
         Self { naming, ..plan }
+    }
+
+    fn block(
+        &mut self,
+        block: &Block,
+        now: &mut Temps,
+        modal: bool,
+        statics: Option<(&Statics, &Vec<Temps>)>,
+    ) {
+        backward(block, now, &mut |at, step, now| match step {
+            Step::Move if modal => {
+                now.iter().for_each(|temp| self.over.entry(temp).or_default().anything = true);
+            }
+            Step::Write { temp, sure } => {
+                let from = copied(block, at).filter(|from| *from != temp && sure);
+                self.copies.extend(from.map(|from| (temp, from)));
+                // A copy holds the same as what it copies, until one of them is written.
+                for other in now.iter().filter(|other| Some(*other) != from) {
+                    self.apart.entry(other).or_default().insert(temp);
+                    self.apart.entry(temp).or_default().insert(other);
+                }
+                let apart = self.apart.entry(temp).or_default();
+                apart.remove(temp);
+                if let Some(after) = statics.and_then(|(_, after)| after.get(at)) {
+                    self.kept_off.entry(temp).or_default().join_all(&[after]);
+                }
+            }
+            Step::Static(var) => {
+                let colour = statics.and_then(|(statics, _)| statics.colour(var));
+                for (temp, colour) in now.iter().zip(std::iter::repeat(colour)) {
+                    colour
+                        .into_iter()
+                        .for_each(|colour| self.kept_off.entry(temp).or_default().insert(colour));
+                }
+            }
+            Step::Move | Step::Read => {}
+        });
+    }
+
+    /// Gives each the lowest colour that is free, or that of what it is copied to or from; not to those that get one
+    /// alone.
+    fn colour(&mut self, alone: &BTreeSet<u32>) {
+        let mut temps: Vec<u32> = self.apart.keys().copied().filter(|temp| !alone.contains(temp)).collect();
+        temps.sort_unstable();
+        for temp in temps {
+            let mut taken = self.kept_off.remove(&temp).unwrap_or_default();
+            let others = self.apart[&temp].iter().filter_map(|other| self.colours.get(&other));
+            others.for_each(|colour| taken.insert(*colour));
+            let partners = self.copies.iter().filter_map(|(a, b)| match temp {
+                _ if temp == *a => self.colours.get(b),
+                _ if temp == *b => self.colours.get(a),
+                _ => None,
+            });
+            let shared = partners.copied().find(|colour| !taken.has(*colour));
+            self.colours.insert(temp, shared.unwrap_or_else(|| lowest(&taken)));
+        }
+    }
+}
+
+/// The temporary that a statement copies.
+fn copied(block: &Block, at: usize) -> Option<u32> {
+    match &block.stmts.get(at)?.kind {
+        StmtKind::Assign { value: Expr::Var(Var { class: Class::Temp, number }), .. } => Some(*number),
+        _ => None,
     }
 }
 
@@ -93,8 +254,8 @@ fn live_out(program: &Program) -> (Vec<Temps>, Vec<bool>) {
     let mut naming = vec![false; program.blocks.len()];
     let transfer = |(block, names): (&Block, &mut bool)| {
         let mut transfer = Transfer::default();
-        backward(block, &mut transfer.reads, &mut |step, _| {
-            *names |= !matches!(step, Step::Move);
+        backward(block, &mut transfer.reads, &mut |_, step, _| {
+            *names |= !matches!(step, Step::Move | Step::Static(_));
             if let Step::Write { temp, sure: true } = step {
                 transfer.writes.insert(temp);
             }
@@ -115,40 +276,52 @@ enum Step {
     Write { temp: u32, sure: bool },
     /// An axis is moved.
     Move,
+    /// This static is written.
+    Static(Var),
 }
 
-/// Walks a block from its end; `each` is told each step and what is alive after it.
-fn backward(block: &Block, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
-    block.term.kind.exprs(&mut |e| read(e, live, each));
-    for stmt in block.stmts.iter().rev() {
+/// Walks a block from its end; `each` is told the statement's place, each step and what is alive after it.
+fn backward(block: &Block, live: &mut Temps, each: &mut dyn FnMut(usize, Step, &Temps)) {
+    block.term.kind.exprs(&mut |e| read(block.stmts.len(), e, live, each));
+    for (at, stmt) in block.stmts.iter().enumerate().rev() {
         if matches!(&stmt.kind, StmtKind::Nc(nc) if nc.names_axis()) {
-            each(Step::Move, live);
+            each(at, Step::Move, live);
+        }
+        if let Some(Place::Var(var @ Var { class: Class::Static, .. })) = stmt.kind.target() {
+            each(at, Step::Static(*var), live);
         }
         if let Some(Place::Var(Var { class: Class::Temp, number })) = stmt.kind.target() {
             let sure = stmt.site.skip.is_none();
-            each(Step::Write { temp: *number, sure }, live);
+            each(at, Step::Write { temp: *number, sure }, live);
             // Under block skip the old value may survive.
             if sure {
                 live.remove(*number);
             }
         }
-        stmt.kind.exprs(&mut |e| read(e, live, each));
+        stmt.kind.exprs(&mut |e| read(at, e, live, each));
     }
 }
 
-fn read(e: &Expr, live: &mut Temps, each: &mut dyn FnMut(Step, &Temps)) {
+fn read(at: usize, e: &Expr, live: &mut Temps, each: &mut dyn FnMut(usize, Step, &Temps)) {
     e.variables(&mut |var| {
         if var.class == Class::Temp {
-            each(Step::Read, live);
+            each(at, Step::Read, live);
             live.insert(var.number);
         }
     });
 }
 
-fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan) {
+/// Puts the colours in. With statics, temporaries are statics too: both have the same registers.
+fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan, statics: Option<&Statics>) {
+    let class = if statics.is_some() { Class::Static } else { Class::Temp };
     let change = |var: &mut Var| {
-        if let (Class::Temp, Some(&number)) = (var.class, colours.get(&var.number)) {
-            var.number = number;
+        let colour = match var.class {
+            Class::Temp => colours.get(&var.number).copied(),
+            Class::Static => statics.and_then(|statics| statics.colour(*var)),
+            _ => None,
+        };
+        if let Some(number) = colour {
+            *var = Var { class, number };
         }
     };
     let mut each = |e: &mut Expr| {
@@ -158,7 +331,10 @@ fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan) {
             }
         });
     };
-    for (block, _) in program.blocks.iter_mut().zip(naming).filter(|(_, naming)| **naming) {
+    for (at, block) in program.blocks.iter_mut().enumerate() {
+        if statics.is_none() && !naming.get(at).is_some_and(|naming| *naming) {
+            continue;
+        }
         for stmt in &mut block.stmts {
             stmt.kind.exprs_mut(&mut each);
             if let StmtKind::Assign { target: Place::Var(var), .. }
@@ -168,5 +344,14 @@ fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan) {
             }
         }
         block.term.kind.exprs_mut(&mut each);
+        // Copies between two that share a register do nothing.
+        block.stmts.retain_mut(|stmt| {
+            let idle = matches!(&stmt.kind, StmtKind::Assign { target: Place::Var(to), value: Expr::Var(from) }
+                if to == from && matches!(to.class, Class::Temp | Class::Static));
+            if idle {
+                stmt.kind = StmtKind::Remark;
+            }
+            !idle || stmt.site.sequence.is_some() || !stmt.site.remarks.is_empty()
+        });
     }
 }

@@ -6,4 +6,5 @@ pub(in crate::legalize) mod probe_points;
 pub(in crate::legalize) mod retention;
 pub(in crate::legalize) mod state;
 pub(in crate::legalize) mod vacancy;
+pub(in crate::legalize) mod vacancy_flags;
 pub(in crate::legalize) mod vacant_writes;

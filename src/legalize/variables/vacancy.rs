@@ -14,6 +14,7 @@ use crate::ir::{
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::rewrite::put_first;
 use smallvec::SmallVec;
 
 /// True where there are variables, and only the target's may be vacant.
@@ -42,18 +43,7 @@ fn guard(program: &mut Program, vars: &[Var]) {
     if shift == 0 {
         return;
     }
-    // Nothing jumps to the entry by its id 0 any more: all ids move after the guards.
-    for block in &mut program.blocks {
-        block.term.kind.for_each_target(&mut |to| to.0 += shift);
-        for stmt in &mut block.stmts {
-            if let StmtKind::ModalCall(call) = &mut stmt.kind
-                && let crate::ir::Callee::Block(entry) = &mut call.callee
-            {
-                entry.0 += shift;
-            }
-        }
-    }
-    let mut blocks = Vec::with_capacity(shift as usize + program.blocks.len());
+    let mut blocks = Vec::with_capacity(shift as usize);
     for (at, var) in (0..).zip(vars) {
         let (set, next) = (BlockId(2 * at + 1), BlockId(2 * at + 2));
         let cond = Cond::Compare(Relation::Equal, Expr::Var(*var), Expr::Vacant);
@@ -61,8 +51,7 @@ fn guard(program: &mut Program, vars: &[Var]) {
         blocks.push(block(Vec::new(), TermKind::Branch { cond, then: set, otherwise: next }));
         blocks.push(block(vec![Stmt { kind: zero, site: SourceInfo::default() }], TermKind::Jump(next)));
     }
-    blocks.append(&mut program.blocks);
-    program.blocks = blocks;
+    put_first(program, blocks);
 }
 
 fn block(stmts: Vec<Stmt>, kind: TermKind) -> Block {

@@ -1,0 +1,50 @@
+//! Vacancy, for a target whose variables are never vacant: flags that say which hold a value.
+//!
+//! Law: the flag of a variable is 1 if it was given a number and vacant (0 on the target) if not, and the variable holds
+//! 0 while it is vacant. So a comparison that tells vacant from 0 asks the flag, and a block whose word may be vacant
+//! stands once with the word and once without. Only what may be vacant where someone asks has a flag, and what is
+//! copied to it: the analysis of vacancy decides, and most variables have none.
+//!
+//! Side condition: nothing else writes the variable. Counter-example: `#[#1]=5.` with #1 at 100 would leave the flag of
+//! #100 as it was. Such programs are refused, and so is a block with more words that may be vacant than [`MOST_WORDS`].
+
+mod conditions;
+mod entries;
+mod marks;
+mod write;
+
+use crate::dialect::Question;
+use crate::ir::Module;
+use crate::ir::analysis::Summaries;
+use crate::legalize::Context;
+use crate::legalize::features::{Feature, Features};
+use marks::Marks;
+
+/// Words of a block that may be vacant, at the most: each doubles the blocks.
+const MOST_WORDS: usize = 3;
+
+/// True if there are variables, and only those of the source may be vacant.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.has(Feature::Variable)
+        && context.source.is(Question::Vacancy)
+        && !context.target.is(Question::Vacancy)
+}
+
+/// Finds the variables that need a flag, and writes the flags.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let summaries = Summaries::of(module);
+    let marks = Marks::of(module, &summaries);
+    marks.refuse(module, context);
+    name(module, &marks);
+    for index in 0..module.programs.len() {
+        write::program(index, &mut module.programs[index], &marks);
+    }
+}
+
+/// People and the lock know a flag by the name of its variable.
+fn name(module: &mut Module, marks: &Marks) {
+    for var in marks.shared() {
+        let name = module.names.get(&var).cloned().unwrap_or_else(|| var.to_string());
+        module.names.insert(var.flag(), format!("flag of {name}"));
+    }
+}

@@ -1,0 +1,89 @@
+//! What every call of a program gives a value: it is not vacant at the program's entry.
+
+use super::marks::Names;
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::{CallGraph, Holds, VarSet};
+use crate::ir::{Call, Class, Expr, Module, Program, TermKind, Var};
+use crate::legalize::calls_of;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// By program, what is known of its entries; callers are looked at before what they call.
+pub(super) struct Entries {
+    /// The programs, callers first.
+    pub order: Vec<usize>,
+    /// What a program names and may be vacant.
+    named: Vec<BTreeSet<Var>>,
+    /// What all calls so far give a value; none before the first.
+    set: Vec<Option<BTreeSet<Var>>>,
+    /// Programs that calls come back to: of them only what the text of each call says is known.
+    cyclic: Vec<bool>,
+    given: BTreeMap<usize, BTreeSet<Var>>,
+}
+
+impl Entries {
+    pub fn of(module: &Module, names: &Names) -> Self {
+        let mut calls = vec![BTreeSet::new(); module.programs.len()];
+        let mut modal: Vec<usize> = Vec::new();
+        for (index, program) in module.programs.iter().enumerate() {
+            for block in &program.blocks {
+                let ends = matches!(block.term.kind, TermKind::Call { .. });
+                for (at, call) in calls_of(block).enumerate() {
+                    let to = names.callees(index, call);
+                    // A modal call runs at moves, whatever is vacant there.
+                    if !ends || at + 1 < calls_of(block).count() {
+                        modal.extend(to.iter().copied());
+                    }
+                    calls[index].extend(to.into_iter().map(|to| (to, false)));
+                }
+                if let TermKind::Chain(name) = &block.term.kind {
+                    let to = names.find(name);
+                    modal.extend(to);
+                    calls[index].extend(to.map(|to| (to, false)));
+                }
+            }
+        }
+        let graph = CallGraph::new(calls);
+        let component = graph.components();
+        let mut members: BTreeMap<usize, usize> = BTreeMap::new();
+        component.iter().for_each(|component| *members.entry(*component).or_default() += 1);
+        let shared = |index: usize| members.get(&component[index]).is_some_and(|members| *members > 1);
+        let cyclic = (0..module.programs.len()).map(|index| {
+            modal.contains(&index) || graph.callees(index).any(|to| to == index) || shared(index)
+        });
+        let cyclic = cyclic.collect();
+        let order = graph.callees_first().into_iter().rev().collect();
+        let named = module.programs.iter().map(named).collect();
+        let given = CalledPrograms::of(module).given(module);
+        Self { order, named, set: vec![None; module.programs.len()], cyclic, given }
+    }
+
+    /// What is not vacant at a program's entry.
+    pub fn of_program(&self, index: usize) -> BTreeSet<Var> {
+        let set = if self.cyclic[index] { self.given.get(&index) } else { self.set[index].as_ref() };
+        set.cloned().unwrap_or_default()
+    }
+
+    /// Notes a call: a new level has what the arguments give, and all else is as the caller has it.
+    pub fn enter(&mut self, caller: usize, callee: usize, call: &Call, may: Holds<'_, Expr>) {
+        let gives = |var: &&Var| match call.arguments.iter().rfind(|argument| argument.local == var.number) {
+            Some(argument) if call.level && var.class == Class::Local => !may(&argument.value),
+            _ if call.level && var.class == Class::Local => false,
+            _ => self.named[caller].contains(var) && !may(&Expr::Var(**var)),
+        };
+        let set: BTreeSet<Var> = self.named[callee].iter().filter(gives).copied().collect();
+        match &mut self.set[callee] {
+            Some(all) => all.retain(|var| set.contains(var)),
+            none => *none = Some(set),
+        }
+    }
+}
+
+fn named(program: &Program) -> BTreeSet<Var> {
+    let mut vars = VarSet::default();
+    program.variables(&mut |var| {
+        if var.class.nullable() {
+            vars.insert(var);
+        }
+    });
+    vars.iter().collect()
+}
