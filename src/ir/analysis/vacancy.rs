@@ -30,6 +30,8 @@ struct Rules<'p> {
     universe: Universe,
     /// What may be vacant at the entry.
     entry: BitRow,
+    /// True if only callers enter the program: no return starts it again.
+    called: bool,
 }
 
 impl Lattice for BitRow {
@@ -58,6 +60,9 @@ impl Analysis for Rules<'_> {
     /// What the terminator of `from` does on the way to `to`.
     fn edge<'s>(&self, from: BlockId, to: BlockId, row: &'s BitRow) -> Option<Cow<'s, BitRow>> {
         let Some(block) = self.program.block(from) else {
+            if self.called && to == BlockId(0) {
+                return None;
+            }
             // After returns: the locals of a level that ended are not those of its caller.
             return self.changed(row, |row| {
                 row.join(&self.locals());
@@ -103,10 +108,24 @@ impl Steps for Rules<'_> {
 impl<'p> Vacancy<'p> {
     /// Computes it. `assigned` are never vacant at the entry.
     pub fn of(program: &'p Program, summaries: &'p Summaries, assigned: &BTreeSet<Var>) -> Self {
+        Self::entered(program, summaries, assigned, false)
+    }
+
+    /// The same of a program that only its callers enter: it never starts itself again.
+    pub fn of_called(program: &'p Program, summaries: &'p Summaries, assigned: &BTreeSet<Var>) -> Self {
+        Self::entered(program, summaries, assigned, true)
+    }
+
+    fn entered(
+        program: &'p Program,
+        summaries: &'p Summaries,
+        assigned: &BTreeSet<Var>,
+        called: bool,
+    ) -> Self {
         let universe = universe(program);
         let mut entry = universe.all();
         assigned.iter().filter_map(|var| universe.place(*var)).for_each(|at| entry.remove(at));
-        let rules = Rules { program, summaries, universe, entry };
+        let rules = Rules { program, summaries, universe, entry, called };
         let states = solve(&rules, program, &Cfg::whole(program, summaries.come_back()));
         Self { rules, states }
     }

@@ -9,6 +9,7 @@ use super::clear;
 use super::locked::{self, Locked};
 use super::map::{Register, Registers, is_own};
 use super::names::{class_of, keeps_number, name_of, reached};
+use super::needs::class_of_colour;
 use super::pool::Pool;
 use super::runs::{banks, point, run_of};
 use crate::diag::{Code, Diagnostic};
@@ -70,24 +71,21 @@ fn allocate(
             continue;
         }
         let name = name_of(var, module, context.source);
-        match pool.take(var.class, name.as_deref()) {
-            Some(number) => {
-                if matches!(var.class, Class::Temp | Class::Static) {
-                    registers.scratch.insert(number);
-                } else if let Some(name) = name {
-                    registers.chosen.insert(name, number);
-                }
-                registers.of.insert(var, Register { name: pool.name.clone(), number });
-            }
-            None => {
-                let what = format!(
-                    "the target has no register left for {}; {} variables of the library need one",
-                    name.unwrap_or_else(|| "a temporary".into()),
-                    users.len()
-                );
-                context.add(index, Diagnostic::new(Code::OutOfRegisters, span, what));
-            }
+        let found = match class_of_colour(var, context.target) {
+            Some(class) => pool.take_of(class),
+            None => pool.take(var.class, name.as_deref()).map(|number| (pool.name.clone(), number)),
+        };
+        let Some((place, number)) = found else {
+            let what = shortage(var, &users, module, context);
+            context.add(index, Diagnostic::new(Code::OutOfRegisters, span, what));
+            continue;
+        };
+        if matches!(var.class, Class::Temp | Class::Static) {
+            registers.scratch.extend(Some(number).filter(|_| place == pool.name));
+        } else if let Some(name) = name {
+            registers.chosen.insert(name, number);
         }
+        registers.of.insert(var, Register { name: place, number });
     }
     locked::check(module, &effective.variables, &registers, context);
     let moved = registers.of.iter().filter(|(var, register)| !is_own(var, register));
@@ -95,4 +93,41 @@ fn allocate(
     registers.names = named.collect();
     point(module, &runs);
     registers
+}
+
+/// Variables that a message about too few registers names.
+const MOST_NAMED: usize = 8;
+
+/// Says what gets no register, and what has those that there are.
+fn shortage(
+    var: Var,
+    users: &BTreeMap<Var, (usize, Span)>,
+    module: &Module,
+    context: &Context<'_>,
+) -> String {
+    let class = class_of_colour(var, context.target);
+    let wants = name_of(var, module, context.source).unwrap_or_else(|| "a value in between".into());
+    let rivals = users.iter().filter(|(other, _)| class_of_colour(**other, context.target) == class);
+    let (mut named, mut between) = (Vec::new(), 0);
+    for (other, (program, _)) in rivals.filter(|(other, _)| **other != var) {
+        let program = module.programs.get(*program).and_then(|program| program.name.as_ref());
+        match (name_of(*other, module, context.source), program) {
+            (Some(name), Some(program)) => named.push(format!("{name} (program {program})")),
+            (Some(name), None) => named.push(name),
+            (None, _) => between += 1,
+        }
+    }
+    let more = named.len().saturating_sub(MOST_NAMED);
+    named.truncate(MOST_NAMED);
+    if more > 0 {
+        named.push(format!("{more} more variables"));
+    }
+    if between > 0 {
+        named.push(format!("{between} for locals and values in between"));
+    }
+    let place = class.map_or(String::new(), |_| " that words take".into());
+    format!(
+        "the target has no register left for {wants}; the registers{place} are taken by {}",
+        named.join(", ")
+    )
 }

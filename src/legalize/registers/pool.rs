@@ -2,6 +2,7 @@
 
 use super::locked::{Effective, Locked};
 use super::names::pool_name;
+use super::needs::is_general;
 use crate::dialect::{Control, VariableClass};
 use crate::ir::Class;
 use crate::ir::analysis::Numbers;
@@ -14,6 +15,8 @@ pub(super) struct Pool<'a> {
     /// Rows to take from, those that keep their values first.
     rows: Vec<&'a VariableClass>,
     pub used: BTreeSet<u32>,
+    /// Registers of classes that some places ask for.
+    apart: BTreeSet<(String, u32)>,
     locked: &'a BTreeMap<String, u32>,
     /// Where temporaries go first, and nothing else ever.
     scratch: BTreeSet<u32>,
@@ -31,13 +34,23 @@ impl<'a> Pool<'a> {
         let mut reached = context.reached.sure.clone();
         reached.join(&locked.reached);
         let mut rows: Vec<&VariableClass> =
-            target.classes().iter().filter(|row| row.class != "local" && row.class != "letter").collect();
+            target.classes().iter().filter(|row| is_general(row, target)).collect();
         // What every control of the kind has comes before what must be bought.
         rows.sort_by_key(|row| (row.option.is_some(), row.first));
         let name = pool_name(target);
         let used = effective.variables.values().chain(locked.own).copied().collect();
         let scratch = effective.scratch.clone();
-        Self { name, rows, used, locked: &effective.variables, scratch, reached, supposed, target }
+        Self {
+            name,
+            rows,
+            used,
+            apart: BTreeSet::new(),
+            locked: &effective.variables,
+            scratch,
+            reached,
+            supposed,
+            target,
+        }
     }
 
     fn free(&self, number: u32) -> bool {
@@ -70,6 +83,18 @@ impl<'a> Pool<'a> {
         let number = self.scratch.iter().copied().find(again).or_else(best)?;
         self.used.insert(number);
         Some(number)
+    }
+
+    /// A register of a class that some places ask for, the first in the table that nothing else has.
+    pub fn take_of(&mut self, class: &str) -> Option<(String, u32)> {
+        let rows = self.target.classes().iter().filter(|row| row.class == class);
+        let mut all = rows.flat_map(|row| (row.first..=row.last).map(|number| (&row.name, number)));
+        let (name, number) = all.find(|(name, number)| {
+            let taken = self.apart.contains(&((*name).clone(), *number));
+            !taken && !self.target.is_reserved(name, *number) && !self.target.is_in_use(name, *number)
+        })?;
+        self.apart.insert((name.clone(), number));
+        Some((name.clone(), number))
     }
 
     /// A base so that `base + first ..= base + last` are free registers of one kind that keep their values.

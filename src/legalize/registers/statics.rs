@@ -147,15 +147,15 @@ impl Interference {
                 _ => None,
             });
             let shared = partners.copied().find(|colour| !taken.has(*colour));
-            colours.push(shared.unwrap_or_else(|| lowest(&taken)));
+            colours.push(shared.unwrap_or_else(|| lowest(&taken, 0)));
         }
         colours
     }
 }
 
-/// The lowest colour, from 1, that is not taken.
-pub(super) fn lowest(taken: &Temps) -> u32 {
-    let mut lowest = 1;
+/// The lowest colour after `first` that is not taken.
+pub(super) fn lowest(taken: &Temps, first: u32) -> u32 {
+    let mut lowest = first + 1;
     while taken.has(lowest) {
         lowest += 1;
     }

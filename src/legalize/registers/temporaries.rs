@@ -8,6 +8,7 @@
 //! call comes back to has one set of temporaries for both levels, so none may be alive over that call. Counter-example:
 //! a macro that calls itself between the two halves of a long expression.
 
+use super::needs::{APART, first_colours};
 use super::statics::{Statics, lowest};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{CallGraph, Cfg, Temps, Transfer, live_after};
@@ -26,20 +27,29 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
     let statics = Statics::of(module);
-    let plans = module.programs.iter().enumerate();
-    let mut plans: Vec<Plan> =
-        plans.map(|(at, program)| Plan::of(at, program, modal, statics.as_ref())).collect();
+    let mut plans: Vec<Plan> = Vec::with_capacity(module.programs.len());
+    for (at, program) in module.programs.iter_mut().enumerate() {
+        let first = first_colours(program, context.target);
+        plans.push(Plan { first, ..Plan::of(at, program, modal, statics.as_ref()) });
+    }
     if statics.is_some() || plans.iter().any(|plan| !plan.over.is_empty()) {
         over_calls(module, &mut plans, statics.as_ref(), context);
     } else {
         plans.iter_mut().for_each(|plan| plan.colour(&BTreeSet::new()));
     }
-    let highest = plans.iter().flat_map(|plan| plan.colours.values().copied()).max().unwrap_or(0);
-    let mut lone = statics.iter().map(Statics::highest).max().unwrap_or(0).max(highest);
+    // The highest colour of each class.
+    let mut highest: BTreeMap<u32, u32> = BTreeMap::new();
+    let given = plans.iter().flat_map(|plan| plan.colours.values().copied());
+    for colour in given.chain(statics.iter().map(Statics::highest)) {
+        let highest = highest.entry(colour / APART).or_default();
+        *highest = colour.max(*highest);
+    }
     for (program, plan) in module.programs.iter_mut().zip(&mut plans) {
         for temp in std::mem::take(&mut plan.alone) {
-            lone += 1;
-            plan.colours.insert(temp, lone);
+            let first = plan.first_of(temp);
+            let lone = highest.entry(first / APART).or_insert(first);
+            *lone += 1;
+            plan.colours.insert(temp, *lone);
         }
         rename(program, plan, statics.as_ref());
     }
@@ -142,6 +152,8 @@ struct Plan {
     apart: HashMap<u32, Temps>,
     /// By temporary: colours of others that it must not have.
     kept_off: HashMap<u32, Temps>,
+    /// By temporary: what its colours come after, if they are of a class of their own.
+    first: HashMap<u32, u32>,
     /// Those alive over calls.
     over: BTreeMap<u32, Over>,
     /// Temporaries that are copied to one another.
@@ -220,6 +232,11 @@ impl Plan {
         });
     }
 
+    /// Colours of a temporary come after this one.
+    fn first_of(&self, temp: u32) -> u32 {
+        self.first.get(&temp).copied().unwrap_or(0)
+    }
+
     /// Gives each the lowest colour that is free, or that of what it is copied to or from; not to those that get one
     /// alone.
     fn colour(&mut self, alone: &BTreeSet<u32>) {
@@ -234,8 +251,10 @@ impl Plan {
                 _ if temp == *b => self.colours.get(a),
                 _ => None,
             });
-            let shared = partners.copied().find(|colour| !taken.has(*colour));
-            self.colours.insert(temp, shared.unwrap_or_else(|| lowest(&taken)));
+            let first = self.first_of(temp);
+            let alike = |colour: &u32| !taken.has(*colour) && colour / APART == first / APART;
+            let shared = partners.copied().find(alike);
+            self.colours.insert(temp, shared.unwrap_or_else(|| lowest(&taken, first)));
         }
     }
 }

@@ -63,6 +63,11 @@ impl Entries {
         set.cloned().unwrap_or_default()
     }
 
+    /// True if a call enters the program.
+    pub fn is_called(&self, index: usize) -> bool {
+        self.set[index].is_some() || self.cyclic[index]
+    }
+
     /// Notes a call: a new level has what the arguments give, and all else is as the caller has it.
     pub fn enter(&mut self, caller: usize, callee: usize, call: &Call, may: Holds<'_, Expr>) {
         let gives = |var: &&Var| match call.arguments.iter().rfind(|argument| argument.local == var.number) {

@@ -56,6 +56,7 @@ impl Marks {
         for index in std::mem::take(&mut entries.order) {
             let program = &module.programs[index];
             let set = entries.of_program(index);
+            let called = entries.is_called(index);
             let mut own = Own {
                 index,
                 names: &marks.names,
@@ -64,7 +65,14 @@ impl Marks {
                 all: &mut gathered,
                 entries: &mut entries,
             };
-            own.look(program, &Vacancy::of(program, summaries, &set));
+            own.look(
+                program,
+                &if called {
+                    Vacancy::of_called(program, summaries, &set)
+                } else {
+                    Vacancy::of(program, summaries, &set)
+                },
+            );
             (marks.may[index], marks.refused[index]) = (own.may, own.refused);
         }
         marks.flagged = reached(gathered.asked.iter().copied(), |from: Key, go| {
