@@ -1,7 +1,9 @@
 //! Registers of the target for everything that programs keep values in.
 //!
-//! [`allocate`] gives each variable its register, in a map for the whole library ([`map`]); [`locked`] are the choices
-//! of earlier runs. Temporaries share registers by their live ranges before that ([`temporaries`]).
+//! [`frames`] makes statics of locals, on a target that has none. [`temporaries`] and [`statics`] colour what may share:
+//! two whose live ranges, calls included, do not meet; [`needs`] tells which must be of a class that words take.
+//! [`allocate`] then gives each variable its register, in a map for the whole library ([`map`]); [`locked`] are the choices
+//! of earlier runs.
 
 pub(in crate::legalize) mod allocate;
 pub(in crate::legalize) mod clear;
