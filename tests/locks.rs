@@ -121,6 +121,34 @@ fn a_register_of_values_in_between_is_not_the_callers_own_either() {
     assert_eq!((refused(&both), &both.lock.scratch), (vec![false, false], &vec![101]));
 }
 
+/// Counts repeats under a modal call, whose macro calls a program of another file.
+const COUNTS: (&str, &str) = (
+    "main.nc",
+    "N1 O1\nN2 L100\nN3 M98 P9\nN4 M17\nN5 M30\nN6 G0 G90 G20 E1\nN7 L101 G66\nN8 G91\nN9 X1. Y1. L3\nN10 G90\nN11 G67\nN12 M2\n",
+);
+
+/// Needs a temporary.
+const ROUNDS: (&str, &str) = ("sub.nc", "N1 O9\nN2 #SET RND3\nN3 #R5=RND(R6)\nN4 M99\n");
+
+#[test]
+fn what_outlives_a_call_stays_apart_from_callees_that_are_converted_later() {
+    let lock = empty();
+    let first = converted(&[COUNTS], lock.clone(), "");
+    let counter = first.lock.over_calls.clone();
+    assert_eq!(counter.len(), 1);
+    let later = converted(&[ROUNDS], first.lock, "");
+    assert!(!later.texts[0].as_deref().unwrap().contains(&format!("#{}=", counter[0])), "{:?}", later.texts);
+    assert_eq!(later.lock.over_calls, counter);
+    // The other way round.
+    let first = converted(&[ROUNDS], lock.clone(), "");
+    let later = converted(&[COUNTS], first.lock.clone(), "");
+    assert_eq!((first.lock.scratch.len(), later.lock.over_calls.len()), (1, 1));
+    assert!(!first.lock.scratch.contains(&later.lock.over_calls[0]));
+    // Both in one run: callees are known.
+    let both = converted(&[COUNTS, ROUNDS], lock, "");
+    assert!(both.lock.over_calls.len() == 1 && both.lock.scratch.len() == 2);
+}
+
 #[test]
 fn what_earlier_programs_use_themselves_is_not_taken() {
     let first = to_haas(&[CALLER], Lock::new("fanuc", "haas"));

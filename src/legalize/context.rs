@@ -5,6 +5,7 @@ use super::features::Features;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
+use crate::ir::Var;
 use crate::legalize::layout::program_numbers::ProgramNumbers;
 use crate::legalize::registers::locked::Locked;
 use crate::legalize::registers::map::Registers;
@@ -36,6 +37,8 @@ pub struct Context<'a> {
     pub level: Level,
     /// What earlier runs chose.
     pub locked: Locked<'a>,
+    /// The temporaries and statics that are needed after calls, from the pass `temporaries` on.
+    pub(super) over_calls: BTreeSet<Var>,
     /// The register of each variable, from the pass `registers` on.
     pub registers: Registers,
     /// The number of each program, from the pass `program-numbers` on.
@@ -72,6 +75,7 @@ impl<'a> Context<'a> {
             features: Features::default(),
             level: Level::default(),
             locked: Locked::default(),
+            over_calls: BTreeSet::new(),
             registers: Registers::default(),
             numbers: ProgramNumbers::default(),
             m_codes: OnceCell::new(),

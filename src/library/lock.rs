@@ -21,6 +21,9 @@ pub struct Lock {
     /// Registers of the target for values in between: no program may rely on what they hold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scratch: Vec<u32>,
+    /// Those of them whose values must outlive calls: no program that is converted by itself may use them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub over_calls: Vec<u32>,
     /// The files whose programs rely on what stands here, by their names among the inputs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
@@ -69,8 +72,8 @@ const UNNAMED: &str = "programs that were converted before";
 
 const HEAD: &str = "\
 # Which register of the target holds which variable of the source, which hold
-# values in between (scratch), and which number each program got that had none
-# there. Nothing goes to the numbers in own and reached: the programs of the files
+# values in between (scratch; those that outlive calls are in over_calls), and
+# which number each program got that had none there. Nothing goes to the numbers in own and reached: the programs of the files
 # use them themselves. Written by macroglot, honoured by its next run; keep it
 # with the converted programs.
 
@@ -96,7 +99,7 @@ impl Lock {
             false => self.files.iter().filter(|file| !names.contains(file.as_str())).cloned().collect(),
         };
         if self.others.is_empty() {
-            (self.own, self.reached) = Default::default();
+            (self.own, self.reached, self.over_calls) = Default::default();
         }
         let named = self.others.iter().filter(|file| *file != UNNAMED).cloned();
         self.files = named.chain(names.into_iter().map(str::to_owned)).collect();
@@ -113,6 +116,8 @@ impl Lock {
         let held: BTreeSet<u32> = registers.held().filter(|_| self.others.is_empty()).collect();
         let scratch: BTreeSet<u32> = registers.scratch.iter().chain(&self.scratch).copied().collect();
         self.scratch = scratch.difference(&held).copied().collect();
+        let over: BTreeSet<u32> = registers.over_calls.iter().chain(&self.over_calls).copied().collect();
+        self.over_calls = over.into_iter().collect();
         let own: BTreeSet<u32> = self.own.iter().copied().chain(registers.own()).collect();
         self.own = own.into_iter().collect();
         let reached = self.reached.iter().chain(registers.reached.runs()).copied();
@@ -125,6 +130,7 @@ impl Lock {
             variables: &self.variables,
             programs: &self.programs,
             scratch: &self.scratch,
+            over_calls: &self.over_calls,
             own: &self.own,
             reached: Numbers::of(self.reached.iter().copied()),
             others: &self.others,

@@ -71,9 +71,10 @@ fn allocate(
             continue;
         }
         let name = name_of(var, module, context.source);
+        let over = context.over_calls.contains(&var);
         let found = match class_of_colour(var, context.target) {
             Some(class) => pool.take_of(class),
-            None => pool.take(var.class, name.as_deref()).map(|number| (pool.name.clone(), number)),
+            None => pool.take(var, name.as_deref(), over).map(|number| (pool.name.clone(), number)),
         };
         let Some((place, number)) = found else {
             let what = shortage(var, &users, module, context);
@@ -82,6 +83,7 @@ fn allocate(
         };
         if matches!(var.class, Class::Temp | Class::Static) {
             registers.scratch.extend(Some(number).filter(|_| place == pool.name));
+            registers.over_calls.extend(Some(number).filter(|_| over && place == pool.name));
         } else if let Some(name) = name {
             registers.chosen.insert(name, number);
         }

@@ -28,6 +28,8 @@ pub struct Locked<'l> {
     pub programs: &'l BTreeMap<String, u32>,
     /// Registers of temporaries.
     pub scratch: &'l [u32],
+    /// Those of them whose values outlive calls, perhaps of programs of this run.
+    pub over_calls: &'l [u32],
     /// Numbers that programs of earlier runs use themselves.
     pub own: &'l [u32],
     /// Numbers that programs of earlier runs reach by computing them.
@@ -39,7 +41,15 @@ pub struct Locked<'l> {
 impl Default for Locked<'_> {
     fn default() -> Self {
         let reached = Numbers::default();
-        Self { variables: &NONE, programs: &NONE, scratch: &[], own: &[], reached, others: &[] }
+        Self {
+            variables: &NONE,
+            programs: &NONE,
+            scratch: &[],
+            over_calls: &[],
+            own: &[],
+            reached,
+            others: &[],
+        }
     }
 }
 

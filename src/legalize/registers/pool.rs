@@ -4,8 +4,8 @@ use super::locked::{Effective, Locked};
 use super::names::pool_name;
 use super::needs::is_general;
 use crate::dialect::{Control, VariableClass};
-use crate::ir::Class;
 use crate::ir::analysis::Numbers;
+use crate::ir::{Class, Var};
 use crate::legalize::Context;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,6 +20,10 @@ pub(super) struct Pool<'a> {
     locked: &'a BTreeMap<String, u32>,
     /// Where temporaries go first, and nothing else ever.
     scratch: BTreeSet<u32>,
+    /// Those of programs of earlier runs whose values outlive calls.
+    over_calls: BTreeSet<u32>,
+    /// True if no program of an earlier run stays as it is.
+    alone: bool,
     /// Numbers that computed ones reach.
     reached: Numbers,
     /// Numbers that computed ones are supposed to be: taken where nothing else is free.
@@ -40,7 +44,10 @@ impl<'a> Pool<'a> {
         let name = pool_name(target);
         let used = effective.variables.values().chain(locked.own).copied().collect();
         let scratch = effective.scratch.clone();
+        let (over_calls, alone) = (locked.over_calls.iter().copied().collect(), locked.others.is_empty());
         Self {
+            over_calls,
+            alone,
             name,
             rows,
             used,
@@ -60,7 +67,9 @@ impl<'a> Pool<'a> {
             && !self.target.is_reserved(&self.name, number)
     }
 
-    pub fn take(&mut self, class: Class, name: Option<&str>) -> Option<u32> {
+    /// A register for a variable: the one that the lock has under its name, or the best that is free. What is needed
+    /// `over` calls shares none with programs of earlier runs that stay as they are: a call may run them.
+    pub fn take(&mut self, Var { class, .. }: Var, name: Option<&str>, over: bool) -> Option<u32> {
         if let Some(&number) = name.and_then(|name| self.locked.get(name)) {
             return Some(number);
         }
@@ -69,7 +78,11 @@ impl<'a> Pool<'a> {
             matches!(class, Class::Temp | Class::Static | Class::Register | Class::Common | Class::Local);
         let preferred = self.rows.iter().filter(|row| keeps(row) != volatile);
         let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
+        let alone = over && !self.alone;
         let again = |number: &u32| {
+            if alone || self.over_calls.contains(number) {
+                return false;
+            }
             let taken = self.used.contains(number) || self.target.is_reserved(&self.name, *number);
             matches!(class, Class::Temp | Class::Static) && !taken && !self.reached.contains(*number)
         };

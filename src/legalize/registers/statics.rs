@@ -58,6 +58,12 @@ impl Statics {
         self.colours(&self.through[program])
     }
 
+    /// The colours of what callers need after calls.
+    pub fn over_calls(&self) -> impl Iterator<Item = u32> + '_ {
+        let any = |at: &usize| self.through.iter().any(|row| row.has(*at));
+        (0..self.colours.len()).filter(any).map(|at| self.colours[at])
+    }
+
     /// The colours of all that a program, its callees included, may write.
     pub fn written(&self, program: usize) -> Temps {
         self.colours(self.live.written(program))

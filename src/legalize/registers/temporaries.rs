@@ -51,8 +51,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             *lone += 1;
             plan.colours.insert(temp, *lone);
         }
+        let class = class_of(statics.as_ref());
+        let over = plan.over.keys().filter_map(|temp| plan.colours.get(temp));
+        context.over_calls.extend(over.map(|colour| Var { class, number: *colour }));
         rename(program, plan, statics.as_ref());
     }
+    let over = statics.iter().flat_map(Statics::over_calls);
+    context.over_calls.extend(over.map(|colour| Var { class: Class::Static, number: colour }));
+}
+
+/// With statics, temporaries are statics too: both have the same registers.
+fn class_of(statics: Option<&Statics>) -> Class {
+    if statics.is_some() { Class::Static } else { Class::Temp }
 }
 
 /// Colours callees before their callers, so that what is alive over a call keeps off all that the call may run.
@@ -330,9 +340,9 @@ fn read(at: usize, e: &Expr, live: &mut Temps, each: &mut dyn FnMut(usize, Step,
     });
 }
 
-/// Puts the colours in. With statics, temporaries are statics too: both have the same registers.
+/// Puts the colours in.
 fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan, statics: Option<&Statics>) {
-    let class = if statics.is_some() { Class::Static } else { Class::Temp };
+    let class = class_of(statics);
     let change = |var: &mut Var| {
         let colour = match var.class {
             Class::Temp => colours.get(&var.number).copied(),
