@@ -1,11 +1,14 @@
 //! What every pass is given: both controls, and a place for what it finds.
 
 use super::Modal;
+use super::analyses::Analyses;
 use super::features::Features;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
-use crate::ir::Var;
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::{ModalFacts, Summaries};
+use crate::ir::{Module, Var};
 use crate::legalize::layout::program_numbers::ProgramNumbers;
 use crate::legalize::registers::locked::Locked;
 use crate::legalize::registers::map::Registers;
@@ -15,6 +18,7 @@ use crate::text::Span;
 use foldhash::{HashMap, HashSet};
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// The controls of a conversion and the findings so far.
@@ -33,6 +37,8 @@ pub struct Context<'a> {
     pub(super) reached: Reached,
     /// What stands in the library, as it was last counted: perhaps less by now, never more.
     pub(super) features: Features,
+    /// What is known of the library as it is now.
+    pub(super) analyses: Analyses,
     /// How much is optimized.
     pub level: Level,
     /// What earlier runs chose.
@@ -73,6 +79,7 @@ impl<'a> Context<'a> {
             origins: (0..programs).collect(),
             reached: Reached::default(),
             features: Features::default(),
+            analyses: Analyses::default(),
             level: Level::default(),
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
@@ -102,6 +109,21 @@ impl<'a> Context<'a> {
             rows.filter_map(|row| row.origin.table.as_deref()).collect::<BTreeSet<&str>>()
         });
         !ours.is_disjoint(&theirs)
+    }
+
+    /// What is in force at every block of the library.
+    pub(super) fn modal_facts(&self, module: &Module) -> Rc<ModalFacts> {
+        self.analyses.modal_facts(module, &self.entry)
+    }
+
+    /// What programs of the library may write.
+    pub(super) fn summaries(&self, module: &Module) -> Rc<Summaries> {
+        self.analyses.summaries(module)
+    }
+
+    /// Which programs the calls of the library run.
+    pub(super) fn called(&self, module: &Module) -> Rc<CalledPrograms> {
+        self.analyses.called(module)
     }
 
     /// Adds a finding to a program.

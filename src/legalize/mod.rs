@@ -10,6 +10,7 @@
 //! need only one program are given each alone, all of them in a row while it is at hand. [`pipeline`] lists them;
 //! each room holds those of one matter.
 
+mod analyses;
 mod assumptions;
 mod calls;
 mod codes;

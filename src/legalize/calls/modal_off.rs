@@ -5,11 +5,11 @@
 //! from anywhere. Counter-example: a subprogram that ends its caller's modal call.
 
 use crate::ir::{Module, Program, StmtKind, TermKind};
-use crate::legalize::{Context, ModalFacts, replace_statements};
+use crate::legalize::{Context, replace_statements};
 
 /// Leaves out the codes that end nothing.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let returns = |program: &Program| {
         program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Return { .. }))
     };

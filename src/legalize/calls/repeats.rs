@@ -30,7 +30,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let drills = module.programs.iter().any(|program| ncs(program, &|nc| nc.ops().any(Op::is_cycle)));
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     if !context.source.is(Question::RepeatMoves) || context.target.is(Question::RepeatMoves) {
         return affected
             .into_iter()

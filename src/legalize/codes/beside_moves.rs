@@ -9,7 +9,6 @@
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::analysis::modal_facts::ModalFacts;
 use crate::ir::{Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::codes::pauses::pause_of;
 use crate::legalize::features::Features;
@@ -28,7 +27,7 @@ pub fn concerns(features: &Features) -> bool {
 
 /// Puts what acts before or after the move of its block into blocks of its own.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let pauses = stmts.any(|stmt| pause_of(&stmt.kind).is_some());
     replace_statements(module, &facts, |index, state, mut stmt, out| {

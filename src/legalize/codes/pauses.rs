@@ -13,7 +13,6 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::analysis::modal_facts::ModalFacts;
 use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::codes::beside_moves::AFTER_CALL;
 use crate::legalize::features::Features;
@@ -59,7 +58,7 @@ const LETS_GO: &str = "the M5 before this stop releases a spindle that M19 holds
 
 /// Ends before stops what the source ends at them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let (after, started) = (After::of(module, &facts), started(module));
     let holds = Features::of(&module.programs).op(Op::SpindleOrient);
     for (index, program) in module.programs.iter_mut().enumerate() {

@@ -13,10 +13,9 @@
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::analysis::Summaries;
 use crate::ir::analysis::programmed::Programmed;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, StmtKind};
-use crate::legalize::{Context, ModalFacts};
+use crate::legalize::Context;
 use std::collections::BTreeMap;
 
 /// Replaces the code that runs a cycle where the tool stands.
@@ -24,7 +23,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some() {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     // What a bare definition does differs only where the two controls do not agree on it.
     let runs = |control: &crate::dialect::Control| {
         control.behaviour(Question::CycleRunsWithoutAxes).map(|b| b.value.clone())
@@ -33,7 +32,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let drills = runs(context.source).as_deref() == Some("true");
     let has_end = context.target.system_runs(Sys::EndPosition).next().is_some();
     let stands = if has_end { Sys::EndPosition } else { Sys::WorkPosition };
-    let summaries = Summaries::of(module);
+    let summaries = context.summaries(module);
     let other_planes = module
         .programs
         .iter()

@@ -30,7 +30,7 @@ pub const ROLES: [Role; 8] = [
 
 /// Fits the words of cycles to what the target's codes take.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let parts = parts(module, context);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let rules = Rules { index, facts: &facts, parts, context };

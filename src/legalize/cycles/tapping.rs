@@ -12,7 +12,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind};
-use crate::legalize::{Context, ModalFacts};
+use crate::legalize::Context;
 use kept::{Does, Kept};
 
 const STAYS: &str = "the feed of the tapping cycle stays in force after it: write the feed again there";
@@ -27,7 +27,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if taps(nc))) {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let kept = Kept::of(module, &facts, context.target);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let register = kept.register(index);

@@ -8,7 +8,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BlockId, Module, Nc, StmtKind};
-use crate::legalize::{Context, ModalFacts};
+use crate::legalize::Context;
 
 /// Refuses arcs that say nothing about their curve, and reports those that say it twice.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -20,7 +20,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     };
     let (here, there) = (answer(context.source), answer(context.target));
     let spelled_out = here.as_deref() == Some("straight");
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter().enumerate() {
         for (at, block) in program.blocks.iter().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));

@@ -8,7 +8,7 @@
 use crate::canon::{Func, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{BinOp, Class, Expr, Module, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind, Var};
-use crate::legalize::{Context, ModalFacts, replace_statements};
+use crate::legalize::{Context, replace_statements};
 
 /// The registers of the pole, X and Y, by their numbers in [`Class::Register`].
 const POLE: [(Role, Var); 2] = [
@@ -22,7 +22,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let polar = |nc: &Nc| nc.word(Role::PolarAngle).is_some() || nc.word(Role::PolarDistance).is_some();
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
         let span = stmt.site.span;

@@ -7,14 +7,14 @@
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
-use crate::legalize::{Context, ModalFacts, replace_statements};
+use crate::legalize::{Context, replace_statements};
 
 /// Replaces rapid moves of one block.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if context.target.code_for(Op::RapidOnce, &Default::default()).is_some() {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         let motion = state.op(Group::Motion).filter(|motion| matches!(motion, Op::Rapid | Op::Linear));
         let drills = state.op(Group::Cycle) != Some(Op::CycleOff);

@@ -8,7 +8,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
-use crate::legalize::{Context, ModalFacts, replace_statements};
+use crate::legalize::{Context, replace_statements};
 
 /// Names the axes of returns that name none.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -34,7 +34,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let rotary = [Role::A, Role::B, Role::C];
     let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
     let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
         let span = stmt.site.span;

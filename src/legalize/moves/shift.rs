@@ -10,7 +10,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::modal::reachable;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
 use crate::legalize::layout::emptied::drop_emptied;
-use crate::legalize::{Context, Modal, ModalFacts};
+use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !lacks {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
     let has = |op: Op| stmts().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(op)));
     let (incremental, sets_position) = (has(Op::Incremental), has(Op::SetPosition));

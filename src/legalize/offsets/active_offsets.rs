@@ -7,7 +7,7 @@
 use crate::canon::{Group, Op, Sys};
 use crate::dialect::{Question, Side};
 use crate::ir::{BlockId, Module, Place, StmtKind};
-use crate::legalize::{Context, ModalFacts, Setting};
+use crate::legalize::{Context, Setting};
 
 /// Reports writes to offsets that may be in force.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -22,7 +22,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     if !stmts().any(|stmt| row(&stmt.kind).is_some()) {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter().enumerate() {
         for (at, block) in program.blocks.iter().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));

@@ -16,7 +16,7 @@ use crate::ir::analysis::modal::Ways;
 use crate::ir::analysis::{Summaries, Vacancy};
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind};
 use crate::legalize::features::Features;
-use crate::legalize::{Context, Modal, ModalFacts, Setting};
+use crate::legalize::{Context, Modal, Setting};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -54,7 +54,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if context.source.name() == context.target.name() && alike(RETURN) && alike(MOVE) {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     let absent = absent(module);
     let drills = Features::of(&module.programs).any_op(Op::is_cycle);
     for (index, program) in module.programs.iter_mut().enumerate() {

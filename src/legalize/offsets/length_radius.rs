@@ -10,7 +10,7 @@ use crate::dialect::Question;
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Steps, solve};
 use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
-use crate::legalize::{Context, ModalFacts};
+use crate::legalize::Context;
 
 const FACT: Question = Question::LengthWordPicksRadius;
 
@@ -22,7 +22,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|p| &p.blocks).flat_map(|b| &b.stmts);
     let elsewhere = stmts().filter_map(|stmt| stmt.kind.nc()).any(looks);
     let compensates = stmts().filter_map(|stmt| stmt.kind.nc()).any(compensates);
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let rules = LookedAt { elsewhere };
         let ends = solve(&rules, program, &Cfg::of(program));

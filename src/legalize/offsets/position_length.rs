@@ -28,7 +28,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     let added = |row: Option<(bool, bool)>| row.is_some_and(|(added, _)| added);
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     for index in 0..module.programs.len() {
         let Some((span, computed)) = reads(&module.programs[index], index, &facts, context.source) else {
             continue;

@@ -8,7 +8,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::tool_word::ToolWord;
 use crate::ir::{Block, Expr, Module, Program};
-use crate::legalize::{Context, ModalFacts};
+use crate::legalize::Context;
 use crate::text::Span;
 
 /// The letter number of T in [`Sys::Address`].
@@ -20,7 +20,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     if !stands_in(context.target) || !module.programs.iter().any(reads) {
         return;
     }
-    let facts = ModalFacts::of(module, &context.entry);
+    let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);

@@ -143,10 +143,13 @@ fn run_together(
     let tidy = |pass: &&Pass| if let Run::Tidies(tidy) = pass.run { Some(tidy) } else { None };
     let tidies: Vec<&dyn opt::Pass> = passes.iter().filter_map(tidy).collect();
     if !tidies.is_empty() {
+        context.analyses.drop_all();
         return opt::run(module, &tidies, context.level).map_err(|(pass, first)| Broken { pass, first });
     }
     if !*fresh || passes.iter().any(|pass| (pass.concerns)(&context.features, context)) {
-        each(passes, module, context);
+        if each(passes, module, context) {
+            context.analyses.drop_all();
+        }
         *fresh = true;
     }
     Ok(())

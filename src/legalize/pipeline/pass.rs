@@ -151,8 +151,16 @@ impl Pass {
         }
     }
 
-    /// Runs it; true if that may have changed the library.
+    /// Runs it; true if that may have changed the library. Then what was known of it is dropped.
     pub(super) fn run_on(&self, module: &mut Module, context: &mut Context<'_>) -> bool {
+        let changed = self.change(module, context);
+        if changed {
+            context.analyses.drop_all();
+        }
+        changed
+    }
+
+    fn change(&self, module: &mut Module, context: &mut Context<'_>) -> bool {
         match self.run {
             // Broken IR shows where it is validated next.
             Run::Tidies(pass) => {

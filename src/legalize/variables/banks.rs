@@ -6,7 +6,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::analysis::{Constant, Numbers, Ranges, Summaries, values_at};
+use crate::ir::analysis::{Constant, Numbers, Ranges, values_at};
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BlockId, Expr, Module, Program};
 use crate::legalize::Context;
@@ -19,7 +19,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     if spaces.iter().all(|(_, space)| space.is_none()) {
         return;
     }
-    let summaries = Summaries::of(module);
+    let summaries = context.summaries(module);
     for (index, program) in module.programs.iter().enumerate() {
         let mut found: Vec<(Span, &Space)> = Vec::new();
         let ranges = LazyCell::new(|| Ranges::of(program, &summaries));

@@ -39,7 +39,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if cells.iter().any(|(axis, point)| !there(*axis) || *axis > 9 || *point > 9) {
         return;
     }
-    let summaries = Summaries::of(module);
+    let summaries = context.summaries(module);
     let mut sure = true;
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut any = any_kept(program);

@@ -15,7 +15,6 @@ mod write;
 
 use crate::dialect::Question;
 use crate::ir::Module;
-use crate::ir::analysis::Summaries;
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use marks::Marks;
@@ -32,7 +31,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 
 /// Finds the variables that need a flag, and writes the flags.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let summaries = Summaries::of(module);
+    let summaries = context.summaries(module);
     let marks = Marks::of(module, &summaries);
     marks.refuse(module, context);
     name(module, &marks);

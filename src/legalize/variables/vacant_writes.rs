@@ -13,7 +13,6 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{Cfg, Summaries, Vacancy};
 use crate::ir::{
@@ -22,7 +21,7 @@ use crate::ir::{
 use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part, rebuild};
 use crate::legalize::variables::state::table_factor;
-use crate::legalize::{Context, ModalFacts, calls_of};
+use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -32,7 +31,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         return;
     }
     added(module, context);
-    let summaries = Summaries::of(module);
+    let summaries = context.summaries(module);
     let signs = context.source.behaviour(Question::BracketVacantWord).is_none_or(|row| row.value != "zero");
     for program in &mut module.programs {
         let places = places(program, &summaries, signs);
@@ -51,8 +50,8 @@ fn added(module: &Module, context: &mut Context<'_>) {
         return;
     }
     let called: BTreeSet<usize> =
-        CalledPrograms::of(module).pairs(module).into_iter().map(|(_, callee)| callee).collect();
-    let facts = ModalFacts::of(module, &context.entry);
+        context.called(module).pairs(module).into_iter().map(|(_, callee)| callee).collect();
+    let facts = context.modal_facts(module);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {
             let mut state = facts.at(index, id);

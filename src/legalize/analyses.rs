@@ -1,0 +1,49 @@
+//! Analyses of a library that passes share: worked out when the first asks, dropped when one has changed what they read.
+
+use crate::ir::Module;
+use crate::ir::analysis::computed_calls::CalledPrograms;
+use crate::ir::analysis::{Modal, ModalFacts, Summaries};
+use std::cell::OnceCell;
+use std::rc::Rc;
+
+/// What is known of a library as it is now.
+#[derive(Default)]
+pub(super) struct Analyses {
+    facts: OnceCell<Rc<ModalFacts>>,
+    summaries: OnceCell<Rc<Summaries>>,
+    called: OnceCell<Rc<CalledPrograms>>,
+    /// The library that they are of: debug builds hold every question against it.
+    of: OnceCell<Module>,
+}
+
+impl Analyses {
+    /// What is in force at every block, if runs begin in the state `entry`.
+    pub fn modal_facts(&self, module: &Module, entry: &Modal) -> Rc<ModalFacts> {
+        self.check(module);
+        self.facts.get_or_init(|| Rc::new(ModalFacts::of(module, entry))).clone()
+    }
+
+    /// What programs may write.
+    pub fn summaries(&self, module: &Module) -> Rc<Summaries> {
+        self.check(module);
+        self.summaries.get_or_init(|| Rc::new(Summaries::of(module))).clone()
+    }
+
+    /// Which programs calls run.
+    pub fn called(&self, module: &Module) -> Rc<CalledPrograms> {
+        self.check(module);
+        self.called.get_or_init(|| Rc::new(CalledPrograms::of(module))).clone()
+    }
+
+    /// Forgets everything: the library is another now.
+    pub fn drop_all(&mut self) {
+        *self = Self::default();
+    }
+
+    fn check(&self, module: &Module) {
+        if cfg!(debug_assertions) {
+            let same = self.of.get_or_init(|| module.clone()) == module;
+            debug_assert!(same, "a pass asks for an analysis of a library that it has changed");
+        }
+    }
+}
