@@ -72,10 +72,10 @@ const UNNAMED: &str = "programs that were converted before";
 
 const HEAD: &str = "\
 # Which register of the target holds which variable of the source, which hold
-# values in between (scratch; those that outlive calls are in over_calls), and
-# which number each program got that had none there. Nothing goes to the numbers in own and reached: the programs of the files
-# use them themselves. Written by macroglot, honoured by its next run; keep it
-# with the converted programs.
+# values in between (scratch; over_calls: those that outlive calls), and which
+# number each program got that had none there. Nothing goes to the numbers in own
+# and reached: the programs of the files use them themselves. Written by macroglot,
+# honoured by its next run; keep it with the converted programs.
 
 ";
 
