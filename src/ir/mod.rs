@@ -61,15 +61,17 @@ mod expr;
 mod stmt;
 pub mod text;
 pub mod validate;
+mod var;
 mod walk;
 
 pub use build::Builder;
 pub use expr::{BinOp, Cond, Expr, Relation};
 pub use stmt::{
-    Argument, Bank, Call, Callee, Class, FLAGS, LOCAL_FLAGS, Nc, NcItem, OutputPart, Place, PrintPart,
-    Remark, SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
+    Argument, Bank, Call, Callee, Nc, NcItem, OutputPart, Place, PrintPart, Remark, SourceInfo, Stmt,
+    StmtKind, TermKind, Terminator,
 };
 pub use validate::{Valid, validate};
+pub use var::{Class, FLAGS, LOCAL_FLAGS, Var};
 
 use crate::syntax::{Label, ProgramName};
 use smallvec::SmallVec;

@@ -1,0 +1,60 @@
+//! Variables: their classes, and the flags that say which of them have a value.
+
+/// A class of variables: who can see them and how long they last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// Local to a call level; may be vacant.
+    Local,
+    /// Seen by all programs, vacant after power-on; may be vacant.
+    Common,
+    /// Seen by all programs, kept over power-off; may be vacant.
+    Retained,
+    /// Seen by all programs, kept from run to run; whether over power-off no source says. Never vacant.
+    Global,
+    /// Like global, and the only variables that NC words of the source may use. Never vacant.
+    Parametric,
+    /// The condition register (number 0) and other hidden state of the source. Never vacant.
+    Register,
+    /// Introduced by the compiler, local to one program. Never vacant.
+    Temp,
+    /// A register of the compiler's own that all programs see: what a local becomes on a control without locals.
+    /// Never vacant, and nothing outside looks at it.
+    Static,
+}
+
+impl Class {
+    /// True where a variable of the class may be vacant.
+    pub const fn nullable(self) -> bool {
+        matches!(self, Class::Local | Class::Common | Class::Retained)
+    }
+
+    /// True where other programs see the variable.
+    pub const fn shared(self) -> bool {
+        !matches!(self, Class::Local | Class::Temp)
+    }
+}
+
+/// A variable. Its number is the one it has in the source; letters count from 101 (VA).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Var {
+    /// Its class.
+    pub class: Class,
+    /// Its number.
+    pub number: u32,
+}
+
+impl Var {
+    /// The flag that says whether a variable has a value, for a control that knows no vacant ones. A flag of a local is
+    /// a local of the same level.
+    #[must_use]
+    pub const fn flag(self) -> Self {
+        let first = if matches!(self.class, Class::Local) { LOCAL_FLAGS } else { FLAGS };
+        Self { number: self.number + first, ..self }
+    }
+}
+
+/// Flags of locals have numbers from here on.
+pub const LOCAL_FLAGS: u32 = 100;
+
+/// Flags of other variables have numbers from here on.
+pub const FLAGS: u32 = 100_000;
