@@ -5,33 +5,24 @@
 //! block jumps over them. Angle unit, places of rounding and motion mode are
 //! modal on this control: `flow` follows them over all ways through the program
 //! first, so that each block is lowered knowing what holds there.
+//!
+//! Its rooms stand in one order, in which each uses only those before it: `codes`, `flow`, `build`, `macros`, `words`,
+//! `program`. `tests/architecture.rs` fails otherwise.
 
-mod block;
-mod calls;
-mod condition;
-mod exit_modes;
-mod expr;
-mod facts;
+mod build;
+mod codes;
 mod flow;
-mod motion;
+mod macros;
 mod program;
-mod set;
-mod shape;
-mod state;
-mod statement;
-mod steps;
 #[cfg(test)]
 mod tests;
-mod tidy;
-mod value;
-mod variable;
 mod words;
 
-use self::exit_modes::Others;
 use super::Lowered;
 use super::common::programs;
 use crate::dialect::Control;
 use crate::syntax::{ItemKind, ParsedFile};
+use flow::Others;
 use std::collections::BTreeMap;
 
 /// Lowers all programs of a file; see [`super::Lower`].

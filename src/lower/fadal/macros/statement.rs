@@ -1,37 +1,19 @@
 //! Statements of macro lines.
 
-use super::program::Lowering;
-use super::shape::goal;
-use super::words::Codes;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BlockId, Class, Expr, Place, PrintPart, StmtKind, TermKind, Var};
-use crate::lower::common::{constant, remark_text, says_something};
+use crate::lower::common::{remark_text, says_something};
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::codes::program_number;
+use crate::lower::fadal::flow::goal;
 use crate::syntax::{self, Index, Item, ItemKind, ProgramName, Target, VarRef};
 use crate::text::Span;
 
 impl<'b> Lowering<'b> {
-    /// Everything that a block says, in order; words that belong together are one NC block.
-    pub fn items(&mut self, items: &'b [Item], codes: &Codes<'b, 'b>) {
-        if items
-            .iter()
-            .any(|item| matches!(item.kind, ItemKind::Word(_) | ItemKind::Assign { by_sign: true, .. }))
-        {
-            if self.nc(items, codes).is_none() {
-                self.hole();
-            }
-            return;
-        }
-        for item in items.iter().filter(|item| says_something(item)) {
-            if self.statement(item, 0).is_none() {
-                self.hole();
-            }
-        }
-    }
-
     /// One macro statement; none if it is not understood, which is then reported.
-    fn statement(&mut self, item: &'b Item, depth: u32) -> Option<()> {
+    pub fn statement(&mut self, item: &'b Item, depth: u32) -> Option<()> {
         match &item.kind {
             // The block begins there already.
             ItemKind::Label(_) => {}
@@ -185,10 +167,4 @@ impl<'b> Lowering<'b> {
         }
         Some(())
     }
-}
-
-/// The number of a program that is named by a constant.
-pub fn program_number(value: &syntax::Expr) -> Option<u32> {
-    let number = constant(value)?;
-    (number.fract() == 0.0 && (0.0..=9_999_999.0).contains(&number)).then_some(number as u32)
 }

@@ -1,10 +1,10 @@
 //! The unconfirmed facts that an NC block as a whole rests on.
 
-use super::block::Reading;
-use super::program::Lowering;
+use super::reading::Reading;
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
 use crate::ir::{Class, Expr, NcItem, Var};
+use crate::lower::fadal::build::Lowering;
 
 impl<'b> Lowering<'b> {
     /// Reports the unconfirmed facts that the block as a whole rests on.

@@ -1,32 +1,15 @@
 //! Calls, returns and ends: L words, M98, G66, M17, M99, M2, M30.
 
-use super::flow::Flow;
-use super::program::Lowering;
-use super::shape::Goal;
-use super::statement::program_number;
-use super::steps::{FIRST_FIXED, Step, operand};
-use super::words::Codes;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, BlockId, Call, Callee, Cond, Expr, Place, Relation, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::otherwise;
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::codes::{Codes, FIRST_FIXED, Step, operand, program_number};
+use crate::lower::fadal::flow::{Flow, Goal, return_goal};
 use crate::syntax::{self, Item, ProgramName};
 use crate::text::Span;
-
-/// Where `M99 P10` goes.
-pub fn return_goal(items: &[Item], codes: &Codes<'_, '_>) -> Option<Goal> {
-    if !codes.has(Op::Return) {
-        return None;
-    }
-    operand(items, codes, Role::Sequence).and_then(program_number).map(Goal::Sequence)
-}
-
-/// True for `M99 P+R2`, which goes to the block that the number names.
-pub fn returns_computed(items: &[Item], codes: &Codes<'_, '_>) -> bool {
-    let to = || operand(items, codes, Role::Sequence);
-    codes.has(Op::Return) && to().is_some_and(|to| program_number(to).is_none())
-}
 
 fn call(callee: Callee, count: Option<Expr>) -> Call {
     Call { callee, level: false, arguments: Vec::new(), count }
@@ -150,39 +133,6 @@ impl<'b> Lowering<'b> {
             .into_iter()
             .map(|number| Some((number, self.block_of(&Goal::Sequence(number), span)?)))
             .collect()
-    }
-
-    /// The block of a jump goal.
-    pub fn block_of(&mut self, goal: &Goal, span: Span) -> Option<BlockId> {
-        let Some((at, times)) = self.shape.goals.get(goal).copied() else {
-            let name = match goal {
-                Goal::Sequence(number) => format!("N{number}"),
-                Goal::Label(syntax::Label::Name(name)) => format!(":{name}"),
-                Goal::Label(syntax::Label::Number(number)) => format!(":{number}"),
-            };
-            self.findings.add(Diagnostic::new(Code::TargetMissing, span, format!("no block has {name}")));
-            return None;
-        };
-        if times > 1 {
-            match goal {
-                Goal::Sequence(_) if self.control.is(Question::GotoForwardFirst) => {
-                    self.findings.not_understood(span, otherwise(Question::GotoForwardFirst, "true"));
-                }
-                Goal::Sequence(number) => {
-                    let message =
-                        format!("N{number} is in the program {times} times: the first one is taken");
-                    self.once(Code::TargetTwice, &message, span, message.clone());
-                }
-                Goal::Label(_) => {
-                    self.suppose(Question::GotoFirstLabel, "true", span);
-                }
-            }
-        }
-        if self.shape.region(at) != self.shape.region(self.at) {
-            let message = "the jump goes out of a subroutine or into one";
-            self.once(Code::SubroutineLeft, &at.to_string(), span, message.into());
-        }
-        Some(self.entry(at))
     }
 
     /// `L101`, `L+R2`, and `L101 G66`.

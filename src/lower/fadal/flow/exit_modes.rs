@@ -1,79 +1,20 @@
 //! What the programs of a file leave set where they return.
 
-use super::flow::Flow;
+use super::others::Others;
 use super::shape::Shape;
-use super::state::{Sets, State, Values};
-use super::statement::program_number;
-use super::steps::{Step, operand, steps};
-use super::words::Codes;
+use super::state::{Motion, Sets};
+use super::ways::Flow;
 use crate::canon::Role;
 use crate::dialect::Control;
 use crate::lower::common::ProgramText;
-use crate::syntax::{Block, Item, ProgramName};
+use crate::lower::fadal::codes::{Codes, Step, operand, program_number, steps};
+use crate::syntax::{Block, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// The motion modes that a program leaves to its caller.
-#[derive(Clone, Debug, Default)]
-pub struct Motion {
-    /// The interpolation.
-    codes: Values<u32>,
-    /// True where the caller's may still be in force.
-    callers: bool,
-    /// True where another program may have set it, of which nothing is known.
-    unknown: bool,
-    cycle: Values<u32>,
-    after_cycle: bool,
-    resumed: bool,
-}
-
-impl Motion {
-    fn of(state: State) -> Self {
-        Self {
-            codes: state.motion,
-            callers: state.motion_entry,
-            unknown: state.motion_called,
-            cycle: state.cycle,
-            after_cycle: state.after_cycle,
-            resumed: state.resumed,
-        }
-    }
-
-    /// Lets the caller go on in it.
-    pub fn give(&self, state: &mut State) {
-        if self.callers {
-            state.motion.join(&self.codes);
-            // A cycle goes on if the program touches neither it nor the motion mode, which would end it.
-            let sets_motion = self.codes.is_any() || !self.codes.list().is_empty();
-            if sets_motion || self.after_cycle || self.cycle.is_any() || self.cycle.list() != [0] {
-                state.cycle.join(&self.cycle);
-            }
-            state.motion_called |= self.unknown;
-            state.after_cycle |= self.after_cycle;
-            state.resumed |= self.resumed;
-        } else {
-            state.motion = self.codes.clone();
-            state.cycle = self.cycle.clone();
-            state.motion_entry = false;
-            (state.motion_called, state.after_cycle, state.resumed) =
-                (self.unknown, self.after_cycle, self.resumed);
-        }
-    }
-}
-
-/// What is known of the programs of a file.
-#[derive(Debug, Default)]
-pub struct Others {
-    /// By number, the motion modes that a program leaves. Not of one that calls itself in the end, that returns
-    /// to another place than that of its call, or whose number stands twice.
-    motion: BTreeMap<u32, Motion>,
-    /// What the programs before each set, and those after it.
-    sets: Vec<Sets>,
-}
 
 impl Others {
     /// Looks through the programs.
     pub fn of(texts: &[ProgramText<'_>], control: &Control) -> Self {
-        let mut others = Self { motion: BTreeMap::new(), sets: sets_of_others(texts) };
+        let mut others = Self::that_set(sets_of_others(texts));
         let Some(order) = callees_first(texts, control) else { return others };
         for at in order {
             let Some((text, number)) = texts.get(at).and_then(|text| Some((text, number_of(text)?))) else {
@@ -82,21 +23,10 @@ impl Others {
             let shape = Shape::new(text.blocks, control);
             let flow = Flow::new(text.blocks, control, &shape, (&others, at));
             if let Some(state) = flow.left() {
-                others.motion.insert(number, Motion::of(state));
+                others.leaves(number, Motion::of(state));
             }
         }
         others
-    }
-
-    /// What the programs but this one set.
-    pub fn sets(&self, own: usize) -> &Sets {
-        const NONE: &Sets = &Sets::NONE;
-        self.sets.get(own).unwrap_or(NONE)
-    }
-
-    /// The motion modes that the program of a call leaves, where they are known.
-    pub fn motion(&self, items: &[Item], codes: &Codes<'_, '_>) -> Option<&Motion> {
-        self.motion.get(&operand(items, codes, Role::Program).and_then(program_number)?)
     }
 }
 

@@ -1,9 +1,9 @@
 //! Conditions of IF.
 
-use super::program::Lowering;
 use crate::dialect::Question;
 use crate::ir::{Cond, Expr, Relation};
 use crate::lower::common::relation;
+use crate::lower::fadal::build::Lowering;
 use crate::syntax::{self, BinaryOp, ExprKind};
 
 /// How deep conditions may nest.

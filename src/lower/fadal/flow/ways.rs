@@ -1,15 +1,14 @@
 //! Which modal state holds where: forward over the ways that control can take.
 
-use super::exit_modes::Others;
-use super::set::statement;
-use super::shape::{Goal, Shape, goal};
+use super::others::Others;
+use super::settings::statement;
+use super::shape::{Goal, Shape, goal, return_goal, returns_computed};
 use super::state::{MOST_MODAL, State, Values};
-use super::steps::{Step, operand, parametric, steps};
-use super::words::{Codes, word};
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::ir::analysis::dataflow::{Flow as Places, Lattice};
 use crate::lower::common::constant;
+use crate::lower::fadal::codes::{Codes, Step, operand, parametric, steps, word};
 use crate::syntax::{Block, Expr, Item, ItemKind};
 use std::collections::BTreeSet;
 
@@ -265,7 +264,7 @@ impl<'b> Flow<'b> {
                     return None;
                 }
                 Step::Return => {
-                    let goal = super::calls::return_goal(items, &codes);
+                    let goal = return_goal(items, &codes);
                     if run.is_some() && operand(items, &codes, Role::Sequence).is_none() {
                         self.leave(&state);
                     } else {
@@ -274,7 +273,7 @@ impl<'b> Flow<'b> {
                     if let (Some(goal), Some(_)) = (goal, run) {
                         self.jump(&goal, &state);
                     }
-                    if run.is_some() && super::calls::returns_computed(items, &codes) {
+                    if run.is_some() && returns_computed(items, &codes) {
                         let all = self.shape.goals.keys();
                         let all = all.filter(|goal| matches!(goal, Goal::Sequence(_))).cloned();
                         all.collect::<Vec<_>>().iter().for_each(|goal| self.jump(goal, &state));

@@ -1,8 +1,8 @@
 //! What a statement sets of the modal state.
 
 use super::state::{DEFAULT_PLACES, State, Values};
-use super::steps::parametric;
 use crate::lower::common::constant;
+use crate::lower::fadal::codes::parametric;
 use crate::syntax::{Index, ItemKind, SetOption, VarRef};
 
 /// Runs an assignment, an input or a setting on the state.

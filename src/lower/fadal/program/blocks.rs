@@ -1,51 +1,13 @@
 //! One program: its blocks in source order, its subroutines, its jumps.
 
-use super::exit_modes::Others;
-use super::flow::Flow;
-use super::shape::Shape;
-use super::state::State;
-use super::steps::steps;
-use super::words::Codes;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Class, Cond, Place, Program, Remark, SourceInfo, StmtKind, TermKind, Var};
-use crate::lower::common::{Findings, ProgramText, otherwise, site_of};
-use crate::syntax::{Block, ItemKind, Label};
-use crate::text::Span;
-use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
-
-/// The lowering of one program.
-pub struct Lowering<'b> {
-    /// The file's bytes.
-    pub source: &'b [u8],
-    /// The control.
-    pub control: &'b Control,
-    /// The parts of the program.
-    pub shape: &'b Shape,
-    /// The program that is built.
-    pub builder: Builder,
-    /// What was found.
-    pub findings: Findings<'b>,
-    /// The modal state before the present block.
-    pub state: State,
-    /// The present block's place.
-    pub at: usize,
-    /// The site of the present block; its comments go with the first statement.
-    site: SourceInfo,
-    placed: bool,
-    /// Comments that stand where no statement can: they go with the next one.
-    carried: Vec<Remark>,
-    entries: HashMap<usize, BlockId>,
-    told: HashSet<String>,
-    temps: u32,
-    /// Where a straight move was spelled out under an arc mode, and where the mode is read.
-    pub spelled_out: bool,
-    /// Where the program reads the motion mode.
-    pub reads_motion: Option<Span>,
-    /// True once a word R, and not R0, gave a drilling cycle its retract plane.
-    pub plane_by_word: bool,
-}
+use crate::ir::{Cond, Program, SourceInfo, StmtKind, TermKind};
+use crate::lower::common::{ProgramText, says_something, site_of};
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::codes::{Codes, steps};
+use crate::lower::fadal::flow::{Flow, Others, Shape};
+use crate::syntax::{Block, Item, ItemKind, Label, for_each_item};
 
 /// Lowers a program's text; `others` is what is known of the programs of its file, and which of them this is.
 pub fn lower(
@@ -57,24 +19,7 @@ pub fn lower(
 ) -> (Program, Vec<Diagnostic>) {
     let shape = Shape::new(text.blocks, control);
     let mut flow = Flow::new(text.blocks, control, &shape, others);
-    let mut lowering = Lowering {
-        source,
-        control,
-        shape: &shape,
-        builder: Builder::new(),
-        findings: Findings::new(control),
-        state: State::entry(),
-        at: 0,
-        site: SourceInfo::default(),
-        placed: false,
-        carried: Vec::new(),
-        entries: HashMap::new(),
-        told: HashSet::new(),
-        temps: 0,
-        spelled_out: false,
-        reads_motion: None,
-        plane_by_word: false,
-    };
+    let mut lowering = Lowering::new(source, control, &shape);
     let mut head = SourceInfo::default();
     for (at, block) in text.blocks.iter().enumerate() {
         if let Some(state) = flow.at(at) {
@@ -102,10 +47,7 @@ impl<'b> Lowering<'b> {
             // The comments beside the name are the program's.
             *head = SourceInfo { span: block.span, ..std::mem::take(&mut self.site) };
             self.site = SourceInfo { span: block.span, ..SourceInfo::default() };
-            self.placed = block
-                .items
-                .iter()
-                .all(|other| std::ptr::eq(item, other) || !crate::lower::common::says_something(other));
+            self.placed = block.items.iter().all(|other| std::ptr::eq(item, other) || !says_something(other));
         }
         let frame = block.items.iter().all(|item| matches!(item.kind, ItemKind::Tape | ItemKind::EndOfBlock));
         let codes = Codes::new(&block.items, self.control);
@@ -160,7 +102,7 @@ impl<'b> Lowering<'b> {
 
     fn flows(&self, block: &Block, codes: &Codes<'_, '_>) -> bool {
         let mut jumps = false;
-        crate::syntax::for_each_item(&block.items, &mut |item| {
+        for_each_item(&block.items, &mut |item| {
             jumps |= matches!(item.kind, ItemKind::Goto(_) | ItemKind::Start(_) | ItemKind::If { .. });
         });
         jumps || !steps(&block.items, codes).is_empty()
@@ -202,9 +144,22 @@ impl<'b> Lowering<'b> {
         }
     }
 
-    /// The id of the IR block that begins at a source block.
-    pub fn entry(&mut self, at: usize) -> BlockId {
-        *self.entries.entry(at).or_insert_with(|| self.builder.fresh())
+    /// Everything that a block says, in order; words that belong together are one NC block.
+    fn items(&mut self, items: &'b [Item], codes: &Codes<'b, 'b>) {
+        if items
+            .iter()
+            .any(|item| matches!(item.kind, ItemKind::Word(_) | ItemKind::Assign { by_sign: true, .. }))
+        {
+            if self.nc(items, codes).is_none() {
+                self.hole();
+            }
+            return;
+        }
+        for item in items.iter().filter(|item| says_something(item)) {
+            if self.statement(item, 0).is_none() {
+                self.hole();
+            }
+        }
     }
 
     fn finish(&mut self) {
@@ -227,86 +182,5 @@ impl<'b> Lowering<'b> {
                            in an arc mode: write G1 there yourself";
             self.findings.not_understood(span, message);
         }
-    }
-
-    /// The next free temporary.
-    pub fn temp(&mut self) -> Var {
-        self.temps += 1;
-        Var { class: Class::Temp, number: self.temps }
-    }
-
-    /// The site for the next statement of the block: its comments go with the first.
-    pub fn take_site(&mut self) -> SourceInfo {
-        self.placed = true;
-        let mut site = self.site.clone();
-        self.site.remarks.clear();
-        if self.builder.is_open() && !self.carried.is_empty() {
-            site.remarks.splice(0..0, self.carried.drain(..));
-        }
-        site
-    }
-
-    /// Adds a statement of the present block.
-    pub fn push(&mut self, kind: StmtKind) {
-        let site = self.take_site();
-        self.builder.push(kind, site);
-    }
-
-    /// Adds an assignment of the present block.
-    pub fn assign(&mut self, target: Place, value: crate::ir::Expr) {
-        self.push(StmtKind::Assign { target, value });
-    }
-
-    /// Ends the IR block with a terminator of the present source block.
-    pub fn end(&mut self, kind: TermKind) {
-        let mut site = self.take_site();
-        site.skip = None;
-        self.builder.end(kind, site);
-    }
-
-    /// Stands where the source has something that is not understood; its finding says what.
-    pub fn hole(&mut self) {
-        let text = "NOT CONVERTED".to_owned();
-        self.push(StmtKind::Alarm { number: crate::ir::Expr::Number(1.0), text });
-    }
-
-    /// Reports something once for each `key`.
-    pub fn once(&mut self, code: Code, key: &str, span: Span, message: String) {
-        if self.told.insert(format!("{code:?} {key}")) {
-            self.findings.add(Diagnostic::new(code, span, message));
-        }
-    }
-
-    /// Reports, once for each variable, that it is read while moves may be to come.
-    pub fn early(&mut self, name: &str, span: Span, message: String) {
-        if self.told.insert(format!("early {name}")) {
-            let finding = Diagnostic::new(Code::EarlyRead, span, message);
-            self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
-        }
-    }
-
-    /// The answer to a question of behaviour on which the construct at `span` rests;
-    /// an unknown answer is none and is reported as an unconfirmed fact.
-    pub fn rely(&mut self, question: Question, span: Span) -> Option<&'b str> {
-        let known = self.findings.behaviour(question, span);
-        if known.is_none() {
-            let note = self.control.behaviour(question).and_then(|row| row.origin.note.as_deref());
-            self.findings.unconfirmed(question.fact().into(), note.or(Some("no source says")), span);
-        }
-        known
-    }
-
-    /// The construct at `span` is converted as for a control that answers so: where it answers otherwise, the
-    /// construct is not understood; if nobody knows, that is an unconfirmed fact.
-    pub fn suppose(&mut self, question: Question, answer: &str, span: Span) {
-        if let Some(other) = self.rely(question, span).filter(|known| *known != answer) {
-            self.findings.not_understood(span, otherwise(question, other));
-        }
-    }
-
-    /// The block is not understood: the finding is added, and nothing else.
-    pub fn refuse<T>(&mut self, span: Span, message: impl Into<Arc<str>>) -> Option<T> {
-        self.findings.not_understood(span, message);
-        None
     }
 }

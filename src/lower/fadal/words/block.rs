@@ -1,34 +1,20 @@
 //! NC blocks: R assignments, codes, words, and what they do to the flow.
 
 use super::motion::{Move, is_arc};
-use super::program::Lowering;
-use super::steps::{FIRST_FIXED, LWord, Step, l_word, steps};
+use super::reading::Reading;
 use super::value::is_zero;
-use super::words::{Codes, is_code, word};
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{CodeMeaning, Question};
+use crate::dialect::Question;
 use crate::ir::{Argument, Class, Expr, Nc, NcItem, Place, StmtKind, Var};
 use crate::lower::common::{constant, says_something};
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::codes::{Codes, FIRST_FIXED, LWord, Step, is_code, l_word, steps, word};
 use crate::syntax::{self, Index, Item, ItemKind, VarRef, Word};
 use crate::text::Span;
 
 /// The L of G10 that writes R0.
 const FIRST_WRITTEN: u32 = 100;
-
-/// A block while it is read.
-pub(super) struct Reading<'b, 'c> {
-    /// The codes of the block.
-    pub(super) codes: &'c Codes<'b, 'b>,
-    /// The motion mode that gives letters their roles.
-    modal: Option<&'b CodeMeaning>,
-    /// What the block's own variables were set to.
-    pub(super) assigned: Vec<(Var, Span)>,
-    /// The variables that its words read.
-    pub(super) read: Vec<Var>,
-    pub(super) items: Vec<NcItem>,
-    pub(super) span: Span,
-}
 
 impl<'b> Lowering<'b> {
     /// An NC block; none if something in it is not understood, which is then reported.

@@ -1,9 +1,9 @@
 //! The parts of a program's text: subroutines at its head, the main part, jump targets.
 
-use super::steps::{FIRST_FIXED, Step, steps};
-use super::words::Codes;
+use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::lower::common::says_something;
+use crate::lower::fadal::codes::{Codes, FIRST_FIXED, Step, operand, program_number, steps};
 use crate::syntax::{Block, Item, ItemKind, Label, Target, for_each_item};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
@@ -76,10 +76,10 @@ impl Shape {
             });
             let codes = Codes::new(&block.items, control);
             let steps = steps(&block.items, &codes);
-            if let Some(goal) = super::calls::return_goal(&block.items, &codes) {
+            if let Some(goal) = return_goal(&block.items, &codes) {
                 wanted.insert(goal);
             }
-            any_sequence |= super::calls::returns_computed(&block.items, &codes);
+            any_sequence |= returns_computed(&block.items, &codes);
             flows |= !steps.is_empty();
             if at_head && let Some(number) = defines(&block.items, &steps) {
                 shape.numbers.entry(number).or_insert(shape.subs.len());
@@ -174,6 +174,20 @@ impl Shape {
         let place = self.subs.partition_point(|sub| sub.blocks.end <= at);
         self.subs.get(place).filter(|sub| sub.blocks.contains(&at)).map(|_| place)
     }
+}
+
+/// Where `M99 P10` goes.
+pub fn return_goal(items: &[Item], codes: &Codes<'_, '_>) -> Option<Goal> {
+    if !codes.has(Op::Return) {
+        return None;
+    }
+    operand(items, codes, Role::Sequence).and_then(program_number).map(Goal::Sequence)
+}
+
+/// True for `M99 P+R2`, which goes to the block that the number names.
+pub fn returns_computed(items: &[Item], codes: &Codes<'_, '_>) -> bool {
+    let to = || operand(items, codes, Role::Sequence);
+    codes.has(Op::Return) && to().is_some_and(|to| program_number(to).is_none())
 }
 
 /// The goal that a sequence number is.

@@ -1,11 +1,11 @@
 //! Expressions of macro lines.
 
-use super::program::Lowering;
-use super::state::DEFAULT_PLACES;
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, Expr};
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::flow::DEFAULT_PLACES;
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
 use thin_vec::ThinVec;

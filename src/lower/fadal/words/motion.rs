@@ -1,10 +1,10 @@
 //! How a block moves when it does not say so itself.
 
-use super::program::Lowering;
-use super::words::{Codes, thousandths};
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question};
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::codes::{Codes, thousandths};
 use crate::syntax::Word;
 use crate::text::Span;
 
@@ -43,11 +43,6 @@ impl<'b> Lowering<'b> {
         }
         let row = |code: &u32| if *code == 0 { None } else { codes.modal(*code) };
         cycles.iter().any(|code| codes.role(word.letter, word.comma, row(code)) != Ok(Some(role)))
-    }
-
-    /// True where a drilling cycle may be active before the block.
-    pub fn in_cycle(&self) -> bool {
-        self.state.cycle.list().iter().any(|code| *code != 0)
     }
 
     /// The operation to write before the words of a block, and whether the arc code of the

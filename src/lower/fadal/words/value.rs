@@ -1,13 +1,12 @@
 //! The values of NC words.
 
-use super::expr::negate;
-use super::program::Lowering;
-use super::variable::piecewise;
 use crate::canon::Role;
 use crate::diag::Code;
 use crate::dialect::{BareLength, CodeMeaning, Question, Row};
 use crate::ir::Expr;
 use crate::lower::common::constant;
+use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::macros::{negate, piecewise};
 use crate::syntax::{self, ExprKind, Number};
 use crate::text::Span;
 

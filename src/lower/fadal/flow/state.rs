@@ -1,6 +1,5 @@
 //! The modal state that the meaning of later blocks depends on.
 
-use super::exit_modes::Motion;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::syntax::{Block, ItemKind, SetOption, for_each_item};
 
@@ -215,6 +214,55 @@ impl State {
             self.cycle = Values::one(code);
             self.after_cycle = code == 0;
             self.resumed = interpolation.is_none();
+        }
+    }
+}
+
+/// The motion modes that a program leaves to its caller.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// The interpolation.
+    codes: Values<u32>,
+    /// True where the caller's may still be in force.
+    callers: bool,
+    /// True where another program may have set it, of which nothing is known.
+    unknown: bool,
+    cycle: Values<u32>,
+    after_cycle: bool,
+    resumed: bool,
+}
+
+impl Motion {
+    /// Those of the state at its return.
+    pub fn of(state: State) -> Self {
+        Self {
+            codes: state.motion,
+            callers: state.motion_entry,
+            unknown: state.motion_called,
+            cycle: state.cycle,
+            after_cycle: state.after_cycle,
+            resumed: state.resumed,
+        }
+    }
+
+    /// Lets the caller go on in it.
+    pub fn give(&self, state: &mut State) {
+        if self.callers {
+            state.motion.join(&self.codes);
+            // A cycle goes on if the program touches neither it nor the motion mode, which would end it.
+            let sets_motion = self.codes.is_any() || !self.codes.list().is_empty();
+            if sets_motion || self.after_cycle || self.cycle.is_any() || self.cycle.list() != [0] {
+                state.cycle.join(&self.cycle);
+            }
+            state.motion_called |= self.unknown;
+            state.after_cycle |= self.after_cycle;
+            state.resumed |= self.resumed;
+        } else {
+            state.motion = self.codes.clone();
+            state.cycle = self.cycle.clone();
+            state.motion_entry = false;
+            (state.motion_called, state.after_cycle, state.resumed) =
+                (self.unknown, self.after_cycle, self.resumed);
         }
     }
 }

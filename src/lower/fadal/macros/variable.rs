@@ -1,9 +1,9 @@
 //! Variables and machine state, as they are written.
 
-use super::program::Lowering;
 use crate::canon::{Func, Sys};
 use crate::dialect::{Question, SystemVariable};
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
+use crate::lower::fadal::build::Lowering;
 use crate::syntax::{Index, VarRef};
 
 impl<'b> Lowering<'b> {

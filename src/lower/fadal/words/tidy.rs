@@ -1,9 +1,9 @@
 //! What may stand once in an NC block of the common form stands once.
 
-use super::program::Lowering;
 use crate::canon::{Group, Op, Role};
 use crate::dialect::Question;
 use crate::ir::{Expr, NcItem};
+use crate::lower::fadal::build::Lowering;
 use crate::text::Span;
 
 impl<'b> Lowering<'b> {

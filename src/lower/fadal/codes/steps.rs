@@ -1,6 +1,6 @@
 //! What an NC block does to the flow of control, in the order it is written in.
 
-use super::words::{Codes, word};
+use super::block_codes::{Codes, word};
 use crate::canon::{Op, Role};
 use crate::lower::common::constant;
 use crate::syntax::{Expr, ExprKind, Index, Item};
@@ -104,4 +104,10 @@ pub fn parametric(value: &Expr) -> Option<(u32, bool)> {
         },
         _ => None,
     }
+}
+
+/// The number of a program that is named by a constant.
+pub fn program_number(value: &Expr) -> Option<u32> {
+    let number = constant(value)?;
+    (number.fract() == 0.0 && (0.0..=9_999_999.0).contains(&number)).then_some(number as u32)
 }

@@ -1,0 +1,5 @@
+//! A program from its first block to its last.
+
+mod blocks;
+
+pub use blocks::lower;
