@@ -1,14 +1,17 @@
 //! The rules of the house, as `docs/ARCHITECTURE.md` states them.
 
+#[path = "support/files.rs"]
+mod files;
 #[path = "support/imports.rs"]
 mod imports;
 mod support;
 
+use files::files;
 use imports::{imports, module_of};
 use macroglot::dialect::registry;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
-use support::{rust_files, text};
+use support::{root, rust_files, text};
 
 /// The rooms from left to right: none imports from one further right. `dialect::registry` stands
 /// outside, because it is the list of what each dialect has in every room.
@@ -242,6 +245,85 @@ fn nothing_in_src_panics_by_choice() {
     assert!(found.is_empty(), "src may not panic:\n{}", found.join("\n"));
 }
 
+/// Lines among which all dialects stand where a file lists them.
+const ROW: usize = 7;
+
+/// `docs/add-a-dialect.md` names every file and folder that dialects have by their names, and every file that lists them.
+#[test]
+fn the_page_of_steps_names_every_place_of_a_dialect() {
+    let page = text("docs/add-a-dialect.md");
+    let list = page.split_once("## Every place").expect("the page has the list").1;
+    let told: BTreeSet<&str> = list
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|place| place.contains('/') || *place == "macroglot.toml")
+        .collect();
+    let names: Vec<&str> = registry::all().iter().map(|entry| entry.name).collect();
+    let mut places: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
+    for path in tracked() {
+        for name in &names {
+            if let Some(place) = place_of(&path, name) {
+                places.entry(place).or_default().insert(name);
+            }
+        }
+    }
+    let shared = places.iter().filter(|(_, of)| of.len() > 1).map(|(place, _)| place.clone());
+    let lists = tracked().into_iter().filter(|path| lists_all(path, &names));
+    let missing: Vec<String> = shared.chain(lists).filter(|place| !told.contains(place.as_str())).collect();
+    assert!(missing.is_empty(), "docs/add-a-dialect.md does not name:\n{}", missing.join("\n"));
+    let is_there = |place: &str| places.contains_key(place) || root().join(place).exists();
+    let gone: Vec<&str> = told.into_iter().filter(|place| !is_there(place)).collect();
+    assert!(gone.is_empty(), "docs/add-a-dialect.md names what is not there: {gone:?}");
+}
+
+/// The place that a path is for any dialect: `grammar/NAME.pest`, or a module whether it is a file or a folder.
+fn place_of(path: &str, name: &str) -> Option<String> {
+    let is_word = |sign: Option<char>| sign.is_some_and(char::is_alphanumeric);
+    let mut all = path.match_indices(name).map(|(at, _)| at);
+    let at = all.find(|at| {
+        let (before, after) = (&path[..*at], &path[at + name.len()..]);
+        !is_word(before.chars().next_back()) && !is_word(after.chars().next())
+    })?;
+    let (before, after) = (&path[..at], &path[at + name.len()..]);
+    let is_folder = after.starts_with('/') || path.starts_with("src/");
+    // What is named for a machine or a pair is one of many.
+    (!after.starts_with('-') && !before.ends_with('-'))
+        .then(|| format!("{before}NAME{}", if is_folder { "" } else { after }))
+}
+
+/// True for a file of code or settings in which all dialects stand among a few lines.
+fn lists_all(path: &str, names: &[&str]) -> bool {
+    let is_code = [".rs", ".toml", ".py", "README.md"].iter().any(|ending| path.ends_with(ending))
+        || path.starts_with(".ci/");
+    let is_inside = path.contains('/') || path == "macroglot.toml";
+    if !is_code || !is_inside || is_test(path) || path == "tests/architecture.rs" {
+        return false;
+    }
+    let source = without_tests(&text(path));
+    let lines: Vec<&str> = source.lines().collect();
+    lines.windows(ROW.min(lines.len().max(1))).any(|row| {
+        names.iter().all(|name| {
+            row.iter().any(|line| line.split(|sign: char| !sign.is_alphanumeric()).any(|word| word == *name))
+        })
+    })
+}
+
+/// The files of the repository that a person keeps.
+fn tracked() -> Vec<String> {
+    const FOLDERS: &[&str] =
+        &[".ci", "benches", "corpus", "dialects", "fuzz", "grammar", "machines", "src", "tests"];
+    let kept = |folder: &&str| {
+        let inside = files(&root().join(folder)).into_keys();
+        inside.map(|name| format!("{folder}/{name}")).collect::<Vec<_>>()
+    };
+    let found = FOLDERS.iter().flat_map(kept).chain(["macroglot.toml".to_owned()]);
+    let made = ["fuzz/corpus/", "fuzz/artifacts/", "fuzz/target/"];
+    found
+        .filter(|path| !made.iter().any(|folder| path.starts_with(folder)) && !path.contains("__pycache__"))
+        .collect()
+}
+
 /// The rules themselves see what they are for.
 #[test]
 fn the_rules_have_teeth() {
@@ -259,6 +341,9 @@ fn the_rules_have_teeth() {
     for literal in ["if", "V is", "NO.", "{name}(..)", "IO7"] {
         assert!(!spells(literal, &sigils, &statements), "{literal}");
     }
+    assert_eq!(place_of("src/emit/haas.rs", "haas").as_deref(), Some("src/emit/NAME"));
+    assert_eq!(place_of("grammar/haas.pest", "haas").as_deref(), Some("grammar/NAME.pest"));
+    assert!(place_of("tests/conversions/fanuc-haas.txt", "haas").is_none());
     assert!(declares("pub mod fadal;", "fadal") && !declares("use super::fadal;", "fadal"));
     let tree = "use super::super::b::{C, d::{self, E}};\nlet x = crate::f::g(self::h::I, $crate::no);";
     let all = imports("src/a/k/l.rs", tree);
