@@ -161,7 +161,7 @@ pub fn targets(job: &Job, conversion: &Conversion) -> Vec<Option<PathBuf>> {
 
 /// Draws the findings at their source, on standard error.
 pub fn draw(part: &Part<'_>) {
-    let mut drawings: Option<(usize, Drawings)> = None;
+    let mut drawings: Option<(usize, Drawings<'_>)> = None;
     for program in &part.conversion.programs {
         for diagnostic in &program.diagnostics {
             let (file, input) = (program.file, &part.inputs[program.file]);
@@ -175,7 +175,7 @@ pub fn draw(part: &Part<'_>) {
     tell_left_out(drawings);
 }
 
-fn tell_left_out(drawings: Option<(usize, Drawings)>) {
+fn tell_left_out(drawings: Option<(usize, Drawings<'_>)>) {
     if let Some(told) = drawings.and_then(|(_, drawings)| drawings.left_out()) {
         remark(format!("{told}; `--report FILE.json` has all"));
     }

@@ -15,28 +15,30 @@ const OF_A_FILE: usize = 500;
 /// A file on which findings are drawn until there are too many of a kind; from there on they are counted.
 ///
 /// The bounds are those of each code, so that no finding hides one of another kind.
-pub struct Drawings {
-    sheet: Sheet,
+pub struct Drawings<'b> {
+    sheet: Sheet<'b>,
     of_lines: HashMap<(usize, Code), usize>,
     of_file: BTreeMap<Code, usize>,
     left_out: BTreeMap<Code, usize>,
 }
 
-impl Drawings {
+impl<'b> Drawings<'b> {
     /// The file of this name.
-    pub fn new(name: &str, bytes: &[u8]) -> Self {
+    pub fn new(name: &str, bytes: &'b [u8]) -> Self {
         let sheet = Sheet::new(name, bytes);
         Self { sheet, of_lines: HashMap::new(), of_file: BTreeMap::new(), left_out: BTreeMap::new() }
     }
 
     /// A finding, drawn; none if it is counted alone.
     pub fn draw(&mut self, finding: &Diagnostic) -> Option<String> {
-        let of_line = self.of_lines.entry((self.sheet.line(finding), finding.code)).or_default();
         let of_file = self.of_file.entry(finding.code).or_default();
-        if *of_line >= OF_A_LINE || *of_file >= OF_A_FILE {
+        // The lines of those that are counted alone need not be known.
+        let of_line = (*of_file < OF_A_FILE)
+            .then(|| self.of_lines.entry((self.sheet.line(finding), finding.code)).or_default());
+        let Some(of_line) = of_line.filter(|of_line| **of_line < OF_A_LINE) else {
             *self.left_out.entry(finding.code).or_default() += 1;
             return None;
-        }
+        };
         *of_line += 1;
         *of_file += 1;
         Some(self.sheet.draw(finding))

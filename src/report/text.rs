@@ -11,23 +11,54 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 /// A source file to draw diagnostics on.
-pub struct Sheet {
-    source: Arc<Lines>,
+pub struct Sheet<'b> {
+    name: String,
+    bytes: &'b [u8],
+    starts: Arc<Starts>,
     handler: GraphicalReportHandler,
 }
 
-/// The text of a file that is found by its lines: a place costs what stands around it, not what stands before it.
+/// Where each line of a file begins.
+struct Starts(Vec<u32>);
+
+impl Starts {
+    fn of(bytes: &[u8]) -> Self {
+        // A CR alone ends a line too.
+        let ends = |at: &usize| bytes[*at] == b'\n' || bytes.get(at + 1) != Some(&b'\n');
+        let ends = || memchr::memchr2_iter(b'\n', b'\r', bytes).filter(ends);
+        let mut starts = Vec::with_capacity(1 + ends().count());
+        starts.push(0);
+        starts.extend(ends().map(|at| at as u32 + 1));
+        Self(starts)
+    }
+
+    /// The line of an offset, from 0.
+    fn line(&self, offset: usize) -> usize {
+        self.0.partition_point(|start| *start as usize <= offset).saturating_sub(1)
+    }
+
+    fn get(&self, line: usize) -> Option<usize> {
+        self.0.get(line).map(|start| *start as usize)
+    }
+}
+
+/// What stands about a place of a file that is found by its lines, as it is drawn.
 struct Lines {
     name: String,
-    text: String,
-    /// Where each line begins.
-    starts: Vec<usize>,
+    /// The bytes of the file from `first` on.
+    text: Vec<u8>,
+    first: usize,
+    /// The length of the file.
+    length: usize,
+    starts: Arc<Starts>,
 }
 
 impl Lines {
-    /// The line of an offset, from 0.
-    fn line(&self, offset: usize) -> usize {
-        self.starts.partition_point(|start| *start <= offset).saturating_sub(1)
+    /// Bytes of the file, as they are drawn.
+    fn part(&self, start: usize, end: usize) -> Result<&[u8], MietteError> {
+        let at = |offset: usize| offset.checked_sub(self.first);
+        let part = at(start).zip(at(end)).and_then(|(start, end)| self.text.get(start..end));
+        part.ok_or(MietteError::OutOfBounds)
     }
 
     /// What stands about a place on its line, and no other line: a line may have as many places as bytes.
@@ -36,12 +67,12 @@ impl Lines {
         span: &SourceSpan,
         before: bool,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let line = self.line(span.offset());
-        let first = self.starts.get(line).copied().unwrap_or(0);
-        let last = self.starts.get(line + 1).map_or(self.text.len(), |next| next - 1);
+        let line = self.starts.line(span.offset());
+        let first = self.starts.get(line).unwrap_or(0);
+        let last = self.starts.get(line + 1).map_or(self.length, |next| next - 1);
         let start = if before { span.offset().saturating_sub(ABOUT).max(first) } else { span.offset() };
         let end = span.offset().saturating_add(span.len().saturating_add(ABOUT)).min(last).max(start);
-        let data = self.text.as_bytes().get(start..end).ok_or(MietteError::OutOfBounds)?;
+        let data = self.part(start, end)?;
         let at = SourceSpan::from((start, data.len()));
         let name = self.name.clone();
         Ok(Box::new(MietteSpanContents::new_named(name, data, at, line, start - first, 1)))
@@ -62,14 +93,14 @@ impl SourceCode for Lines {
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         // An empty place at the start of a line is looked for from the end of the one before.
-        let first = self.line(span.offset()).saturating_sub(before + 1);
-        let start = self.starts.get(first).copied().unwrap_or(0);
-        let last = self.line(span.offset().saturating_add(span.len())).saturating_add(after + 2);
-        let end = self.starts.get(last).copied().unwrap_or(self.text.len());
-        let around = self.text.as_bytes().get(start..end).ok_or(MietteError::OutOfBounds)?;
-        if around.len() > LONG {
+        let first = self.starts.line(span.offset()).saturating_sub(before + 1);
+        let start = self.starts.get(first).unwrap_or(0);
+        let last = self.starts.line(span.offset().saturating_add(span.len())).saturating_add(after + 2);
+        let end = self.starts.get(last).unwrap_or(self.length);
+        if end.saturating_sub(start) > LONG {
             return self.window(span, before > 0);
         }
+        let around = self.part(start, end)?;
         let inside = SourceSpan::from((span.offset().saturating_sub(start), span.len()));
         let (at, line, column, count) = {
             let found = around.read_span(&inside, before, after)?;
@@ -82,40 +113,38 @@ impl SourceCode for Lines {
     }
 }
 
-impl Sheet {
-    /// The file of this name. Bytes that are no ASCII are drawn as `?`, so that columns stay.
-    pub fn new(name: &str, bytes: &[u8]) -> Self {
-        // Line ends other than LF would be drawn as part of the line; NUL draws as nothing.
-        let draw = |(at, &byte): (usize, &u8)| match byte {
-            b'\r' if bytes.get(at + 1) == Some(&b'\n') => ' ',
-            b'\r' => '\n',
-            b'\n' | b'\t' => byte as char,
-            0x20..=0x7e => byte as char,
-            _ => '?',
-        };
-        let text: String = bytes.iter().enumerate().map(draw).collect();
-        let starts =
-            [0].into_iter().chain(memchr::memchr_iter(b'\n', text.as_bytes()).map(|at| at + 1)).collect();
-        Self { source: Arc::new(Lines { name: shown(name).into(), text, starts }), handler: handler() }
+impl<'b> Sheet<'b> {
+    /// The file of this name.
+    pub fn new(name: &str, bytes: &'b [u8]) -> Self {
+        let starts = Arc::new(Starts::of(bytes));
+        Self { name: shown(name).into(), bytes, starts, handler: handler() }
     }
 
     /// The file's name, as it is drawn.
     pub fn name(&self) -> &str {
-        &self.source.name
+        &self.name
     }
 
     /// The line that a diagnostic begins on, from 0.
     pub fn line(&self, diagnostic: &Diagnostic) -> usize {
-        self.source.line(diagnostic.span.start as usize)
+        self.starts.line(diagnostic.span.start as usize)
+    }
+
+    /// What stands about a place: as much as may be drawn of it.
+    fn about(&self, start: usize, end: usize) -> Lines {
+        let length = self.bytes.len();
+        let (first, last) = (start.saturating_sub(LONG), end.saturating_add(LONG).min(length));
+        let text = (first..last).map(|at| drawn(self.bytes, at)).collect();
+        Lines { name: self.name.clone(), text, first, length, starts: Arc::clone(&self.starts) }
     }
 
     /// A diagnostic, drawn.
     pub fn draw(&self, diagnostic: &Diagnostic) -> String {
-        let (span, text) = (diagnostic.span, &self.source.text);
-        let start = (span.start as usize).min(text.len());
+        let (span, length) = (diagnostic.span, self.bytes.len());
+        let start = (span.start as usize).min(length);
         // Only the first line of a place is drawn.
-        let end = (span.end as usize).clamp(start, text.len());
-        let end = start + text[start..end].find('\n').unwrap_or(end - start).min(4 * ABOUT);
+        let next = self.starts.get(self.starts.line(start) + 1).map_or(length, |next| next - 1);
+        let end = (span.end as usize).clamp(start, length).min(next.max(start)).min(start + 4 * ABOUT);
         let severity = match diagnostic.severity() {
             Severity::Error => miette::Severity::Error,
             Severity::Review => miette::Severity::Warning,
@@ -128,12 +157,23 @@ impl Sheet {
         if let Some(help) = &diagnostic.help {
             drawn = drawn.with_help(shown_lines(help));
         }
-        let report = Report::new(drawn).with_source_code(Arc::clone(&self.source));
+        let report = Report::new(drawn).with_source_code(self.about(start, end));
         let mut out = String::new();
         match self.handler.render_report(&mut out, report.as_ref()) {
             Ok(()) => out,
-            Err(_) => format!("{}: {}: {}\n", self.source.name, diagnostic.code.number(), diagnostic.message),
+            Err(_) => format!("{}: {}: {}\n", self.name, diagnostic.code.number(), diagnostic.message),
         }
+    }
+}
+
+/// A byte of a file, as it is drawn: bytes that are no ASCII as `?`, so that columns stay.
+fn drawn(bytes: &[u8], at: usize) -> u8 {
+    // Line ends other than LF would be drawn as part of the line; NUL draws as nothing.
+    match bytes[at] {
+        b'\r' if bytes.get(at + 1) == Some(&b'\n') => b' ',
+        b'\r' => b'\n',
+        byte @ (b'\n' | b'\t' | 0x20..=0x7e) => byte,
+        _ => b'?',
     }
 }
 
@@ -278,7 +318,7 @@ mod tests {
         for (start, length) in (0..=text.len()).flat_map(|at| (0..=text.len() - at).map(move |n| (at, n))) {
             for (before, after) in [(0, 0), (1, 1), (2, 0), (0, 3), (9, 9)] {
                 let span = SourceSpan::from((start, length));
-                let ours = told(sheet.source.read_span(&span, before, after));
+                let ours = told(sheet.about(start, start + length).read_span(&span, before, after));
                 assert_eq!(ours, told(text.read_span(&span, before, after)), "{span:?} {before} {after}");
             }
         }
