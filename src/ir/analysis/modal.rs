@@ -196,8 +196,9 @@ impl Modal {
 
     /// Takes the effect of a block's codes, without that of a modal call that its move makes.
     pub(crate) fn step_words(&mut self, nc: &Nc) {
-        let mut feed = None;
+        let (mut feed, mut bare) = (None, true);
         for item in &nc.items {
+            bare &= matches!(item, NcItem::Word(role, _) if !matches!(role, Role::LengthOffset | Role::Tool));
             match item {
                 NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
                 // A computed code may be any of its letter.
@@ -206,8 +207,11 @@ impl Modal {
                 NcItem::Code(..) | NcItem::Word(..) => {}
             }
         }
-        self.step_length(nc);
-        self.tool_word = self.tool_word.after(nc);
+        // Most blocks only say where to: neither codes, nor a length, nor a tool.
+        if !bare {
+            self.step_length(nc);
+            self.tool_word = self.tool_word.after(nc);
+        }
         self.step_tap(nc);
         // After the unit and the feed mode, which it counts in, wherever they stand.
         if let Some(feed) = feed {

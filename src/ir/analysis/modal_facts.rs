@@ -275,14 +275,14 @@ pub fn replace_statements(
     facts: &ModalFacts,
     mut change: impl FnMut(usize, &mut Modal, Stmt, &mut Vec<Stmt>),
 ) {
+    // Most blocks get as many statements as they had, so that each stays where it is in memory.
+    let mut out = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for stmt in std::mem::take(&mut block.stmts) {
-                change(index, &mut state, stmt, &mut out);
-            }
-            block.stmts = out;
+            block.stmts.drain(..).for_each(|stmt| change(index, &mut state, stmt, &mut out));
+            block.stmts.reserve_exact(out.len());
+            block.stmts.append(&mut out);
         }
     }
 }

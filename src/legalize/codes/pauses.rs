@@ -61,6 +61,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let (after, started) = (After::of(module, &facts), started(module));
     let holds = Features::of(&module.programs).op(Op::SpindleOrient);
+    let mut out = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
@@ -74,8 +75,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 holds,
                 after: &after,
             };
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for (number, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
+            for (number, stmt) in block.stmts.drain(..).enumerate() {
                 let pause = pause_of(&stmt.kind);
                 place.state.step(&stmt);
                 place.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
@@ -100,7 +100,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
                 }
             }
-            block.stmts = out;
+            block.stmts.reserve_exact(out.len());
+            block.stmts.append(&mut out);
         }
     }
 }
