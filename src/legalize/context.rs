@@ -63,13 +63,41 @@ pub struct Context<'a> {
 #[derive(Debug, Default)]
 struct Findings {
     by_program: Vec<Vec<Diagnostic>>,
-    said: BTreeSet<(usize, String)>,
+    /// What was said once, by program.
+    said: HashSet<(usize, u32)>,
+    /// The number of each fact that something is said of once.
+    facts: HashMap<Box<str>, u32>,
+    /// Texts that were said before: a library has few, many times over.
+    texts: HashSet<Arc<str>>,
+}
+
+impl Findings {
+    fn add(&mut self, origin: usize, mut diagnostic: Diagnostic) {
+        let Some(findings) = self.by_program.get_mut(origin) else { return };
+        for text in [Some(&mut diagnostic.message), diagnostic.help.as_mut()].into_iter().flatten() {
+            match self.texts.get(text) {
+                Some(same) => *text = Arc::clone(same),
+                None => drop(self.texts.insert(Arc::clone(text))),
+            }
+        }
+        findings.push(diagnostic);
+    }
+
+    /// True the first time for a program and a fact.
+    fn say(&mut self, origin: usize, fact: &str) -> bool {
+        let next = self.facts.len() as u32;
+        let number = match self.facts.get(fact) {
+            Some(number) => *number,
+            None => *self.facts.entry(fact.into()).or_insert(next),
+        };
+        self.said.insert((origin, number))
+    }
 }
 
 impl<'a> Context<'a> {
     /// A context without findings, for a library of so many programs.
     pub fn new(source: &'a Control, target: &'a Control, programs: usize) -> Self {
-        let findings = Findings { by_program: vec![Vec::new(); programs], said: BTreeSet::new() };
+        let findings = Findings { by_program: vec![Vec::new(); programs], ..Findings::default() };
         let (rested, facts) = Default::default();
         Self {
             source,
@@ -129,9 +157,7 @@ impl<'a> Context<'a> {
     /// Adds a finding to a program.
     pub fn add(&mut self, program: usize, diagnostic: Diagnostic) {
         let origin = self.origins.get(program).copied().unwrap_or(program);
-        if let Some(findings) = self.findings.by_program.get_mut(origin) {
-            findings.push(diagnostic);
-        }
+        self.findings.add(origin, diagnostic);
     }
 
     /// True where lowering found an error within a place: what the module lacks there the source may have.
@@ -154,7 +180,7 @@ impl<'a> Context<'a> {
     /// a reviewer must check once is said once.
     pub fn add_once(&mut self, program: usize, fact: &str, diagnostic: Diagnostic) {
         let origin = self.origins.get(program).copied().unwrap_or(program);
-        if self.findings.said.insert((origin, fact.to_owned())) {
+        if self.findings.say(origin, fact) {
             self.add(program, diagnostic);
         }
     }

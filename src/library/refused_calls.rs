@@ -10,6 +10,7 @@ use crate::legalize::{calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A call that the conversion of a program of the source makes.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +83,8 @@ pub(super) fn report(links: &[Link], found: &mut [Vec<Diagnostic>]) {
         return;
     }
     let mut told = BTreeSet::new();
+    // A program may have many callers.
+    let mut texts: BTreeMap<(usize, bool), Arc<str>> = BTreeMap::new();
     let mut changed = true;
     while std::mem::take(&mut changed) {
         for link in links {
@@ -89,15 +92,15 @@ pub(super) fn report(links: &[Link], found: &mut [Vec<Diagnostic>]) {
             if !refused.contains(at) || !told.insert((link.caller, *at, *made)) {
                 continue;
             }
-            let (code, what) = if *made {
-                changed |= refused.insert(link.caller);
-                (Code::NoEquivalent, format!("calls a copy of {name}, which is refused"))
-            } else {
-                let what =
-                    format!("{name} is refused: put a program {name} that does the same on the target");
-                (Code::OutsideLibrary, what)
-            };
-            found[link.caller].push(Diagnostic::new(code, link.span, what));
+            let what = texts.entry((*at, *made)).or_insert_with(|| match made {
+                true => format!("calls a copy of {name}, which is refused").into(),
+                false => {
+                    format!("{name} is refused: put a program {name} that does the same on the target").into()
+                }
+            });
+            let code = if *made { Code::NoEquivalent } else { Code::OutsideLibrary };
+            changed |= *made && refused.insert(link.caller);
+            found[link.caller].push(Diagnostic::new(code, link.span, Arc::clone(what)));
         }
     }
 }
