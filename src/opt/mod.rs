@@ -11,6 +11,7 @@ mod branches;
 mod copy_propagation;
 mod dead_stores;
 mod fold;
+mod list;
 mod pass;
 #[cfg(test)]
 mod random;
@@ -22,7 +23,8 @@ pub use copy_propagation::CopyPropagation;
 pub use dead_stores::DeadStores;
 pub use fold::Fold;
 pub use fold::fold;
-pub use pass::{Level, Library, PASSES, Pass, find, run};
+pub use list::{PASSES, find};
+pub use pass::{Level, Library, Pass, run};
 pub use retarget::Retarget;
 pub use unreachable::Unreachable;
 

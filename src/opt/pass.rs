@@ -1,7 +1,5 @@
 //! Passes, and what runs them.
 
-use super::{branches::Branches, copy_propagation::CopyPropagation, dead_stores::DeadStores, fold::Fold};
-use super::{retarget::Retarget, unreachable::Unreachable};
 use crate::ir::analysis::{Summaries, Ways};
 use crate::ir::validate::Invalid;
 use crate::ir::{Module, Program, Var, validate};
@@ -62,14 +60,6 @@ pub trait Pass: Sync {
 
     /// Rewrites a program, at `level` above [`Level::O0`].
     fn run(&self, program: &mut Program, library: &Library, level: Level);
-}
-
-/// All passes, in the order in which they run.
-pub const PASSES: &[&dyn Pass] = &[&CopyPropagation, &Fold, &Retarget, &Branches, &Unreachable, &DeadStores];
-
-/// The pass of a name.
-pub fn find(name: &str) -> Option<&'static dyn Pass> {
-    PASSES.iter().copied().find(|pass| pass.name() == name)
 }
 
 /// Runs passes on every program, each with what the library was before the first of them.

@@ -3,7 +3,7 @@
 //! Angles are degrees. Where the true result is a rational number it comes out exactly
 //! (the sine of 30 is 0.5), so that a program that compares it behaves alike everywhere.
 
-use super::{Alarm, AtanRange, Env};
+use super::env::{Alarm, AtanRange, Env};
 use crate::canon::Func;
 
 pub(super) fn call(func: Func, arguments: &[f64], env: &dyn Env) -> Result<f64, Alarm> {

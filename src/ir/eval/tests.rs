@@ -1,7 +1,7 @@
 //! Values come from the makers' texts (`corpus`) and from arithmetic on paper.
 
 use super::*;
-use crate::ir::Class;
+use crate::ir::{Class, Var};
 
 fn call(func: Func, arguments: &[f64]) -> Result<f64, Alarm> {
     function(func, arguments, &Memory::new())

@@ -10,15 +10,9 @@ use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
-use crate::legalize::codes::pauses::pause_of;
+use crate::legalize::codes::pauses::{AFTER_CALL, pause_of};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal, replace_statements};
-
-/// Why what acts after a move cannot have a block of its own where that move runs a modal call.
-pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force, and this block does something \
-                                                  after its move: on the target that would come after the \
-                                                  call. Put it into a block before the move, or after the \
-                                                  end of the modal call";
 
 /// True where anything stands that may stand beside a move.
 pub fn concerns(features: &Features) -> bool {

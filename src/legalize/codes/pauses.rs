@@ -14,12 +14,17 @@ use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
-use crate::legalize::codes::beside_moves::AFTER_CALL;
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
 use std::collections::BTreeSet;
+
+/// Why what acts after a move cannot have a block of its own where that move runs a modal call.
+pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force, and this block does something \
+                                                  after its move: on the target that would come after the \
+                                                  call. Put it into a block before the move, or after the \
+                                                  end of the modal call";
 
 /// True where something that may be running is started, or runs from the start: in a piece of a program.
 pub fn concerns(features: &Features, entry: &Modal) -> bool {

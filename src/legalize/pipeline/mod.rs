@@ -15,7 +15,7 @@ use super::features::Features;
 use crate::ir::validate::Invalid;
 use crate::ir::{Module, validate};
 use crate::opt;
-use pass::Run;
+use pass::{Run, each};
 
 /// Passes that stand together because they are about the same thing.
 pub struct Group {
@@ -153,24 +153,6 @@ fn run_together(
         *fresh = true;
     }
     Ok(())
-}
-
-/// Takes each program through passes that look at one alone, and counts anew what stands in the library; true
-/// if they changed anything.
-fn each(passes: &[&Pass], module: &mut Module, context: &mut Context<'_>) -> bool {
-    let (mut all, mut any) = (Features::default(), false);
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut features = Features::of(std::slice::from_ref(program));
-        for pass in passes {
-            let Run::Each(run) = pass.run else { continue };
-            if (pass.concerns)(&features, context) && run(program, index, context) {
-                (features, any) = (Features::of(std::slice::from_ref(program)), true);
-            }
-        }
-        all.add_all(&features);
-    }
-    context.features = all;
-    any
 }
 
 #[cfg(test)]

@@ -176,7 +176,25 @@ impl Pass {
                 true
             }
             Run::Edits(run) => run(module, context),
-            Run::Each(_) => super::each(&[self], module, context),
+            Run::Each(_) => each(&[self], module, context),
         }
     }
+}
+
+/// Takes each program through passes that look at one alone, and counts anew what stands in the library; true
+/// if they changed anything.
+pub(super) fn each(passes: &[&Pass], module: &mut Module, context: &mut Context<'_>) -> bool {
+    let (mut all, mut any) = (Features::default(), false);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut features = Features::of(std::slice::from_ref(program));
+        for pass in passes {
+            let Run::Each(run) = pass.run else { continue };
+            if (pass.concerns)(&features, context) && run(program, index, context) {
+                (features, any) = (Features::of(std::slice::from_ref(program)), true);
+            }
+        }
+        all.add_all(&features);
+    }
+    context.features = all;
+    any
 }
