@@ -48,6 +48,8 @@ pub struct Rewriter<'a> {
     next_temp: &'a mut u32,
     /// The bytes that the statement came from.
     pub span: Span,
+    /// True in the value of a word or a code, and in the subscripts there.
+    pub in_word: bool,
 }
 
 impl Rewriter<'_> {
@@ -172,8 +174,12 @@ pub fn rewrite_program(program: &mut Program, wanted: Wanted, rewrite: &mut Rewr
     let mut preludes: VecDeque<(usize, usize, Vec<PreStatement>)> = VecDeque::new();
     for (id, block) in program.blocks.iter_mut().enumerate() {
         let mut each = |at: usize, span: Span, walk: &mut dyn FnMut(&mut Each<'_>)| {
-            let mut rewriter = Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span };
-            walk(&mut |e, p| map(e, p, wanted, rewrite, &mut rewriter));
+            let mut rewriter =
+                Rewriter { prelude: Vec::new(), next_temp: &mut next_temp, span, in_word: false };
+            walk(&mut |e, p| {
+                rewriter.in_word = matches!(p, Position::Word(_) | Position::Code);
+                map(e, p, wanted, rewrite, &mut rewriter);
+            });
             if !rewriter.prelude.is_empty() {
                 preludes.push_back((id, at, rewriter.prelude));
             }

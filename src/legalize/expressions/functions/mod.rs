@@ -15,7 +15,7 @@ use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Expr, Program};
-use crate::legalize::{Context, Position, Rewriter, rewrite_program};
+use crate::legalize::{Context, Rewriter, rewrite_program};
 use thin_vec::ThinVec;
 
 /// What became of a function.
@@ -34,11 +34,11 @@ enum Emulated {
 pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let mut found = Vec::new();
     let (source, target) = (context.source, context.target);
-    let changed = rewrite_program(program, is_function, &mut |e, position, rewriter| {
+    let changed = rewrite_program(program, is_function, &mut |e, _, rewriter| {
         let span = rewriter.span;
         let (name, function, emulated) = match e {
             Expr::Call(function, arguments) => {
-                let emulated = call(function, arguments, position, rewriter, source, target);
+                let emulated = call(function, arguments, rewriter, source, target);
                 (function.name(), Some(function), emulated)
             }
             Expr::Binary(BinOp::Mod, operands) if !modulo::is_native(&operands, target) => {
@@ -47,7 +47,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             }
             Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
                 let [a, b] = *operands;
-                ("bits", None, Emulated::Exact(rounding::bits(op, a, b, position, rewriter, target)))
+                ("bits", None, Emulated::Exact(rounding::bits(op, a, b, rewriter, target)))
             }
             other => return other,
         };
@@ -91,18 +91,18 @@ fn is_function(e: &Expr) -> bool {
 fn call(
     function: Func,
     mut arguments: ThinVec<Expr>,
-    position: Position,
     rewriter: &mut Rewriter<'_>,
     source: &Control,
     target: &Control,
 ) -> Emulated {
-    let in_word = matches!(position, Position::Word(_) | Position::Code);
     let keep = target.function(function, arguments.len()).is_some();
     let second = if arguments.len() > 1 { arguments.pop() } else { None };
     let Some(first) = arguments.pop() else { return missing(function.name(), target) };
     match (function, second) {
         // ROUND inside a word is another function on these controls: it stands alone.
-        (Func::Round, None) if in_word && keep => Emulated::Exact(rounding::nearest(first, rewriter, target)),
+        (Func::Round, None) if rewriter.in_word && keep => {
+            Emulated::Exact(rounding::nearest(first, rewriter, target))
+        }
         (Func::RoundIncrement, None)
             if target.behaviour(Question::RoundInAddress).is_some_and(|b| b.value == "increment") =>
         {

@@ -4,7 +4,7 @@ use super::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};
-use crate::legalize::{Position, PreStatement, Rewriter};
+use crate::legalize::{PreStatement, Rewriter};
 
 /// Law: `r = 1`, then `r = -1` where the argument is below zero. Exact; zero counts as positive.
 pub fn sign(a: Expr, rewriter: &mut Rewriter<'_>) -> Emulated {
@@ -47,22 +47,13 @@ pub fn nearest(a: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
 
 /// Law: bit operations round their operands; where the target's do not, or where that is not known,
 /// the operands are rounded before. Exact. Where the target rounds, nothing changes.
-pub fn bits(
-    op: BinOp,
-    a: Expr,
-    b: Expr,
-    position: Position,
-    rewriter: &mut Rewriter<'_>,
-    target: &Control,
-) -> Expr {
+pub fn bits(op: BinOp, a: Expr, b: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
     let rounds = target.behaviour(Question::BitsOfFraction).is_some_and(|row| row.value == "round");
     let mut whole = |e: Expr| match e.constant() {
         _ if rounds || e.is_whole() => e,
         Some(value) => number(value.round()),
-        // ROUND inside a word is another function.
-        None if target.function(Func::Round, 1).is_some() && !matches!(position, Position::Word(_)) => {
-            apply(Func::Round, e)
-        }
+        // ROUND inside a word is another function, in its subscripts too.
+        None if target.function(Func::Round, 1).is_some() && !rewriter.in_word => apply(Func::Round, e),
         None => nearest(e, rewriter, target),
     };
     let (a, b) = (whole(a), whole(b));
