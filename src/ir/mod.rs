@@ -67,7 +67,7 @@ mod walk;
 pub use build::Builder;
 pub use expr::{BinOp, Cond, Expr, Relation};
 pub use stmt::{
-    Argument, Bank, Call, Callee, Nc, NcItem, OutputPart, Place, PrintPart, Remark, SourceInfo, Stmt,
+    Argument, Bank, Call, Callee, Comment, Nc, NcItem, OutputPart, Place, PrintPart, SourceInfo, Stmt,
     StmtKind, TermKind, Terminator,
 };
 pub use validate::{Valid, validate};

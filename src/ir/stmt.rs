@@ -59,7 +59,7 @@ pub struct SourceInfo {
     /// Its sequence number.
     pub sequence: Option<u32>,
     /// Its comments.
-    pub remarks: ThinVec<Remark>,
+    pub comments: ThinVec<Comment>,
     /// Its block-skip level: skipped when that switch is on. On a terminator always absent:
     /// lowering makes a branch on [`Cond::Switch`] of it.
     pub skip: Option<u8>,
@@ -67,7 +67,7 @@ pub struct SourceInfo {
 
 /// A comment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Remark {
+pub struct Comment {
     /// Its text, without its fence.
     pub text: String,
     /// True where it stood before the words of its block.
@@ -87,7 +87,7 @@ pub struct Stmt {
 #[derive(Clone, Debug, PartialEq)]
 pub enum StmtKind {
     /// Nothing; carries comments, or is an empty block.
-    Remark,
+    Comment,
     /// Writes a place.
     Assign {
         /// What is written.

@@ -88,7 +88,7 @@ macro_rules! visitors {
                     }),
                     StmtKind::Input { target, .. } => target.$name(f),
                     StmtKind::LimitLookahead(count) => f(count),
-                    StmtKind::Remark
+                    StmtKind::Comment
                     | StmtKind::ClearAll(_)
                     | StmtKind::ModalCallOff
                     | StmtKind::OpenPort

@@ -43,7 +43,7 @@ fn fill_one(program: &mut Program, hole: Span, code: &str) {
                 return true;
             }
             filled = true;
-            if std::mem::replace(&mut stopped, true) && stmt.site.remarks.is_empty() {
+            if std::mem::replace(&mut stopped, true) && stmt.site.comments.is_empty() {
                 return false;
             }
             let site = std::mem::take(&mut stmt.site);
@@ -52,7 +52,7 @@ fn fill_one(program: &mut Program, hole: Span, code: &str) {
         });
         if touches(block.term.site.span) {
             let site = std::mem::take(&mut block.term.site);
-            if !stopped || !site.remarks.is_empty() {
+            if !stopped || !site.comments.is_empty() {
                 block.stmts.push(Stmt { site, ..alarm(hole) });
             }
             block.term.kind = match &block.term.kind {

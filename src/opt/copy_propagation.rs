@@ -106,6 +106,6 @@ impl Available<'_> {
         if copy.class == Class::Temp {
             return number || matches!(value, Expr::Var(var) if !var.class.nullable() && *var != copy);
         }
-        self.level >= Level::O2 && number && !self.named.contains(&copy) && stmt.site.remarks.is_empty()
+        self.level >= Level::O2 && number && !self.named.contains(&copy) && stmt.site.comments.is_empty()
     }
 }

@@ -81,8 +81,8 @@ fn sweep(program: &mut Program, ways: Ways) -> bool {
     // A comment stays where it was.
     dead.retain(|(id, at)| {
         let stmt = program.blocks.get_mut(id.index()).and_then(|block| block.stmts.get_mut(*at));
-        let Some(stmt) = stmt.filter(|stmt| !stmt.site.remarks.is_empty()) else { return true };
-        stmt.kind = StmtKind::Remark;
+        let Some(stmt) = stmt.filter(|stmt| !stmt.site.comments.is_empty()) else { return true };
+        stmt.kind = StmtKind::Comment;
         false
     });
     drop_statements(program, &dead);

@@ -83,7 +83,7 @@ fn pair(first: &Stmt, second: &Stmt) -> Option<Var> {
     let StmtKind::Assign { target: Place::Var(_), value: Expr::Var(read) } = &second.kind else {
         return None;
     };
-    let free = first.site.remarks.is_empty() && first.site.skip.is_none() && second.site.skip.is_none();
+    let free = first.site.comments.is_empty() && first.site.skip.is_none() && second.site.skip.is_none();
     // Of one source block, or of none.
     let same = first.site.sequence.is_none() || first.site.sequence == second.site.sequence;
     (temp.class == Class::Temp && temp == read && !value.may_be_vacant() && free && same).then_some(*temp)

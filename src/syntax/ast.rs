@@ -312,12 +312,12 @@ pub struct Table {
     /// `COR` or `TRF`, upper case.
     pub name: String,
     /// The row: a word (`T10`, `G54`) or a variable.
-    pub row: Row,
+    pub row: TableRow,
 }
 
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Row {
+pub enum TableRow {
     /// `T10`, `G54`, `G92`, `G20`.
     Word(char, u32),
     /// `V3`.

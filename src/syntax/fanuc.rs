@@ -1,7 +1,9 @@
 //! Fanuc Custom Macro B.
 
 use super::Block;
-use super::macro_b::{self, Keep, ParseCache, Reading, Row, Rules, bits_among_arithmetic, lexemes_of_rules};
+use super::macro_b::{
+    self, Keep, Lexemes, ParseCache, Reading, Rules, bits_among_arithmetic, lexemes_of_rules,
+};
 use crate::text::Span;
 use std::cell::RefCell;
 
@@ -49,6 +51,6 @@ pub fn is_sound(source: &[u8], line: Span) -> bool {
     macro_b::is_sound(&RULES, source, line)
 }
 
-fn read(text: &str, start: u32, row: &mut Row) -> Result<(), Reading> {
+fn read(text: &str, start: u32, row: &mut Lexemes) -> Result<(), Reading> {
     macro_b::read::<Grammar, Rule>(Rule::block, text, start, row)
 }

@@ -223,8 +223,8 @@ fn show_item(item: &Item, line: &str) -> String {
         ItemKind::Timer(variable) => format!("tim({})", show_var(variable)),
         ItemKind::Transfer { table, cells } => {
             let row = match &table.row {
-                Row::Word(letter, number) => format!("{letter}{number}"),
-                Row::Variable(variable) => show_var(variable),
+                TableRow::Word(letter, number) => format!("{letter}{number}"),
+                TableRow::Variable(variable) => show_var(variable),
             };
             let mut out = format!("{}[{row}](", table.name);
             for cell in cells {

@@ -1,6 +1,8 @@
 //! Walks over what a block says.
 
-use super::{Expr, ExprKind, Index, Item, ItemKind, OutputPart, PrintPart, Row, Target, TestSubject, VarRef};
+use super::{
+    Expr, ExprKind, Index, Item, ItemKind, OutputPart, PrintPart, TableRow, Target, TestSubject, VarRef,
+};
 
 /// Calls `visit` on each item, those under IF included, outermost first.
 pub fn for_each_item<'a>(items: &'a [Item], visit: &mut dyn FnMut(&'a Item)) {
@@ -28,7 +30,7 @@ pub fn for_each_expr<'a>(items: &'a [Item], visit: &mut dyn FnMut(&'a Expr)) {
             variable(v, visit);
         }
         ItemKind::Transfer { table, cells } => {
-            if let Row::Variable(v) = &table.row {
+            if let TableRow::Variable(v) = &table.row {
                 variable(v, visit);
             }
             cells.iter().for_each(|cell| variable(&cell.variable, visit));

@@ -5,7 +5,7 @@ use crate::canon::{Op, Role, Sys};
 use crate::control::outcome::Stop;
 use crate::control::session::Flow;
 use crate::dialect::Question;
-use crate::syntax::{Cell, Expr, ExprKind, ItemKind, Label, Row, Table, Target, TestSubject, VarRef};
+use crate::syntax::{Cell, Expr, ExprKind, ItemKind, Label, Table, TableRow, Target, TestSubject, VarRef};
 
 impl Interpreter<'_, '_> {
     /// Runs a statement; true where it jumped.
@@ -112,8 +112,8 @@ impl Interpreter<'_, '_> {
     /// `COR=T10 R=V1`, `TRF=G54 V1=X`.
     fn transfer(&mut self, table: &Table, cell: &Cell) -> Flow<()> {
         let row = match &table.row {
-            Row::Word(_, number) => *number,
-            Row::Variable(variable) => {
+            TableRow::Word(_, number) => *number,
+            TableRow::Variable(variable) => {
                 let place = self.cell(variable)?;
                 let number = self.store.get(place).unwrap_or(0.0);
                 if number.fract() != 0.0 {

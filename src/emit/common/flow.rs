@@ -230,12 +230,12 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
 
 /// True where the statement takes one line that may have a `/` of its branch.
 fn is_skippable(stmt: &Stmt) -> bool {
-    stmt.site.skip.is_none() && !matches!(stmt.kind, StmtKind::Remark)
+    stmt.site.skip.is_none() && !matches!(stmt.kind, StmtKind::Comment)
 }
 
 /// True where nothing was written at the block's end, which is not written either.
 fn is_silent(block: &Block) -> bool {
-    block.term.site.remarks.is_empty() && block.term.site.sequence.is_none()
+    block.term.site.comments.is_empty() && block.term.site.sequence.is_none()
 }
 
 /// Which blocks something goes to by their sequence number.

@@ -1,12 +1,12 @@
 //! Lines: what stands before and after the words of a block.
 
+use super::comments::{spelled, wrap, write_comment, write_spelled};
 use super::digits::write_padded;
 use super::labels::Standing;
-use super::remarks::{spelled, wrap, write_remark, write_spelled};
 use super::sheet::Sheet;
 use crate::diag::Code;
 use crate::dialect::Question;
-use crate::ir::{Cond, Remark, SourceInfo};
+use crate::ir::{Comment, Cond, SourceInfo};
 use crate::text::Span;
 
 /// What a line holds, as far as its comments and its length go.
@@ -29,7 +29,7 @@ pub(in crate::emit) struct Line<'p> {
     head_end: usize,
     body: usize,
     kind: Kind,
-    remarks: Vec<&'p Remark>,
+    comments: Vec<&'p Comment>,
     /// The block that is being written.
     pub block: usize,
     /// The label that the next line must have.
@@ -43,7 +43,7 @@ pub(in crate::emit) struct Line<'p> {
     /// The label that was written last on a line of its own.
     flushed: Option<u32>,
     sequence: Option<u32>,
-    waiting: Vec<&'p Remark>,
+    waiting: Vec<&'p Comment>,
     last: Option<&'p SourceInfo>,
 }
 
@@ -58,8 +58,8 @@ impl<'p> Sheet<'p> {
         if last.is_none_or(|last| last.sequence.is_none()) && self.line.sequence.is_none() {
             self.line.sequence = site.sequence;
         }
-        if last.is_none_or(|last| last.remarks != site.remarks) {
-            self.line.waiting.extend(&site.remarks);
+        if last.is_none_or(|last| last.comments != site.comments) {
+            self.line.waiting.extend(&site.comments);
         }
         self.line.last = Some(site);
     }
@@ -89,11 +89,11 @@ impl<'p> Sheet<'p> {
             self.flush_label();
         }
         self.line.kind = kind;
-        self.line.remarks = std::mem::take(&mut self.line.waiting);
+        self.line.comments = std::mem::take(&mut self.line.waiting);
         if kind == Kind::Alone {
-            for remark in std::mem::take(&mut self.line.remarks) {
-                if message.is_none_or(|text| text.trim() != remark.text.trim()) {
-                    self.remark_lines(&remark.text);
+            for comment in std::mem::take(&mut self.line.comments) {
+                if message.is_none_or(|text| text.trim() != comment.text.trim()) {
+                    self.comment_lines(&comment.text);
                 }
             }
         }
@@ -105,12 +105,12 @@ impl<'p> Sheet<'p> {
         self.line.head_end = self.text.len();
         if let Some(number) = unprinted {
             self.space();
-            write_remark(&mut self.text, &format!("{}{number}", self.forms.sequence));
+            write_comment(&mut self.text, &format!("{}{number}", self.forms.sequence));
         }
-        for at in 0..self.line.remarks.len() {
-            if let Some(&remark) = self.line.remarks.get(at).filter(|remark| remark.leading) {
+        for at in 0..self.line.comments.len() {
+            if let Some(&comment) = self.line.comments.get(at).filter(|comment| comment.leading) {
                 self.space();
-                write_remark(&mut self.text, &remark.text);
+                write_comment(&mut self.text, &comment.text);
             }
         }
         self.line.body = self.text.len();
@@ -128,7 +128,7 @@ impl<'p> Sheet<'p> {
             self.integer(label);
             if let Some(name) = self.line.name.take() {
                 self.space();
-                write_remark(&mut self.text, name);
+                write_comment(&mut self.text, name);
             }
             return standing.filter(|(n, s)| *n != label && *s != Standing::Label).map(|(n, _)| n);
         }
@@ -176,29 +176,29 @@ impl<'p> Sheet<'p> {
         self.line.start = self.text.len();
         self.push(self.forms.program);
         write_padded(&mut self.text, u64::from(number), self.forms.program_digits);
-        let mut remarks = std::mem::take(&mut self.line.waiting).into_iter().peekable();
+        let mut comments = std::mem::take(&mut self.line.waiting).into_iter().peekable();
         let limit = self.control.text().line.map_or(usize::MAX, |limit| limit as usize);
-        while let Some(remark) = remarks.peek() {
+        while let Some(comment) = comments.peek() {
             let before = self.text.len();
             self.space();
-            write_remark(&mut self.text, &remark.text);
+            write_comment(&mut self.text, &comment.text);
             if self.text.len() - self.line.start > limit {
                 self.text.truncate(before);
                 break;
             }
-            remarks.next();
+            comments.next();
         }
         self.end_line();
-        remarks.for_each(|remark| self.remark_lines(&remark.text));
+        comments.for_each(|comment| self.comment_lines(&comment.text));
     }
 
     /// Ends the line.
     pub fn finish(&mut self) {
         let end = self.text.len();
-        for at in 0..self.line.remarks.len() {
-            if let Some(&remark) = self.line.remarks.get(at).filter(|remark| !remark.leading) {
+        for at in 0..self.line.comments.len() {
+            if let Some(&comment) = self.line.comments.get(at).filter(|comment| !comment.leading) {
                 self.space();
-                write_remark(&mut self.text, &remark.text);
+                write_comment(&mut self.text, &comment.text);
             }
         }
         let text = self.control.text();
@@ -224,8 +224,8 @@ impl<'p> Sheet<'p> {
         let at = |place: usize| place - self.line.start;
         let head = line.get(..at(self.line.head_end)).unwrap_or_default();
         let body = line.get(at(self.line.body)..at(end)).unwrap_or_default().trim_ascii_start();
-        for remark in std::mem::take(&mut self.line.remarks) {
-            self.remark_lines(&remark.text);
+        for comment in std::mem::take(&mut self.line.comments) {
+            self.comment_lines(&comment.text);
         }
         self.line.start = self.text.len();
         self.text.extend_from_slice(head);
@@ -243,7 +243,7 @@ impl<'p> Sheet<'p> {
     }
 
     /// Writes a comment on lines of its own.
-    pub fn remark_lines(&mut self, text: &str) {
+    pub fn comment_lines(&mut self, text: &str) {
         let room = self.control.text().line.map_or(usize::MAX, |most| most.saturating_sub(2) as usize);
         for piece in wrap(&spelled(text), room) {
             let start = self.text.len();
@@ -272,7 +272,7 @@ impl<'p> Sheet<'p> {
         self.integer(label);
         if let Some(name) = name {
             self.space();
-            write_remark(&mut self.text, name);
+            write_comment(&mut self.text, name);
         }
         self.push('\n');
     }

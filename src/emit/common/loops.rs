@@ -47,7 +47,7 @@ pub(super) fn find(program: &Program, arrivals: &Arrivals, deepest: u32) -> Vec<
 fn loop_at(program: &Program, arrivals: &Arrivals, header: usize) -> Option<(usize, bool)> {
     let block = program.blocks.get(header)?;
     let TermKind::Branch { cond, then, otherwise } = &block.term.kind else { return None };
-    if !only_remarks(block) || has_switch(cond) {
+    if !only_comments(block) || has_switch(cond) {
         return None;
     }
     let (exit, negated) = match (then.index(), otherwise.index()) {
@@ -66,8 +66,8 @@ fn loop_at(program: &Program, arrivals: &Arrivals, header: usize) -> Option<(usi
     (body_is_closed && back_jumps == 1).then_some((last, negated))
 }
 
-fn only_remarks(block: &Block) -> bool {
-    block.stmts.iter().all(|stmt| stmt.kind == StmtKind::Remark && stmt.site.skip.is_none())
+fn only_comments(block: &Block) -> bool {
+    block.stmts.iter().all(|stmt| stmt.kind == StmtKind::Comment && stmt.site.skip.is_none())
 }
 
 /// True where a condition asks the block-skip switch.

@@ -4,11 +4,11 @@
 //! Nothing here knows how a target spells what stands on a line.
 
 pub mod arrivals;
+pub mod comments;
 pub mod digits;
 pub mod flow;
 pub mod labels;
 pub mod lines;
 pub mod loops;
 pub mod reach;
-pub mod remarks;
 pub mod sheet;

@@ -82,7 +82,7 @@ impl<'p> Emitter<'p> {
     fn header(&mut self) {
         let site = &self.program.site;
         let Some(name) = &self.program.name else {
-            site.remarks.iter().for_each(|remark| self.out.remark_lines(&remark.text));
+            site.comments.iter().for_each(|comment| self.out.comment_lines(&comment.text));
             return;
         };
         let most = self.control.text().program_max;

@@ -4,9 +4,9 @@ use super::Emitter;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::Code;
 use crate::dialect::Question;
+use crate::emit::common::comments::{is_writable, write_comment};
 use crate::emit::common::lines::Kind;
 use crate::emit::common::reach::is_steady;
-use crate::emit::common::remarks::{is_writable, write_remark};
 use crate::ir::{
     Block, Cond, Expr, Nc, NcItem, OutputPart, Place, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
@@ -17,8 +17,8 @@ impl<'p> Emitter<'p> {
     pub(super) fn statement(&mut self, stmt: &'p Stmt) {
         let held = std::mem::replace(&mut self.holds_back, false);
         match &stmt.kind {
-            StmtKind::Remark => {
-                self.remark(&stmt.site, held);
+            StmtKind::Comment => {
+                self.comment(&stmt.site, held);
                 self.holds_back = held;
             }
             StmtKind::Nc(_) => {
@@ -66,7 +66,7 @@ impl<'p> Emitter<'p> {
 
     /// Writes a comment, or an empty block: one for a block of the source, and all that hold back a control that
     /// reads ahead.
-    fn remark(&mut self, site: &'p SourceInfo, held: bool) {
+    fn comment(&mut self, site: &'p SourceInfo, held: bool) {
         let repeated = self.out.is_last_span(site.span);
         self.out.carry(site);
         if self.out.is_waiting() {
@@ -108,7 +108,7 @@ impl<'p> Emitter<'p> {
             .map_or(usize::MAX, |most| most as usize);
         if !text.is_empty() {
             self.out.push(' ');
-            write_remark(&mut self.out.text, text);
+            write_comment(&mut self.out.text, text);
         }
         if !is_writable(text) || text.len() > most {
             let message = format!("the message '{text}' cannot be shown as it is, or not all of it");

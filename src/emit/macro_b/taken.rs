@@ -38,13 +38,13 @@ impl Emitter<'_> {
         let mut line = String::new();
         for word in words {
             if !line.is_empty() && line.len() + 1 + word.len() > WIDTH {
-                self.out.remark_lines(&std::mem::take(&mut line));
+                self.out.comment_lines(&std::mem::take(&mut line));
             }
             line.push_str(if line.is_empty() { "" } else { " " });
             line.push_str(&word);
         }
         if !line.is_empty() {
-            self.out.remark_lines(&line);
+            self.out.comment_lines(&line);
         }
     }
 }

@@ -24,7 +24,7 @@ impl CallGraph {
     /// callee's, and whether the call opens a level of locals, and is true where that changed the caller's. Callees come
     /// first where they can; those that call one another come again until they agree.
     pub fn bottom_up<S: Clone>(&self, summaries: &mut [S], join: impl Fn(&mut S, &S, bool) -> bool) {
-        self.settle(|at| {
+        self.fixpoint(|at| {
             let add = |changed, (callee, level): &(usize, bool)| {
                 join_at(summaries, at, *callee, |mine, theirs| join(mine, theirs, *level)) || changed
             };
@@ -49,7 +49,7 @@ impl CallGraph {
 
     /// Calls `step` on every program, and on the callers of one for which it says that something changed,
     /// until nothing does. Callees come first where they can.
-    pub fn settle(&self, mut step: impl FnMut(usize) -> bool) {
+    pub fn fixpoint(&self, mut step: impl FnMut(usize) -> bool) {
         // Those that call one another settle before anyone looks at them who does not.
         let order = self.callees_first();
         let mut work = Worklist::ranked(ranks(order.iter()));

@@ -40,7 +40,7 @@ impl UpwardExposed {
         let routines = written.routines().chain(own);
         let mut entries: BTreeMap<Routine, BitRow> =
             routines.map(|routine| (routine, none.clone())).collect();
-        callees.graph(module).settle(|index| {
+        callees.graph(module).fixpoint(|index| {
             let program = &module.programs[index];
             let transfer = |block| Transfer::of(block, &universe, |call| callees.called(index, call));
             let transfers: Vec<Transfer> = program.blocks.iter().map(transfer).collect();

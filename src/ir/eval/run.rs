@@ -118,7 +118,7 @@ impl Runner<'_> {
 
     fn stmt(&mut self, kind: &StmtKind) -> Result<(), Ending> {
         match kind {
-            StmtKind::Remark | StmtKind::Sync | StmtKind::SetNames { .. } | StmtKind::LimitLookahead(_) => {}
+            StmtKind::Comment | StmtKind::Sync | StmtKind::SetNames { .. } | StmtKind::LimitLookahead(_) => {}
             StmtKind::Assign { target, value } => {
                 let value = eval(value, &*self.memory)?;
                 self.write(target, value)?;

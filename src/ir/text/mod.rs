@@ -18,7 +18,7 @@
 //!
 //! A line holds one thing; `;` starts a comment that is not part of the program. A program's
 //! name is `O1`, `"NAME"` or `unnamed`. A site follows what it belongs to and is left out
-//! where it is the default: `@start..end`, `Nsequence`, `skip level`, then the remarks, of which
+//! where it is the default: `@start..end`, `Nsequence`, `skip level`, then the comments, of which
 //! those that stood before the words have a `^`. Variables are `local.1`, `common.100`,
 //! `retained.500`, `global.5`, `param.9`, `register.0`, `tmp.3`, `static.2`; with a computed number `#[..]`,
 //! `global[..]`, `param[..]`; state is `sys pos.work[1]`. Operators bind as in the makers' texts:

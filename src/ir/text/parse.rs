@@ -2,7 +2,7 @@
 
 use super::TextError;
 use super::lex::{At, Tok, error, lex};
-use crate::ir::{Block, BlockId, Module, Program, Remark, SourceInfo, Stmt};
+use crate::ir::{Block, BlockId, Comment, Module, Program, SourceInfo, Stmt};
 use crate::syntax::{Label, ProgramName};
 use crate::text::Span;
 
@@ -113,7 +113,7 @@ impl<'t> Parser<'t> {
             if !leading && !matches!(self.peek(), Tok::Text(_)) {
                 return Ok(site);
             }
-            site.remarks.push(Remark { text: self.string()?, leading });
+            site.comments.push(Comment { text: self.string()?, leading });
         }
     }
 

@@ -11,7 +11,7 @@ impl Parser<'_> {
     pub(super) fn stmt_kind(&mut self) -> Parsed<StmtKind> {
         let Tok::Word(word) = *self.peek() else { return self.assign() };
         let kind = match word {
-            "remark" => StmtKind::Remark,
+            "comment" => StmtKind::Comment,
             "modal.off" => StmtKind::ModalCallOff,
             "port.open" => StmtKind::OpenPort,
             "port.close" => StmtKind::ClosePort,

@@ -62,7 +62,7 @@ impl Display for StmtKind {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let port = |serial: bool| if serial { "serial " } else { "" };
         match self {
-            StmtKind::Remark => f.write_str("remark"),
+            StmtKind::Comment => f.write_str("comment"),
             StmtKind::Assign { target, value } => write!(f, "{target} = {value}"),
             StmtKind::ClearAll(class) => write!(f, "clear {}", class_name(*class)),
             StmtKind::Nc(nc) => write!(f, "{nc}"),
@@ -157,9 +157,9 @@ fn site(f: &mut Formatter<'_>, site: &SourceInfo) -> Result {
     }
     site.sequence.iter().try_for_each(|number| write!(f, " N{number}"))?;
     site.skip.iter().try_for_each(|level| write!(f, " skip {level}"))?;
-    site.remarks
-        .iter()
-        .try_for_each(|remark| write!(f, " {}{}", if remark.leading { "^" } else { "" }, quote(&remark.text)))
+    site.comments.iter().try_for_each(|comment| {
+        write!(f, " {}{}", if comment.leading { "^" } else { "" }, quote(&comment.text))
+    })
 }
 
 fn program_name(name: &ProgramName) -> String {

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 const SAMPLE: &str = r#"name common.500 "LIM\"IT"
 program O9010 file 2 @0..5 N1 "BORE" {
 block0:
-    remark @1..2 ^"AHEAD" "BEHIND"
+    comment @1..2 ^"AHEAD" "BEHIND"
     local.1 = 2 * (local.2 + 3) @6..20 N10 skip 1
     #[local.1 + 1] = vacant
     sys wcs[1, tmp.3] = -local.2 mod 2
@@ -69,7 +69,7 @@ fn reads_the_example_of_the_documentation() {
     assert_eq!(program.blocks[1].labels[..], [Label::Number(20), Label::Name("LOOP".into())]);
     let stmt = &program.blocks[0].stmts[0];
     assert_eq!((stmt.site.span, stmt.site.sequence, stmt.site.skip), (Span::new(6, 20), Some(10), Some(1)));
-    assert!(stmt.site.remarks[0].leading && !stmt.site.remarks[1].leading);
+    assert!(stmt.site.comments[0].leading && !stmt.site.comments[1].leading);
     let StmtKind::Nc(nc) = &program.blocks[0].stmts[1].kind else { panic!() };
     assert!(nc.has(Op::Linear));
     assert_eq!(nc.word(Role::Feed), Some(&Expr::Increments(10.0)));
@@ -82,7 +82,7 @@ fn says_where_a_text_is_wrong() {
         ("program O1 file 0 {\nblock1:\n    end\n}\n", (2, 1)),
         ("program O1 {\nblock0:\n    local.1 = 1 2\n    end\n}", (3, 17)),
         ("program O1 {\nblock0:\n    nc axis.q=1\n    end\n}", (3, 8)),
-        ("program O1 {\nblock0:\n    remark \"A\n", (3, 12)),
+        ("program O1 {\nblock0:\n    comment \"A\n", (3, 13)),
         ("nonsense", (1, 1)),
     ] {
         let error = parse(text).unwrap_err();
@@ -152,7 +152,7 @@ proptest! {
 
     #[test]
     fn every_value_reads_back_bit_for_bit(value in exprs(), text in ".*", role in prop::sample::select(Role::ALL)) {
-        let site = SourceInfo { remarks: [Remark { text, leading: true }].into(), sequence: Some(7), ..SourceInfo::default() };
+        let site = SourceInfo { comments: [Comment { text, leading: true }].into(), sequence: Some(7), ..SourceInfo::default() };
         let nc = Nc { items: vec![NcItem::Word(role, value.clone()), NcItem::Code('é', value.clone()), NcItem::Op(Op::End)] };
         let target = value.place().unwrap_or(Place::Indirect(Bank::Numbered, Box::new(value.clone())));
         let stmts = [StmtKind::Nc(nc), StmtKind::Assign { target, value }];

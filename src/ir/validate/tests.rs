@@ -52,7 +52,7 @@ fn breaches_are_found() {
     found("clear local", Problem::Clear);
     found("local.1 = pow(2)", Problem::Arity { func: Func::Pow, count: 1 });
     found("local.1 = inf", Problem::NotFinite);
-    found("remark skip 10", Problem::Skip(10));
+    found("comment skip 10", Problem::Skip(10));
     found("modal O5 level (1: 1, 1: 2)", Problem::ArgumentTwice(1));
     found("modal O5 (1: 1)", Problem::NoLevel);
     found("modal O5 level (34: 1)", Problem::Variable(var(Class::Local, 34)));

@@ -391,7 +391,7 @@ fn changes(var: Var, module: &Module, context: &Context<'_>) -> String {
 
 /// Leaves of a block what people wrote in it.
 fn leave(builder: &mut Builder, site: SourceInfo) {
-    if !site.remarks.is_empty() {
-        builder.push(StmtKind::Remark, site);
+    if !site.comments.is_empty() {
+        builder.push(StmtKind::Comment, site);
     }
 }

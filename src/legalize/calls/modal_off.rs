@@ -18,7 +18,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let none = state.calls.as_ref().is_some_and(Vec::is_empty) && main.get(index) == Some(&true);
         state.step(&stmt);
         if none && stmt.kind == StmtKind::ModalCallOff {
-            stmt.kind = StmtKind::Remark;
+            stmt.kind = StmtKind::Comment;
         }
         out.push(stmt);
     });

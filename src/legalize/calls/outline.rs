@@ -10,7 +10,7 @@
 //! operator who edits one must edit both; the copies carry the same comments.
 
 use crate::ir::{
-    Block, BlockId, Callee, Module, Program, Remark, SourceInfo, StmtKind, TermKind, Terminator,
+    Block, BlockId, Callee, Comment, Module, Program, SourceInfo, StmtKind, TermKind, Terminator,
 };
 use crate::legalize::{Context, calls_of, reachable};
 use crate::syntax::{Label, ProgramName};
@@ -86,7 +86,7 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
     for (&entry, name) in &names {
         let body = reachable(&program, entry);
         outlined.extend(body.iter().copied());
-        let site = SourceInfo { remarks: called(&program, entry), ..SourceInfo::default() };
+        let site = SourceInfo { comments: called(&program, entry), ..SourceInfo::default() };
         subs.push(extract(&program, entry, &body, Some(name.clone()), site));
     }
     let main = reachable(&program, BlockId(0));
@@ -104,10 +104,10 @@ fn outline(mut program: Program, out: &mut Vec<Program>) {
 }
 
 /// What people call a subroutine, where that is a name and no number: it stands beside the program's number.
-fn called(program: &Program, entry: BlockId) -> ThinVec<Remark> {
+fn called(program: &Program, entry: BlockId) -> ThinVec<Comment> {
     let labels = program.block(entry).into_iter().flat_map(|block| &block.labels);
     let names = labels.filter_map(|label| match label {
-        Label::Name(name) => Some(Remark { text: name.clone(), leading: false }),
+        Label::Name(name) => Some(Comment { text: name.clone(), leading: false }),
         Label::Number(_) => None,
     });
     names.take(1).collect()

@@ -65,7 +65,7 @@ fn compensates(stmt: &Stmt) -> bool {
 /// A limit of one block and the empty ones; taken off again where it must not stay.
 fn limit(site: SourceInfo, taken_off: bool, out: &mut Vec<Stmt>) {
     let span = site.span;
-    let empty = || Stmt { kind: StmtKind::Remark, site: SourceInfo { span, ..SourceInfo::default() } };
+    let empty = || Stmt { kind: StmtKind::Comment, site: SourceInfo { span, ..SourceInfo::default() } };
     let to = |count: f64| StmtKind::LimitLookahead(Expr::Number(count));
     out.push(Stmt { kind: to(1.0), site });
     out.extend(std::iter::repeat_with(empty).take(HOLD_BACK));

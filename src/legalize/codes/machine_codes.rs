@@ -47,7 +47,7 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
             behind.extend(rest);
             changed |= nc.items.is_empty() || nc.items.len() != before;
             if nc.items.is_empty() {
-                stmt.kind = StmtKind::Remark;
+                stmt.kind = StmtKind::Comment;
             }
         }
         if !behind.is_empty() {

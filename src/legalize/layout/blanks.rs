@@ -9,7 +9,7 @@ use crate::legalize::Context;
 /// Leaves empty blocks out.
 pub fn run(module: &mut Module, _: &mut Context<'_>) {
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
-        let says = |site: &crate::ir::SourceInfo| site.sequence.is_some() || !site.remarks.is_empty();
-        block.stmts.retain(|stmt| stmt.kind != StmtKind::Remark || says(&stmt.site));
+        let says = |site: &crate::ir::SourceInfo| site.sequence.is_some() || !site.comments.is_empty();
+        block.stmts.retain(|stmt| stmt.kind != StmtKind::Comment || says(&stmt.site));
     }
 }

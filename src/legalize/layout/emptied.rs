@@ -2,7 +2,7 @@
 //!
 //! Law: a block of words without a word does nothing. Its comments stay; its sequence number was no
 //! target (a target's number stands among the labels of its block) and goes. A block that people left
-//! empty is a remark from the start and is not looked at here.
+//! empty is a comment from the start and is not looked at here.
 
 use crate::ir::{Block, StmtKind};
 
@@ -12,9 +12,9 @@ pub fn drop_emptied(block: &mut Block) -> bool {
     if !block.stmts.iter().any(|stmt| empty(&stmt.kind)) {
         return false;
     }
-    block.stmts.retain(|stmt| !empty(&stmt.kind) || !stmt.site.remarks.is_empty());
+    block.stmts.retain(|stmt| !empty(&stmt.kind) || !stmt.site.comments.is_empty());
     for stmt in block.stmts.iter_mut().filter(|stmt| empty(&stmt.kind)) {
-        stmt.kind = StmtKind::Remark;
+        stmt.kind = StmtKind::Comment;
     }
     true
 }

@@ -287,7 +287,7 @@ fn head(program: &mut Program, op: Op) {
         let at = block
             .stmts
             .iter()
-            .take_while(|stmt| matches!(stmt.kind, StmtKind::Remark | StmtKind::ClearAll(Class::Global)))
+            .take_while(|stmt| matches!(stmt.kind, StmtKind::Comment | StmtKind::ClearAll(Class::Global)))
             .count();
         block.stmts.insert(at, Stmt { kind, site: SourceInfo::default() });
     }

@@ -8,26 +8,26 @@
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Module, OutputPart, PrintPart, Remark, StmtKind};
+use crate::ir::{Comment, Module, OutputPart, PrintPart, StmtKind};
 use crate::legalize::Context;
 use crate::text::{Span, likeness};
 
 /// Replaces letters in everything that a person reads.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let letters = context.target.behaviour(Question::TextLetters).map_or("unknown", |row| row.value.as_str());
-    let (remark, shown) =
-        (Place::Remark { small: letters != "upper" }, Place::Shown { small: letters == "ascii" });
+    let (comment, shown) =
+        (Place::Comment { small: letters != "upper" }, Place::Shown { small: letters == "ascii" });
     let output = Place::Output { small: letters != "upper" };
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut writer = Writer { context, index, span: program.site.span };
-        writer.remarks(&mut program.site.remarks, remark);
+        writer.comments(&mut program.site.comments, comment);
         for block in &mut program.blocks {
             for stmt in &mut block.stmts {
                 writer.span = stmt.site.span;
                 let stops =
                     matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Stop) || nc.has(Op::OptionalStop));
-                let here = if stops { Place::Beside } else { remark };
-                writer.remarks(&mut stmt.site.remarks, here);
+                let here = if stops { Place::Beside } else { comment };
+                writer.comments(&mut stmt.site.comments, here);
                 match &mut stmt.kind {
                     StmtKind::Alarm { text, .. } | StmtKind::StopMessage { text, .. } => {
                         writer.take(text, shown)
@@ -46,7 +46,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 }
             }
             writer.span = block.term.site.span;
-            writer.remarks(&mut block.term.site.remarks, remark);
+            writer.comments(&mut block.term.site.comments, comment);
         }
     }
 }
@@ -55,7 +55,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     /// A comment.
-    Remark { small: bool },
+    Comment { small: bool },
     /// A message of its own statement, between brackets.
     Shown { small: bool },
     /// The comment beside a stop, which the operator reads.
@@ -73,8 +73,8 @@ struct Writer<'w, 'c> {
 }
 
 impl Writer<'_, '_> {
-    fn remarks(&mut self, remarks: &mut [Remark], place: Place) {
-        remarks.iter_mut().for_each(|remark| self.take(&mut remark.text, place));
+    fn comments(&mut self, comments: &mut [Comment], place: Place) {
+        comments.iter_mut().for_each(|comment| self.take(&mut comment.text, place));
     }
 
     /// Writes a text as the target can show it, and says so where letters were replaced.
@@ -84,7 +84,7 @@ impl Writer<'_, '_> {
             return;
         }
         let (before, after) = (text.trim(), written.text.trim());
-        if written.lost && !matches!(place, Place::Remark { .. }) {
+        if written.lost && !matches!(place, Place::Comment { .. }) {
             let what =
                 format!("the message '{before}' becomes '{after}': some of its letters have no substitute");
             self.context.add(self.index, Diagnostic::new(Code::MessageAltered, self.span, what));
@@ -143,7 +143,7 @@ impl Written {
             out.text.push_str(sign);
         }
         let small = match place {
-            Place::Remark { small } | Place::Shown { small } | Place::Output { small } => small,
+            Place::Comment { small } | Place::Shown { small } | Place::Output { small } => small,
             Place::Beside | Place::Printed => false,
         };
         if !small {
@@ -172,8 +172,8 @@ mod tests {
         assert_eq!(of("open", Place::Shown { small: true }), ("open".into(), false, false));
         assert_eq!(of("日", shown), ("?".into(), true, true));
         assert_eq!(of("Ø10 BØR", shown), ("DIA 10 BOR".into(), true, false));
-        let remark = Place::Remark { small: true };
-        assert_eq!(of("façade (A) %", remark), ("facade (A) %".into(), true, false));
+        let comment = Place::Comment { small: true };
+        assert_eq!(of("façade (A) %", comment), ("facade (A) %".into(), true, false));
         let output = Place::Output { small: false };
         assert_eq!(of("Ü日a", output), ("UE日A".into(), true, false));
         assert_eq!(of("a", output), ("A".into(), true, false));

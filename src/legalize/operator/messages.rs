@@ -4,7 +4,7 @@
 //! and why the machine stops does not change.
 
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Module, Remark, StmtKind};
+use crate::ir::{Comment, Module, StmtKind};
 use crate::legalize::Context;
 
 /// Cuts messages to the target's length.
@@ -26,7 +26,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let what = format!(
                 "the target shows {most} characters of a message: '{text}'; a comment has the whole text"
             );
-            stmt.site.remarks.push(Remark { text: whole, leading: false });
+            stmt.site.comments.push(Comment { text: whole, leading: false });
             context.add(index, Diagnostic::new(Code::MessageCut, stmt.site.span, what));
         }
     }

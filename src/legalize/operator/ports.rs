@@ -65,7 +65,7 @@ fn open(program: &mut Program) {
                     out.push(port(StmtKind::OpenPort, stmt.site.span));
                 }
                 // Comments do not end a run.
-                StmtKind::Output(_) | StmtKind::Remark => {}
+                StmtKind::Output(_) | StmtKind::Comment => {}
                 _ => out.extend(open.take().map(|span| port(StmtKind::ClosePort, span))),
             }
             out.push(stmt);

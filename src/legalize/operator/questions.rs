@@ -46,9 +46,9 @@ fn ask_all(module: &mut Module, registers: &Registers, context: &mut Context<'_>
 
 /// The text printed right before, to which the cursor was left.
 fn take_question(out: &mut Vec<Stmt>, serial: bool) -> Option<String> {
-    let at = out.iter().rposition(|stmt| stmt.kind != StmtKind::Remark)?;
+    let at = out.iter().rposition(|stmt| stmt.kind != StmtKind::Comment)?;
     // What was printed on the same line before it would be lost.
-    let before = out[..at].iter().rfind(|stmt| stmt.kind != StmtKind::Remark);
+    let before = out[..at].iter().rfind(|stmt| stmt.kind != StmtKind::Comment);
     if before.is_some_and(|stmt| matches!(stmt.kind, StmtKind::Print { stay: true, .. })) {
         return None;
     }
@@ -64,10 +64,10 @@ fn take_question(out: &mut Vec<Stmt>, serial: bool) -> Option<String> {
         })
         .collect();
     let text = texts?.concat();
-    let kept = StmtKind::Remark;
+    let kept = StmtKind::Comment;
     let printed = std::mem::replace(&mut out[at].kind, kept);
     // Nothing is left of the print but its comments.
-    if out[at].site.remarks.is_empty() && out[at].site.sequence.is_none() {
+    if out[at].site.comments.is_empty() && out[at].site.sequence.is_none() {
         out.remove(at);
     }
     drop(printed);
@@ -158,11 +158,12 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
                         }
                         pending.extend(parts.into_iter().map(output));
                         let parts = if stay { None } else { Some(std::mem::take(&mut pending)) };
-                        let kind = parts.filter(|p| !p.is_empty()).map_or(StmtKind::Remark, StmtKind::Output);
+                        let kind =
+                            parts.filter(|p| !p.is_empty()).map_or(StmtKind::Comment, StmtKind::Output);
                         out.push(Stmt { kind, site: stmt.site });
                     }
                     // Comments do not end a run of prints.
-                    StmtKind::Remark => out.push(stmt),
+                    StmtKind::Comment => out.push(stmt),
                     kind => {
                         finish(&mut out, &mut pending, &mut open, &site);
                         out.push(Stmt { kind, site: stmt.site });

@@ -51,7 +51,7 @@ fn clear(class: Class, registers: &Registers, site: SourceInfo, builder: &mut Bu
     let follows =
         |a: &(&Register, Var), b: &(&Register, Var)| a.0.name == b.0.name && a.0.number + 1 == b.0.number;
     if all.is_empty() {
-        builder.push(StmtKind::Remark, next_site());
+        builder.push(StmtKind::Comment, next_site());
     }
     for run in all.chunk_by(follows) {
         match run {

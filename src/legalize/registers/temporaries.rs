@@ -378,9 +378,9 @@ fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan, statics: O
             let idle = matches!(&stmt.kind, StmtKind::Assign { target: Place::Var(to), value: Expr::Var(from) }
                 if to == from && matches!(to.class, Class::Temp | Class::Static));
             if idle {
-                stmt.kind = StmtKind::Remark;
+                stmt.kind = StmtKind::Comment;
             }
-            !idle || stmt.site.sequence.is_some() || !stmt.site.remarks.is_empty()
+            !idle || stmt.site.sequence.is_some() || !stmt.site.comments.is_empty()
         });
     }
 }

@@ -58,8 +58,8 @@ impl Lowering<'_> {
         if let Some(planned) = planned.take() {
             self.act(planned, &site);
         }
-        if !said && !site.remarks.is_empty() {
-            self.push(StmtKind::Remark, &site);
+        if !said && !site.comments.is_empty() {
+            self.push(StmtKind::Comment, &site);
         }
     }
 

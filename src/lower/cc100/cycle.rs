@@ -84,7 +84,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
                 }
             }
             let site = stmt.site.clone();
-            if stmt.kind != StmtKind::Nc(Nc::default()) || !site.remarks.is_empty() {
+            if stmt.kind != StmtKind::Nc(Nc::default()) || !site.comments.is_empty() {
                 stmts.push(stmt);
             }
             stmts.extend(ended.map(|nc| Stmt { kind: StmtKind::Nc(nc), site }));

@@ -27,7 +27,7 @@ use super::Lowered;
 use super::common::{Findings, site_of};
 use crate::canon::Op;
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Class, Expr, Remark, SourceInfo, StmtKind, Var};
+use crate::ir::{BlockId, Builder, Class, Comment, Expr, SourceInfo, StmtKind, Var};
 use crate::syntax::{Block, Item, ItemKind, Label, ParsedFile, ProgramName, Target};
 use crate::text::Span;
 use constants::Constants;
@@ -133,8 +133,8 @@ impl<'a> Lowering<'a> {
                 && is_message(message)
                 && self.findings.is(Question::MessageShowsComment, message.span)
             {
-                let shown = site_of(message, parsed.source).remarks;
-                site.remarks.extend(shown.into_iter().map(|remark| Remark { leading: false, ..remark }));
+                let shown = site_of(message, parsed.source).comments;
+                site.comments.extend(shown.into_iter().map(|comment| Comment { leading: false, ..comment }));
                 rest = behind;
             }
             self.block(block, site);

@@ -4,7 +4,7 @@ use super::Lowering;
 use crate::canon::{Group, Op, Role, Sys};
 use crate::dialect::Units;
 use crate::ir::{BinOp, Cond, Expr, Place, Relation, SourceInfo, StmtKind};
-use crate::syntax::{Cell, Row, Table, VarRef};
+use crate::syntax::{Cell, Table, TableRow, VarRef};
 use crate::text::Span;
 use thin_vec::ThinVec;
 
@@ -41,14 +41,14 @@ impl Lowering<'_> {
 
     fn store(&mut self, table: &Table, cells: &[Cell], site: &SourceInfo, span: Span) -> Option<Store> {
         match (table.name.as_str(), &table.row) {
-            ("COR", Row::Word('T', number)) => Some(Store::Tool(Expr::Number(f64::from(*number)))),
-            ("COR", Row::Variable(row)) => self.row(row, cells, site).map(Store::Tool),
-            ("TRF", Row::Variable(row)) => {
+            ("COR", TableRow::Word('T', number)) => Some(Store::Tool(Expr::Number(f64::from(*number)))),
+            ("COR", TableRow::Variable(row)) => self.row(row, cells, site).map(Store::Tool),
+            ("TRF", TableRow::Variable(row)) => {
                 let row = self.row(row, cells, site)?;
                 let before = Expr::Number(self.before_shifts()?);
                 Some(Store::Shift(Expr::binary(BinOp::Sub, row, before)))
             }
-            ("TRF", Row::Word('G', number)) => Some(Store::Code(*number)),
+            ("TRF", TableRow::Word('G', number)) => Some(Store::Code(*number)),
             _ => {
                 self.findings.not_understood(span, "no source says what this table holds");
                 None

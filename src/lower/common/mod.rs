@@ -7,7 +7,7 @@ mod site;
 
 pub use findings::{Findings, otherwise};
 pub use programs::{ProgramText, programs, says_something};
-pub use site::{remark_text, site_of};
+pub use site::{comment_text, site_of};
 
 use crate::ir::Relation;
 use crate::syntax::{BinaryOp, Expr, ExprKind, Item, ItemKind};

@@ -1,6 +1,6 @@
 //! Where a statement comes from, out of the block it stood in.
 
-use crate::ir::{Remark, SourceInfo};
+use crate::ir::{Comment, SourceInfo};
 use crate::syntax::{Block, Fence, ItemKind};
 use crate::text::{Span, decode};
 
@@ -15,12 +15,12 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
             ItemKind::Sequence { number, inserted } => site.sequence = (!inserted).then_some(*number),
             ItemKind::Skip(level) if !words => site.skip = Some(level.unwrap_or(1)),
             ItemKind::Comment(comment) => {
-                let mut text = remark_text(comment.text, source);
+                let mut text = comment_text(comment.text, source);
                 // The space after a sign that opens a comment to the end of its line is that sign's.
                 if matches!(comment.fence, Fence::Apostrophe | Fence::Star) {
                     text.drain(..text.len() - text.trim_start().len());
                 }
-                site.remarks.push(Remark { text, leading: !words });
+                site.comments.push(Comment { text, leading: !words });
             }
             ItemKind::EndOfBlock | ItemKind::MacroMark | ItemKind::Tape => {}
             _ => words = true,
@@ -30,6 +30,6 @@ pub fn site_of(block: &Block, source: &[u8]) -> SourceInfo {
 }
 
 /// The text of a comment, in whatever code it was written.
-pub fn remark_text(span: Span, source: &[u8]) -> String {
+pub fn comment_text(span: Span, source: &[u8]) -> String {
     decode(span.of(source)).into_owned()
 }

@@ -5,8 +5,8 @@ use super::{Lowering, Motion};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Question;
-use crate::ir::{Cond, Remark, SourceInfo, StmtKind, TermKind};
-use crate::lower::common::{remark_text, site_of};
+use crate::ir::{Comment, Cond, SourceInfo, StmtKind, TermKind};
+use crate::lower::common::{comment_text, site_of};
 use crate::syntax::{Block, Item, ItemKind, Label, Word, for_each_item};
 use crate::text::Span;
 use smallvec::SmallVec;
@@ -21,8 +21,8 @@ pub(super) fn site(block: &Block, source: &[u8]) -> SourceInfo {
         if let ItemKind::If { body, .. } = &item.kind {
             for_each_item(body, &mut |item| {
                 if let ItemKind::Comment(comment) = &item.kind {
-                    let text = remark_text(comment.text, source);
-                    site.remarks.push(Remark { text, leading: false });
+                    let text = comment_text(comment.text, source);
+                    site.comments.push(Comment { text, leading: false });
                 }
             });
         }
@@ -83,7 +83,7 @@ impl<'a> Lowering<'a> {
         if piece.head.is_none() && piece.name.is_none() {
             for &index in &piece.leading {
                 if let Some(block) = parsed.blocks.get(index).filter(|_| piece.body.is_empty()) {
-                    self.builder.push(StmtKind::Remark, site(block, self.source));
+                    self.builder.push(StmtKind::Comment, site(block, self.source));
                 }
             }
         }
@@ -95,7 +95,7 @@ impl<'a> Lowering<'a> {
                 // A line with nothing on it has no block; the reader of the program sees it all the same.
                 if before.text.is_empty() && before.text.start >= first {
                     self.builder
-                        .push(StmtKind::Remark, SourceInfo { span: before.text, ..SourceInfo::default() });
+                        .push(StmtKind::Comment, SourceInfo { span: before.text, ..SourceInfo::default() });
                 }
                 line += 1;
             }
@@ -118,7 +118,7 @@ impl<'a> Lowering<'a> {
         let mut site = site(block, self.source);
         if is_head {
             // They are the program's.
-            site.remarks.clear();
+            site.comments.clear();
         }
         let contents = Contents::of(&block.items);
         if contents.inserted {
@@ -126,11 +126,11 @@ impl<'a> Lowering<'a> {
         }
         let refused = block.errors.iter().any(|error| error.code.severity() == Severity::Error);
         if refused && !contents.loops {
-            return self.builder.push(StmtKind::Remark, site);
+            return self.builder.push(StmtKind::Comment, site);
         }
         let Some(first) = contents.first else {
             if !is_head || site.sequence.is_some() {
-                self.builder.push(StmtKind::Remark, site);
+                self.builder.push(StmtKind::Comment, site);
             }
             return;
         };
@@ -165,7 +165,7 @@ impl<'a> Lowering<'a> {
             let message = "a block skip together with a loop or a second skip: it is not certain what the control \
                  skips";
             self.findings.add(Diagnostic::new(Code::SkipUnclear, block.span, message));
-            return self.builder.push(StmtKind::Remark, site);
+            return self.builder.push(StmtKind::Comment, site);
         }
         if let Some(&(index, level)) = middle.first() {
             let place = items.get(index).map_or(block.span, |item| item.span);

@@ -33,9 +33,9 @@ mod variable;
 mod words;
 
 use super::Lowered;
-use super::common::{Findings, remark_text};
+use super::common::{Findings, comment_text};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Remark, SourceInfo, Var};
+use crate::ir::{BlockId, Builder, Comment, SourceInfo, Var};
 use crate::syntax::{ItemKind, ParsedFile, ProgramName};
 use crate::text::Span;
 use bare::RolesUnder;
@@ -175,14 +175,15 @@ fn program_site(parsed: &ParsedFile<'_>, piece: &Piece) -> SourceInfo {
         site.span = if site.span.is_empty() { block.span } else { site.span.to(block.span) };
         for item in &block.items {
             if let ItemKind::Comment(comment) = &item.kind {
-                site.remarks.push(Remark { text: remark_text(comment.text, parsed.source), leading: true });
+                site.comments
+                    .push(Comment { text: comment_text(comment.text, parsed.source), leading: true });
             }
         }
     }
     if let Some(block) = piece.head.and_then(|head| parsed.blocks.get(head)) {
         let own = block::site(block, parsed.source);
         site.span = own.span;
-        site.remarks.extend(own.remarks);
+        site.comments.extend(own.comments);
     }
     site
 }

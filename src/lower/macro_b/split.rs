@@ -50,7 +50,7 @@ pub(super) fn split(parsed: &ParsedFile<'_>) -> (Vec<Piece>, bool) {
             open = true;
         }
     }
-    let speaks = |&&index: &&usize| parsed.blocks.get(index).is_some_and(|b| b.items.iter().any(is_remark));
+    let speaks = |&&index: &&usize| parsed.blocks.get(index).is_some_and(|b| b.items.iter().any(is_comment));
     if pieces.is_empty() && pending.iter().any(|index| speaks(&index)) {
         pieces.push(Piece { name: None, head: None, leading: pending, body: 0..0 });
     }
@@ -99,6 +99,6 @@ fn is_quiet(item: &Item) -> bool {
     matches!(item.kind, ItemKind::Comment(_) | ItemKind::EndOfBlock)
 }
 
-fn is_remark(item: &Item) -> bool {
+fn is_comment(item: &Item) -> bool {
     matches!(&item.kind, ItemKind::Comment(comment) if comment.fence != Fence::Outside)
 }

@@ -6,7 +6,7 @@ use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Expr, OutputPart, Place, SourceInfo, StmtKind, Var};
-use crate::lower::common::remark_text;
+use crate::lower::common::comment_text;
 use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
 use crate::text::Span;
 
@@ -15,7 +15,7 @@ impl<'a> Lowering<'a> {
     pub(super) fn statement(&mut self, item: &'a Item, rest: &'a [Item], site: &SourceInfo) {
         match &item.kind {
             ItemKind::Assign { target, value, by_sign: false } => {
-                let text = comment(rest).map(|span| remark_text(span, self.source));
+                let text = comment(rest).map(|span| comment_text(span, self.source));
                 let Some(target) = self.target_place(target) else { return };
                 let bracket = matches!(value.kind, ExprKind::Group(_) | ExprKind::Plus(_));
                 let value = self.expr(value, At::Value);
@@ -47,7 +47,7 @@ impl<'a> Lowering<'a> {
                 self.builder.push(StmtKind::ClosePort, site.clone());
             }
             // The parser's error says why.
-            ItemKind::Unparsed => self.builder.push(StmtKind::Remark, site.clone()),
+            ItemKind::Unparsed => self.builder.push(StmtKind::Comment, site.clone()),
             _ => {
                 let text = String::from_utf8_lossy(item.span.of(self.source));
                 self.findings.not_understood(item.span, format!("this control has no statement '{text}'"));
@@ -65,9 +65,9 @@ impl<'a> Lowering<'a> {
         let text = match text {
             Some(text) => {
                 if let Some(at) =
-                    site.remarks.iter().position(|remark| !remark.leading && remark.text == text)
+                    site.comments.iter().position(|comment| !comment.leading && comment.text == text)
                 {
-                    site.remarks.remove(at);
+                    site.comments.remove(at);
                 }
                 text
             }
@@ -103,7 +103,7 @@ impl<'a> Lowering<'a> {
         for part in parts {
             match part {
                 Part::Text(text) => {
-                    let text = remark_text(*text, self.source);
+                    let text = comment_text(*text, self.source);
                     if text.contains(' ') {
                         let message = "a blank in the text of DPRNT: only '*' is certain to print a blank";
                         self.findings.add(Diagnostic::new(Code::OutputBlank, span, message));

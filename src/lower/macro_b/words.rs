@@ -50,7 +50,7 @@ impl<'a> Lowering<'a> {
             return self.builder.push(StmtKind::Nc(nc), site.clone());
         }
         let Some(codes) = self.block_codes(words) else {
-            return self.builder.push(StmtKind::Remark, site.clone());
+            return self.builder.push(StmtKind::Comment, site.clone());
         };
         self.check_machine(words, &codes);
         let mut nc = Nc { items: Vec::with_capacity(words.len() + 1) };

@@ -221,8 +221,8 @@ impl Build {
         let mut row = parts.nth(1)?.into_inner();
         let first = row.next()?;
         let row = match first.as_rule() {
-            Rule::variable => Row::Variable(self.variable(first)?),
-            _ => Row::Word(letter(&first), self.whole(&row.next()?)),
+            Rule::variable => TableRow::Variable(self.variable(first)?),
+            _ => TableRow::Word(letter(&first), self.whole(&row.next()?)),
         };
         let mut cells = Vec::new();
         for cell in parts {

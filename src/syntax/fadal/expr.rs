@@ -11,7 +11,7 @@ use pest::iterators::{Pair, Pairs};
 use std::borrow::Cow;
 use std::iter::Peekable;
 
-type Row<'p> = Peekable<Pairs<'p, Rule>>;
+type Operands<'p> = Peekable<Pairs<'p, Rule>>;
 
 /// Rank of what stands after NOT: a comparison and all that binds closer.
 const BEHIND_NOT: u8 = 3;
@@ -44,7 +44,7 @@ impl Build<'_> {
     }
 
     /// Operands and operators from here on, as long as they bind at least so close.
-    fn ranked(&mut self, row: &mut Row<'_>, least: u8, whole: Span) -> Expr {
+    fn ranked(&mut self, row: &mut Operands<'_>, least: u8, whole: Span) -> Expr {
         let mut left = self.operand(row, whole);
         while let Some((op, rank)) = row.peek().and_then(|pair| infix(pair.as_rule())) {
             if rank < least {
@@ -58,7 +58,7 @@ impl Build<'_> {
         left
     }
 
-    fn operand(&mut self, row: &mut Row<'_>, whole: Span) -> Expr {
+    fn operand(&mut self, row: &mut Operands<'_>, whole: Span) -> Expr {
         let Some(pair) = row.next() else { return self.hole(whole) };
         let span = self.span(&pair);
         let (kind, inner): (fn(Box<Expr>) -> ExprKind, Expr) = match pair.as_rule() {

@@ -1,7 +1,7 @@
 //! Cuts a line into blocks and reads each, by the scanner or by the grammar.
 
 use super::faults::{self, outside_text};
-use super::lexeme::{Row, tokens};
+use super::lexeme::{Lexemes, tokens};
 use super::parse_cache::{self, is_tiled};
 use super::plain::{NeedsCheck, Plain};
 use super::shape::{self, Shape};
@@ -61,7 +61,7 @@ pub fn is_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
 /// As [`is_sound`], by the grammar.
 pub(super) fn is_found_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
     let bytes = line.of(source);
-    let mut row = Row::new();
+    let mut row = Lexemes::new();
     let mut at = line.start;
     while at < line.end {
         let (span, shape) = outline(bytes, line.start, at);
@@ -104,7 +104,7 @@ fn plain_block(rules: &Rules, source: &[u8], rest: Span, keep: Keep) -> Option<B
     let mut plain = Plain::within(text);
     let (end, tokens, plain) = match keep {
         Keep::Tokens => {
-            let mut both = (Row::new(), plain);
+            let mut both = (Lexemes::new(), plain);
             let end = scanner::scan(source, rest, &mut both)?;
             (end, tokens(&both.0), both.1)
         }
@@ -133,7 +133,7 @@ pub(super) fn grammar_block(
     if shape.depth > shape::DEEPEST {
         return unread(span, end_of_block(bytes, span), faults::too_deep(span, shape.depth));
     }
-    let mut row = Row::new();
+    let mut row = Lexemes::new();
     let tree = match parse_cache::read(rules, source, span, &mut row) {
         Ok(()) if !is_tiled(&row, span) => {
             // Cannot happen while grammars tile; if one does not, nothing may be lost.

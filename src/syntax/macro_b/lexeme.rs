@@ -118,10 +118,10 @@ pub struct Lexeme {
 }
 
 /// The leaves of one block.
-pub type Row = SmallVec<[Lexeme; 32]>;
+pub type Lexemes = SmallVec<[Lexeme; 32]>;
 
 /// Adds to a row what a grammar read as one: a leaf, or several that are written together, and the blanks after it.
-pub fn push(row: &mut Row, kind: Lex, start: u32, text: &[u8]) {
+pub fn push(row: &mut Lexemes, kind: Lex, start: u32, text: &[u8]) {
     let mut cut = Cut { row, at: start, rest: text };
     match kind {
         Lex::Nothing => {}
@@ -138,7 +138,7 @@ pub fn push(row: &mut Row, kind: Lex, start: u32, text: &[u8]) {
 
 /// Cuts what is written together into its leaves.
 struct Cut<'a> {
-    row: &'a mut Row,
+    row: &'a mut Lexemes,
     /// Where the rest starts in the file.
     at: u32,
     rest: &'a [u8],

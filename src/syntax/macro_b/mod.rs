@@ -29,6 +29,6 @@ mod tests;
 
 pub(super) use blocks::{Keep, is_sound, read_line};
 pub(super) use expressions::{bits_among_arithmetic, bits_behind_relations};
-pub(super) use lexeme::{Lex, Row, lexemes_of_rules};
+pub(super) use lexeme::{Lex, Lexemes, lexemes_of_rules};
 pub(super) use parse_cache::ParseCache;
 pub(super) use rules::{Reading, Rules, read};

@@ -2,7 +2,7 @@
 
 use super::Rules;
 use super::cache_key::{LONGEST, cache_key};
-use super::lexeme::{Lex, Lexeme, Row};
+use super::lexeme::{Lex, Lexeme, Lexemes};
 use super::rules::Reading;
 use crate::syntax::support::readable;
 use crate::text::Span;
@@ -29,7 +29,7 @@ pub type Memory = LocalKey<RefCell<ParseCache>>;
 const REMEMBERED: usize = 8192;
 
 /// Reads the leaves of a block, by the grammar unless it has read one that is alike.
-pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Row) -> Result<(), Reading> {
+pub fn read(rules: &Rules, source: &[u8], block: Span, row: &mut Lexemes) -> Result<(), Reading> {
     let (mut key, mut ends) = ([0; LONGEST], [0; LONGEST]);
     let Some(cache_key) = cache_key(block.of(source), &mut key, &mut ends) else {
         return (rules.read)(&readable(block.of(source)), block.start, row);
@@ -74,7 +74,7 @@ pub fn is_sound(rules: &Rules, line: &[u8], find: impl FnOnce() -> bool) -> bool
 }
 
 /// The leaves of a block as they are remembered; none if they do not tile it.
-fn leaves(row: &Row, block: Span, ends: &[u8]) -> Option<Leaves> {
+fn leaves(row: &Lexemes, block: Span, ends: &[u8]) -> Option<Leaves> {
     let mut leaves = Vec::with_capacity(row.len());
     let mut ends = ends.iter().zip(0..);
     for leaf in row {

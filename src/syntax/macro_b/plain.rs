@@ -3,7 +3,7 @@
 //! The items are the same as [`super::tree`] would build, which tests hold it to; nothing need be asked of
 //! what may come next, since the scanner meets words, comments and sequence numbers only.
 
-use super::lexeme::{Lex, Lexeme, Row};
+use super::lexeme::{Lex, Lexeme, Lexemes};
 use super::scanner::{Scanned, Take};
 use crate::syntax::{Comment, Expr, ExprKind, Fence, Item, ItemKind, Word};
 use crate::text::Span;
@@ -65,7 +65,7 @@ impl Take for Plain {
 }
 
 /// The leaves.
-impl Take for Row {
+impl Take for Lexemes {
     fn space(&mut self, span: Span) {
         self.push(Lexeme { kind: Lex::Space, span });
     }

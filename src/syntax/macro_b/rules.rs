@@ -1,6 +1,6 @@
 //! What a dialect of the family fills in, and how its grammar is run.
 
-use super::lexeme::{self, Lex, Row};
+use super::lexeme::{self, Lex, Lexemes};
 use super::parse_cache::Memory;
 use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
@@ -13,7 +13,7 @@ use pest::{Parser, RuleType, Token};
 /// limits are facts of the controls; see `dialects/` for their sources.
 pub struct Rules {
     /// Runs the dialect's grammar over the text of one block.
-    pub read: fn(text: &str, start: u32, row: &mut Row) -> Result<(), Reading>,
+    pub read: fn(text: &str, start: u32, row: &mut Lexemes) -> Result<(), Reading>,
     /// What that has read already.
     pub known: &'static Memory,
     /// How close an operator binds; those of one rank go from left to right.
@@ -47,7 +47,7 @@ pub fn read<P: Parser<R>, R: RuleType + Into<Lex>>(
     rule: R,
     text: &str,
     start: u32,
-    row: &mut Row,
+    row: &mut Lexemes,
 ) -> Result<(), Reading> {
     let pairs = P::parse(rule, text).map_err(|error| {
         let at = stopped_at(&error);

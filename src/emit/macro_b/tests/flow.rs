@@ -70,7 +70,7 @@ fn one_macro_statement_stands_behind_then() {
 #[test]
 fn words_stand_behind_then_where_they_did_and_may() {
     let mut builder = Builder::new();
-    let at = SourceInfo { remarks: [remark("LAST", false)].into(), ..numbered(1, 10) };
+    let at = SourceInfo { comments: [comment("LAST", false)].into(), ..numbered(1, 10) };
     let (then, otherwise) = (builder.fresh(), builder.fresh());
     builder.end(TermKind::Branch { cond: gt(1, 5.0), then, otherwise }, at.clone());
     builder.start(then);

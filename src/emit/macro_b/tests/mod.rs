@@ -167,8 +167,8 @@ fn numbered(at: u32, sequence: u32) -> SourceInfo {
     SourceInfo { sequence: Some(sequence), ..site(at) }
 }
 
-fn remark(text: &str, leading: bool) -> Remark {
-    Remark { text: text.into(), leading }
+fn comment(text: &str, leading: bool) -> Comment {
+    Comment { text: text.into(), leading }
 }
 
 /// A program laid out by hand: labels, statements and end of each block.

@@ -190,7 +190,7 @@ fn ends_and_returns() {
 
 #[test]
 fn what_came_from_one_block_goes_back_to_one() {
-    let at = SourceInfo { remarks: [remark("HOME", false)].into(), ..numbered(1, 50) };
+    let at = SourceInfo { comments: [comment("HOME", false)].into(), ..numbered(1, 50) };
     let home = nc([op(Op::Incremental), op(Op::ReferenceReturn), word(Role::Z, n(0.0))]);
     let program = |kind: TermKind, rest: usize| {
         let mut builder = Builder::new();
@@ -218,17 +218,17 @@ fn what_came_from_one_block_goes_back_to_one() {
 #[test]
 fn comments_and_names_stay_with_their_blocks() {
     let mut builder = Builder::new();
-    let remarks = [remark("CUT (DEEP)", true), remark("50%", false)].into();
-    builder.push(mv(1.0), SourceInfo { remarks, ..numbered(2, 10) });
-    builder.push(StmtKind::Remark, SourceInfo { remarks: [remark("ALONE", true)].into(), ..site(3) });
-    builder.push(StmtKind::Remark, numbered(4, 20));
-    builder.push(StmtKind::Remark, site(5));
+    let comments = [comment("CUT (DEEP)", true), comment("50%", false)].into();
+    builder.push(mv(1.0), SourceInfo { comments, ..numbered(2, 10) });
+    builder.push(StmtKind::Comment, SourceInfo { comments: [comment("ALONE", true)].into(), ..site(3) });
+    builder.push(StmtKind::Comment, numbered(4, 20));
+    builder.push(StmtKind::Comment, site(5));
     builder.push(mv(2.0), SourceInfo { skip: Some(1), ..numbered(6, 30) });
     builder.push(mv(3.0), SourceInfo { skip: Some(2), ..site(7) });
     let text_of_alarm = StmtKind::Alarm { number: n(1.0), text: "STOP".into() };
-    let remarks = [remark("STOP", false), remark("OR ELSE", false)].into();
-    builder.push(text_of_alarm, SourceInfo { remarks, ..numbered(8, 40) });
-    let head = SourceInfo { remarks: [remark("BOLT CIRCLE", false)].into(), ..numbered(1, 1) };
+    let comments = [comment("STOP", false), comment("OR ELSE", false)].into();
+    builder.push(text_of_alarm, SourceInfo { comments, ..numbered(8, 40) });
+    let head = SourceInfo { comments: [comment("BOLT CIRCLE", false)].into(), ..numbered(1, 1) };
     let program = builder.finish(Some(ProgramName::Number(12)), 0, head);
     assert_eq!(
         text("fanuc", &program),
@@ -249,11 +249,11 @@ fn a_long_line_gives_up_its_comments_first() {
     let long =
         "A COMMENT THAT IS SO LONG THAT IT WOULD NOT FIT BESIDE THE WORDS OF THE BLOCK IT STANDS IN AT ALL";
     let mut builder = Builder::new();
-    builder.push(mv(1.0), SourceInfo { remarks: [remark(long, false)].into(), ..numbered(1, 10) });
+    builder.push(mv(1.0), SourceInfo { comments: [comment(long, false)].into(), ..numbered(1, 10) });
     let program = builder.finish(
         Some(ProgramName::Number(7)),
         0,
-        SourceInfo { remarks: [remark(long, true)].into(), ..site(0) },
+        SourceInfo { comments: [comment(long, true)].into(), ..site(0) },
     );
     let first = "(A COMMENT THAT IS SO LONG THAT IT WOULD NOT FIT BESIDE THE WORDS OF THE BLOCK";
     let text = text("haas", &program);
@@ -263,8 +263,8 @@ fn a_long_line_gives_up_its_comments_first() {
     );
     assert!(text.lines().all(|line| line.len() <= 80));
     // Counted as they are written: an umlaut is two letters, and a bracket at a piece's end stays.
-    let remarks = [remark(&format!("{} (IN BRACKETS) {}", "Ü".repeat(59), "%".repeat(50)), true)].into();
-    let program = Builder::new().finish(Some(ProgramName::Number(7)), 0, SourceInfo { remarks, ..site(0) });
+    let comments = [comment(&format!("{} (IN BRACKETS) {}", "Ü".repeat(59), "%".repeat(50)), true)].into();
+    let program = Builder::new().finish(Some(ProgramName::Number(7)), 0, SourceInfo { comments, ..site(0) });
     let (words, signs) = ("UE".repeat(39), "PCT".repeat(26));
     let text = super::text("haas", &program);
     assert_eq!(

@@ -22,7 +22,7 @@ impl Written {
             }
         }
         // From "all variables" down: each round can only take variables away.
-        callees.graph(module).settle(|index| {
+        callees.graph(module).fixpoint(|index| {
             let own = (index, BlockId(0))..(index + 1, BlockId(0));
             let routines: Vec<Routine> = written.0.range(own).map(|(routine, _)| *routine).collect();
             if routines.is_empty() {

@@ -128,7 +128,7 @@ impl Here<'_> {
 
 /// A block without words does nothing.
 fn kind_of(nc: Nc) -> StmtKind {
-    if nc.items.is_empty() { StmtKind::Remark } else { StmtKind::Nc(nc) }
+    if nc.items.is_empty() { StmtKind::Comment } else { StmtKind::Nc(nc) }
 }
 
 /// Asks the flags one after the other, and lays the block down without the words whose flag says so. The first that is

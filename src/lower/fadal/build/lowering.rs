@@ -2,7 +2,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Builder, Class, Place, Remark, SourceInfo, StmtKind, TermKind, Var};
+use crate::ir::{BlockId, Builder, Class, Comment, Place, SourceInfo, StmtKind, TermKind, Var};
 use crate::lower::common::{Findings, otherwise};
 use crate::lower::fadal::flow::{Goal, Shape, State};
 use crate::syntax;
@@ -31,7 +31,7 @@ pub struct Lowering<'b> {
     /// True once a statement of the present block was added.
     pub placed: bool,
     /// Comments that stand where no statement can: they go with the next one.
-    pub carried: Vec<Remark>,
+    pub carried: Vec<Comment>,
     entries: HashMap<usize, BlockId>,
     told: HashSet<String>,
     temps: u32,
@@ -119,9 +119,9 @@ impl<'b> Lowering<'b> {
     pub fn take_site(&mut self) -> SourceInfo {
         self.placed = true;
         let mut site = self.site.clone();
-        self.site.remarks.clear();
+        self.site.comments.clear();
         if self.builder.is_open() && !self.carried.is_empty() {
-            site.remarks.splice(0..0, self.carried.drain(..));
+            site.comments.splice(0..0, self.carried.drain(..));
         }
         site
     }

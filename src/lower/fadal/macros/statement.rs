@@ -4,7 +4,7 @@ use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BlockId, Class, Expr, Place, PrintPart, StmtKind, TermKind, Var};
-use crate::lower::common::{remark_text, says_something};
+use crate::lower::common::{comment_text, says_something};
 use crate::lower::fadal::build::Lowering;
 use crate::lower::fadal::codes::program_number;
 use crate::lower::fadal::flow::goal;
@@ -33,7 +33,7 @@ impl<'b> Lowering<'b> {
                 let mut out = Vec::with_capacity(parts.len());
                 for part in parts {
                     out.push(match part {
-                        syntax::PrintPart::Text(text) => PrintPart::Text(remark_text(*text, self.source)),
+                        syntax::PrintPart::Text(text) => PrintPart::Text(comment_text(*text, self.source)),
                         syntax::PrintPart::Value(value) => {
                             let _ = self.rely(Question::PrintFormat, value.span);
                             PrintPart::Value(self.expr(value)?)

@@ -94,9 +94,9 @@ impl<'b> Lowering<'b> {
                 || self.shape.begins(self.at).is_some();
         if !self.builder.is_open() {
             // A statement here would be a block of its own that nothing reaches.
-            self.carried.extend(site.remarks.drain(..));
-        } else if !silent || !site.remarks.is_empty() {
-            self.builder.push(StmtKind::Remark, site);
+            self.carried.extend(site.comments.drain(..));
+        } else if !silent || !site.comments.is_empty() {
+            self.builder.push(StmtKind::Comment, site);
         }
     }
 
@@ -164,8 +164,8 @@ impl<'b> Lowering<'b> {
 
     fn finish(&mut self) {
         if !self.carried.is_empty() {
-            let remarks = self.carried.drain(..).collect();
-            self.builder.push(StmtKind::Remark, SourceInfo { remarks, ..SourceInfo::default() });
+            let comments = self.carried.drain(..).collect();
+            self.builder.push(StmtKind::Comment, SourceInfo { comments, ..SourceInfo::default() });
         }
         let shape = self.shape;
         let Some(last) = shape.subs.last() else { return self.note_modes() };

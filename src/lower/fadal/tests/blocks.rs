@@ -30,7 +30,7 @@ const BLOCKS: &[(&str, &str)] = &[
     ),
     // A full circle has a centre only.
     ("G3 X1. I.5\nI1.", "nc motion.arc.ccw axis.x=1 arc.i=0.5; nc motion.arc.ccw arc.i=1"),
-    ("G2\nG1 X1.", "remark; nc motion.linear axis.x=1"),
+    ("G2\nG1 X1.", "comment; nc motion.linear axis.x=1"),
     // Fixtures: E0 cancels, E7 is the first additional work offset.
     ("G0 E1 X0 Y0", "nc motion.rapid wcs.select wcs.number=1 axis.x=0 axis.y=0"),
     ("E0 X0 Y0 G0", "nc wcs.cancel axis.x=0 axis.y=0 motion.rapid"),
@@ -116,7 +116,7 @@ const BLOCKS: &[(&str, &str)] = &[
     ("G5 X1.", "nc motion.rapid.once axis.x=1"),
     // The same value twice is one word.
     ("G0 G49 Z0 E0 X0 Y0 Z0", "nc motion.rapid length.off axis.z=0 wcs.cancel axis.x=0 axis.y=0"),
-    ("(ONLY A COMMENT", "remark"),
+    ("(ONLY A COMMENT", "comment"),
 ];
 
 #[test]

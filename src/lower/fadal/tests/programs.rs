@@ -140,10 +140,10 @@ fn comments_are_kept() {
     let parsed = crate::syntax::parse_file(source, crate::syntax::fadal::parse_line);
     let lowered = super::lower(&parsed, 0, "t", &control(""));
     let (program, _) = &lowered.programs[0];
-    let mut texts: Vec<&str> = program.site.remarks.iter().map(|r| r.text.as_str()).collect();
+    let mut texts: Vec<&str> = program.site.comments.iter().map(|r| r.text.as_str()).collect();
     for block in &program.blocks {
         let sites = block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]);
-        texts.extend(sites.flat_map(|site| &site.remarks).map(|r| r.text.as_str()));
+        texts.extend(sites.flat_map(|site| &site.comments).map(|r| r.text.as_str()));
     }
     assert_eq!(texts, ["NAME", "SUB", "END OF SUB", "BETWEEN", "AREA", "LAST", "TAIL"]);
 }

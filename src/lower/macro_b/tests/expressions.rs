@@ -147,7 +147,7 @@ fn numbers_as_conditions() {
     means(
         "haas",
         "[#1000] GOTO10\nN10",
-        "0: branch sys input[0] ne 0 ? b2 : b1\n1: jump b2\n2 N10: remark | stray",
+        "0: branch sys input[0] ne 0 ? b2 : b1\n1: jump b2\n2 N10: comment | stray",
     );
     // A variable may be vacant, which is not "not zero".
     means(

@@ -160,7 +160,7 @@ fn jumps_out_of_loops_and_inside_them() {
 #[test]
 fn block_skip() {
     means("fanuc", "/#1=2\n/2G0X1.", "0: /1 local.1 = 2 | /2 nc motion.rapid axis.x=1 | stray");
-    means("fanuc", "/N1(TEXT)", "0: /1 remark | stray");
+    means("fanuc", "/N1(TEXT)", "0: /1 comment | stray");
     means("fanuc", "N5/M8", "0: /1 nc coolant.flood | stray");
     means(
         "fanuc",

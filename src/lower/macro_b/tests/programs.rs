@@ -2,7 +2,7 @@
 
 use super::{lowered, means, reviews};
 use crate::diag::Code;
-use crate::ir::Remark;
+use crate::ir::Comment;
 use crate::syntax::ProgramName;
 
 fn names(source: &str) -> Vec<Option<ProgramName>> {
@@ -26,12 +26,12 @@ fn programs_of_a_file() {
 fn comments_belong_to_someone() {
     let lowered = lowered("fanuc", "(MAIN PROGRAM)\nO0023(FRAME)\n(NOTE)\nG0X1.(MOVE)\n(AHEAD)G1Y1.F1.\nM30");
     let (program, _) = &lowered.programs[0];
-    let remark = |text: &str, leading| Remark { text: text.into(), leading };
-    assert_eq!(program.site.remarks, [remark("MAIN PROGRAM", true), remark("FRAME", false)]);
-    let remarks: Vec<_> = program.blocks[0].stmts.iter().map(|stmt| stmt.site.remarks.clone()).collect();
+    let comment = |text: &str, leading| Comment { text: text.into(), leading };
+    assert_eq!(program.site.comments, [comment("MAIN PROGRAM", true), comment("FRAME", false)]);
+    let comments: Vec<_> = program.blocks[0].stmts.iter().map(|stmt| stmt.site.comments.clone()).collect();
     assert_eq!(
-        remarks,
-        [vec![remark("NOTE", true)], vec![remark("MOVE", false)], vec![remark("AHEAD", true)]]
+        comments,
+        [vec![comment("NOTE", true)], vec![comment("MOVE", false)], vec![comment("AHEAD", true)]]
     );
 }
 
@@ -40,11 +40,11 @@ fn empty_blocks_are_kept() {
     means(
         "haas",
         "#1124=1;\n;\n\nG04 P2.;",
-        "0: sys output[24] = 1 | remark | remark | nc dwell dwell.s=2 | stray",
+        "0: sys output[24] = 1 | comment | comment | nc dwell dwell.s=2 | stray",
     );
     // One line, two blocks.
     means("haas", "G04 P2.; #1124=0;", "0: nc dwell dwell.s=2 | sys output[24] = 0 | stray");
-    means("fanuc", "N25\nN30(TEXT)", "0: remark | remark | stray");
+    means("fanuc", "N25\nN30(TEXT)", "0: comment | comment | stray");
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn alarms_and_messages() {
     );
     let lowered = lowered("fanuc", "#3000=1(TEXT)");
     // The message is no comment as well.
-    assert_eq!(lowered.programs[0].0.blocks[0].stmts[0].site.remarks, []);
+    assert_eq!(lowered.programs[0].0.blocks[0].stmts[0].site.comments, []);
 }
 
 #[test]

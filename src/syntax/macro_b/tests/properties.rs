@@ -1,7 +1,7 @@
 //! Laws over random input.
 
 use super::super::{
-    bits_among_arithmetic, blocks, blocks::Keep, cache_key::LONGEST, cache_key::cache_key, lexeme::Row,
+    bits_among_arithmetic, blocks, blocks::Keep, cache_key::LONGEST, cache_key::cache_key, lexeme::Lexemes,
     parse_cache, read_line, scanner, shape, tree,
 };
 use super::{BOTH, Dialect};
@@ -86,7 +86,7 @@ fn scanner_agrees(dialect: &Dialect, source: &[u8]) -> usize {
             assert!(blocks.len() <= 1 && blocks.iter().all(|block| block.errors.is_empty()), "{blocks:?}");
         }
         for block in blocks {
-            let mut row = Row::new();
+            let mut row = Lexemes::new();
             let rest = Span::new(block.span.start, line.text.end);
             let Some(end) = scanner::scan(source, rest, &mut row) else { continue };
             accepted += 1;
@@ -165,14 +165,14 @@ fn numbers() -> impl Strategy<Value = Vec<u8>> {
 fn alike_is_read_alike(dialect: &Dialect, block: &[u8]) {
     let mut key = [0; LONGEST];
     let Some(like) = cache_key(block, &mut key, &mut [0; LONGEST]) else { return };
-    let mut row = Row::new();
-    let mut read = |text: &[u8], by: &dyn Fn(Span, &mut Row) -> bool| {
+    let mut row = Lexemes::new();
+    let mut read = |text: &[u8], by: &dyn Fn(Span, &mut Lexemes) -> bool| {
         row.clear();
         by(Span::new(0, text.len() as u32), &mut row).then(|| row.clone())
     };
-    let remember = |span, row: &mut Row| parse_cache::read(dialect.rules, like, span, row).is_ok();
-    let remembered = |span, row: &mut Row| parse_cache::read(dialect.rules, block, span, row).is_ok();
-    let by_grammar = |_, row: &mut Row| (dialect.rules.read)(&readable(block), 0, row).is_ok();
+    let remember = |span, row: &mut Lexemes| parse_cache::read(dialect.rules, like, span, row).is_ok();
+    let remembered = |span, row: &mut Lexemes| parse_cache::read(dialect.rules, block, span, row).is_ok();
+    let by_grammar = |_, row: &mut Lexemes| (dialect.rules.read)(&readable(block), 0, row).is_ok();
     let is_read = read(like, &remember).is_some();
     let expected = read(block, &by_grammar);
     assert_eq!(is_read, expected.is_some(), "{}: {}", dialect.name, block.escape_ascii());

@@ -5,7 +5,8 @@ use super::solve::{constant, solve};
 use crate::canon::{Func, Op, Sys};
 use crate::dialect::Control;
 use crate::syntax::{
-    BinaryOp, Expr, ExprKind, Index, Item, ItemKind, Row, Target, TestSubject, VarRef, Word, for_each_expr,
+    BinaryOp, Expr, ExprKind, Index, Item, ItemKind, TableRow, Target, TestSubject, VarRef, Word,
+    for_each_expr,
 };
 use crate::verify::sides::{class_of, name_of};
 use std::collections::{BTreeMap, BTreeSet};
@@ -97,7 +98,7 @@ impl<'c> Reader<'c> {
                 self.compare(variable, &[0.0]);
             }
             ItemKind::Transfer { table, cells } => {
-                if let Row::Variable(row) = &table.row {
+                if let TableRow::Variable(row) = &table.row {
                     self.read(row);
                 }
                 for cell in cells {

@@ -3,7 +3,7 @@
 use crate::text::likeness;
 
 /// Adds `( )` and a comment's text between them.
-pub(in crate::emit) fn write_remark(out: &mut Vec<u8>, text: &str) {
+pub(in crate::emit) fn write_comment(out: &mut Vec<u8>, text: &str) {
     write_spelled(out, &spelled(text));
 }
 
@@ -71,20 +71,20 @@ pub(in crate::emit) fn wrap(text: &str, most: usize) -> Vec<&str> {
 mod tests {
     use super::*;
 
-    fn remark(text: &str) -> String {
+    fn comment(text: &str) -> String {
         let mut out = Vec::new();
-        write_remark(&mut out, text);
+        write_comment(&mut out, text);
         String::from_utf8(out).unwrap()
     }
 
     #[test]
     fn nothing_in_a_comment_can_end_it() {
-        assert_eq!(remark("A (B) 50%; C"), "(A [B] 50PCT, C)");
-        assert_eq!(remark("TO THE LINE END)"), "(TO THE LINE END)");
-        assert_eq!(remark("A (B)"), "(A [B])");
-        assert_eq!(remark("TAB\tLF\nNUL\0."), "(TAB LF NUL .)");
-        assert_eq!(remark("Fräser Ø10 日"), "(Fraeser O10 ?)");
-        assert_eq!(remark(""), "()");
+        assert_eq!(comment("A (B) 50%; C"), "(A [B] 50PCT, C)");
+        assert_eq!(comment("TO THE LINE END)"), "(TO THE LINE END)");
+        assert_eq!(comment("A (B)"), "(A [B])");
+        assert_eq!(comment("TAB\tLF\nNUL\0."), "(TAB LF NUL .)");
+        assert_eq!(comment("Fräser Ø10 日"), "(Fraeser O10 ?)");
+        assert_eq!(comment(""), "()");
     }
 
     #[test]
