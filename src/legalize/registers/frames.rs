@@ -14,7 +14,7 @@ mod calls;
 mod levels;
 
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::Question;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::analysis::{Universe, VarSet};
 use crate::ir::{
@@ -22,6 +22,7 @@ use crate::ir::{
     Terminator, Var,
 };
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::registers::needs::has_locals;
 use crate::legalize::rewrite::put_first;
 use crate::legalize::{Context, Position, Rewriter, rewrite_program};
 use levels::Levels;
@@ -30,10 +31,6 @@ use smallvec::SmallVec;
 /// True if programs have variables, and the target no locals.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     features.has(Feature::Variable) && !has_locals(context.target)
-}
-
-fn has_locals(control: &Control) -> bool {
-    control.classes().iter().any(|row| row.class == "local")
 }
 
 /// Turns all locals into statics.

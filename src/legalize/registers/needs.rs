@@ -62,3 +62,8 @@ pub(super) fn class_of_colour(var: Var, target: &Control) -> Option<&str> {
 pub(super) fn is_general(row: &VariableClass, target: &Control) -> bool {
     !matches!(row.class.as_str(), "local" | "letter") && !classes(target).contains(row.class.as_str())
 }
+
+/// True if programs of the target have local variables.
+pub(super) fn has_locals(target: &Control) -> bool {
+    target.classes().iter().any(|row| row.class == "local")
+}

@@ -8,7 +8,7 @@
 //! call comes back to has one set of temporaries for both levels, so none may be alive over that call. Counter-example:
 //! a macro that calls itself between the two halves of a long expression.
 
-use super::needs::{APART, first_colours};
+use super::needs::{APART, first_colours, has_locals};
 use super::statics::{Statics, lowest};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::{CallGraph, Cfg, Temps, Transfer, live_after};
@@ -26,7 +26,8 @@ const MOST_COLOURS: usize = 2000;
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
-    let statics = Statics::of(module);
+    // Only for a target without locals are there any.
+    let statics = if has_locals(context.target) { None } else { Statics::of(module) };
     let mut plans: Vec<Plan> = Vec::with_capacity(module.programs.len());
     for (at, program) in module.programs.iter_mut().enumerate() {
         let first = first_colours(program, context.target);
