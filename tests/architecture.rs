@@ -343,7 +343,7 @@ fn the_rules_have_teeth() {
     }
     assert_eq!(place_of("src/emit/haas.rs", "haas").as_deref(), Some("src/emit/NAME"));
     assert_eq!(place_of("grammar/haas.pest", "haas").as_deref(), Some("grammar/NAME.pest"));
-    assert!(place_of("tests/conversions/fanuc-haas.txt", "haas").is_none());
+    assert!(place_of("tests/conversions/fanuc-haas.toml", "haas").is_none());
     assert!(declares("pub mod fadal;", "fadal") && !declares("use super::fadal;", "fadal"));
     let tree = "use super::super::b::{C, d::{self, E}};\nlet x = crate::f::g(self::h::I, $crate::no);";
     let all = imports("src/a/k/l.rs", tree);

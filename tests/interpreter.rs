@@ -1,8 +1,11 @@
 //! Programs as `macroglot run` runs them, against what interpreters in another language make of them
 //! (`tests/interpreter/`).
 
+#[path = "support/cases.rs"]
+mod cases;
 mod support;
 
+use cases::{Case, cases, hold};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::process::Command;
@@ -20,29 +23,13 @@ struct Run {
     values: BTreeMap<String, f64>,
 }
 
-/// A program and what it is to do.
-struct Case<'t> {
-    seed: &'t str,
-    program: &'t str,
-    wanted: Run,
-}
-
-impl<'t> Case<'t> {
-    fn read(text: &'t str) -> Option<Self> {
-        let (head, rest) = text.split_once('\n')?;
-        let (seed, end) = head.split_once(": ")?;
-        let (program, lines) = rest.split_once("--\n")?;
-        let mut wanted = Run { end: end.to_owned(), ..Run::default() };
-        for line in lines.lines().filter(|line| !line.is_empty()) {
-            let (kind, numbers) = line.split_once(' ')?;
-            let numbers = numbers.split(' ').map(|number| number.parse().unwrap());
-            match kind {
-                "rapid" | "feed" => wanted.moves.push((kind.to_owned(), numbers.collect())),
-                name => wanted.values.extend(numbers.map(|value| (name.to_owned(), value))),
-            }
-        }
-        Some(Self { seed, program, wanted })
-    }
+/// What a case says that its program does.
+fn wanted(case: &Case) -> Run {
+    let moves = case.moves.lines().map(|line| {
+        let (kind, numbers) = line.split_once(' ').expect("a kind and a place");
+        (kind.to_owned(), numbers.split(' ').map(|number| number.parse().unwrap()).collect())
+    });
+    Run { end: case.ends.clone(), moves: moves.collect(), values: case.variables.clone() }
 }
 
 fn run(program: &str, dialect: &str) -> Run {
@@ -103,18 +90,12 @@ fn difference(found: &Run, wanted: &Run) -> Option<String> {
 }
 
 fn check(dialect: &str) {
-    let text = std::fs::read_to_string(root().join(format!("tests/interpreter/{dialect}.txt"))).unwrap();
-    let cases = text.split("== ").skip(1).map(|text| Case::read(text).expect("a case"));
-    let mut wrong = Vec::new();
-    let mut count = 0;
-    for Case { seed, program, wanted } in cases {
-        count += 1;
-        if let Some(difference) = difference(&run(program, dialect), &wanted) {
-            wrong.push(format!("seed {seed}: {difference}\n{program}"));
-        }
-    }
-    assert!(wrong.is_empty(), "{} of {count}\n{}", wrong.len(), wrong.join("\n"));
-    assert_eq!(count, PROGRAMS);
+    let cases = cases(&format!("tests/interpreter/{dialect}.toml"));
+    hold(&cases, PROGRAMS, |case| {
+        assert_eq!(case.from, dialect);
+        difference(&run(&case.source, dialect), &wanted(case))
+            .map(|fault| format!("{fault}\n{}", case.source))
+    });
 }
 
 #[test]

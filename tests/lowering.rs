@@ -1,10 +1,18 @@
-//! Lowering takes any program, right or wrong, without a fault of its own: it
+//! What blocks mean (`tests/lowering/`, in the form of `support/cases.rs`); and lowering takes any program, right or wrong, without a fault of its own: it
 //! ends, it does not panic, and what it makes keeps the IR's contract.
 
+#[path = "support/cases.rs"]
+mod cases;
+#[path = "support/machine.rs"]
+mod machine;
+
+use cases::{Case, cases, hold};
+use macroglot::diag::{Code, Diagnostic};
 use macroglot::dialect::{Control, registry};
-use macroglot::ir::{Module, validate};
+use macroglot::ir::{Module, SourceInfo, text, validate};
 use macroglot::lower::Lower;
 use macroglot::syntax::{Parser, parse_file};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Mutations start here; a failure prints the one it came from.
@@ -52,6 +60,46 @@ impl Subject {
         module.programs.extend(lowered.programs.into_iter().map(|(program, _)| program));
         validate(&module).err().unwrap_or_default().iter().map(ToString::to_string).collect()
     }
+}
+
+/// What is wrong with the IR of a case, if anything is.
+fn fault(case: &Case) -> Option<String> {
+    let control = machine::machine(&case.from).unwrap_or_else(|error| panic!("{error}"));
+    let entry = control.entry();
+    let lower = registry::find(entry.name).expect("the dialect").lower;
+    let lowered = lower(&parse_file(case.source.as_bytes(), entry.parse), 0, "program.nc", &control);
+    let mut module = Module::default();
+    let mut reports = BTreeSet::new();
+    for (mut program, findings) in lowered.programs {
+        // Where things stand is no part of what they mean.
+        program.site = SourceInfo::default();
+        for block in &mut program.blocks {
+            block.stmts.iter_mut().for_each(|stmt| stmt.site.span = Default::default());
+            block.term.site.span = Default::default();
+        }
+        module.programs.push(program);
+        reports.extend(findings.iter().map(report));
+    }
+    let faults = validate(&module).err();
+    let wanted = text::parse(&format!("program unnamed file 0 {{\n{}}}\n", case.ir))
+        .unwrap_or_else(|error| panic!("{}: {error}", case.name));
+    let (wanted, got) = (text::print(&wanted), text::print(&module));
+    (faults.is_some() || wanted != got || reports != case.reports).then(|| {
+        format!("{}\nwanted {wanted}{:?}\ngot {got}{reports:?}\n{faults:?}", case.source, case.reports)
+    })
+}
+
+/// A fact by its name, another finding by its code.
+fn report(found: &Diagnostic) -> String {
+    match found.code {
+        Code::UnconfirmedFact => format!("fact {}", found.message.split('\'').nth(1).unwrap()),
+        code => code.number().to_owned(),
+    }
+}
+
+#[test]
+fn blocks_mean_what_the_manuals_say() {
+    hold(&cases("tests/lowering"), 50, fault);
 }
 
 #[test]

@@ -1,79 +1,30 @@
 //! Pairs of programs by hand, handed to the verifier as if one were the conversion of the other: those that
 //! differ in one place must be told apart there, those that are only written otherwise must not.
 
+#[path = "support/cases.rs"]
+mod cases;
+#[path = "support/machine.rs"]
+mod machine;
+
+use cases::{Case, Change, cases};
 use machine::machine;
 use macroglot::control::LoadedFile;
 use macroglot::dialect::registry;
 use macroglot::syntax::parse_file;
 use macroglot::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, verify};
-use std::path::PathBuf;
-
-#[path = "support/machine.rs"]
-mod machine;
-
-/// A pair, and what of the target is changed.
-struct Pair<'p> {
-    name: &'p str,
-    from: &'p str,
-    to: &'p str,
-    lock: Vec<(&'p str, u32)>,
-    source: &'p str,
-    target: String,
-    /// What stands there once, what instead, and what the witness says of it.
-    changes: Vec<(String, String, &'p str)>,
-    /// What stands there once, and what instead, where it cannot be said to be the same.
-    doubts: Vec<(String, String)>,
-}
-
-fn read(text: &str) -> Vec<Pair<'_>> {
-    text.split("\n=== ").skip(1).map(pair).collect()
-}
-
-fn pair(text: &str) -> Pair<'_> {
-    let (head, rest) = text.split_once('\n').unwrap();
-    let (name, how) = head.rsplit_once(", ").unwrap();
-    let mut how = how.split(' ');
-    let (from, to) = (how.next().unwrap(), how.next().unwrap());
-    let lock =
-        how.map(|row| row.split_once('=').unwrap()).map(|(name, number)| (name, number.parse().unwrap()));
-    let (source, rest) = rest.split_once("---\n").unwrap();
-    let lines = || rest.lines().take_while(|line| !line.is_empty());
-    let line = |text: &str| text.replace("\\n", "\n");
-    let change = |change: &str| {
-        let (old, new) = change.split_once(" => ").unwrap();
-        (line(old), line(new.trim_end_matches(' ')))
-    };
-    let changes = lines().filter_map(|line| line.strip_prefix("~ ")).map(|text| {
-        let (text, what) = text.rsplit_once('|').unwrap();
-        let (old, new) = change(text);
-        (old, new, what.trim())
-    });
-    let doubts = lines().filter_map(|line| line.strip_prefix("? ")).map(change);
-    let is_text = |line: &&str| !line.starts_with("~ ") && !line.starts_with("? ");
-    Pair {
-        name,
-        from,
-        to,
-        lock: lock.collect(),
-        source,
-        target: lines().filter(is_text).flat_map(|line| [line, "\n"]).collect(),
-        changes: changes.collect(),
-        doubts: doubts.collect(),
-    }
-}
+use std::collections::BTreeMap;
 
 /// Verifies a target of a pair.
-fn judge(pair: &Pair<'_>, target: &str) -> Certificate {
-    let controls = [pair.from, pair.to].map(|spec| machine(spec).unwrap());
+fn judge(pair: &Case, target: &str) -> Certificate {
+    let controls = [&pair.from, &pair.to].map(|spec| machine(spec).unwrap());
     let execute = [0, 1].map(|at: usize| registry::find(controls[at].name()).unwrap().execute.unwrap());
-    let parsed = [(pair.source, &controls[0]), (target, &controls[1])]
+    let parsed = [(&*pair.source, &controls[0]), (target, &controls[1])]
         .map(|(text, control)| parse_file(text.as_bytes(), control.entry().parse));
     let ours = [LoadedFile { name: "a.nc", parsed: &parsed[0] }];
     let theirs = [LoadedFile { name: "a.nc", parsed: &parsed[1] }];
     let source = Side::new(&controls[0], execute[0], &ours);
     let target = Side::new(&controls[1], execute[1], &theirs);
-    let variables = pair.lock.iter().map(|(name, number)| ((*name).to_owned(), *number)).collect();
-    let names = SymbolMap { variables, ..SymbolMap::default() };
+    let names = SymbolMap { variables: pair.lock.clone(), ..SymbolMap::default() };
     let (assumptions, effort) = (Assumptions::new(), Effort::default());
     verify(
         &Job {
@@ -89,18 +40,13 @@ fn judge(pair: &Pair<'_>, target: &str) -> Certificate {
 }
 
 /// The pairs of all files.
-fn text() -> String {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/verify");
-    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
-    let mut files: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "txt")).collect();
-    files.sort();
-    files.iter().map(|path| std::fs::read_to_string(path).unwrap() + "\n").collect()
+fn pairs() -> Vec<Case> {
+    cases("tests/verify")
 }
 
 #[test]
 fn what_is_written_otherwise_is_the_same() {
-    let text = text();
-    let pairs = read(&text);
+    let pairs = pairs();
     assert!(pairs.len() >= 15, "{}", pairs.len());
     for pair in &pairs {
         let found = judge(pair, &pair.target);
@@ -116,19 +62,18 @@ fn what_is_written_otherwise_is_the_same() {
 
 #[test]
 fn what_differs_in_one_place_is_told_apart() {
-    let text = text();
     let (mut count, mut missed) = (0, Vec::new());
-    for pair in read(&text) {
-        for (old, new, what) in &pair.changes {
+    for pair in pairs() {
+        for change in &pair.changes {
             count += 1;
-            let (place, found) = changed(&pair, old, new);
+            let (place, found) = changed(&pair, change);
             let mut witnesses = found.programs.iter().filter_map(|program| program.witness.as_ref());
             if found.outcome != Outcome::Different {
                 let reasons = found.programs.iter().flat_map(|program| &program.reasons);
                 let reasons: Vec<_> = reasons.map(|reason| (reason.why, &reason.text)).collect();
                 missed.push(format!("{place} is {:?}: {reasons:?}", found.outcome));
-            } else if !witnesses.any(|witness| witness.what.contains(what)) {
-                missed.push(format!("{place}: not {what}"));
+            } else if !witnesses.any(|witness| witness.what.contains(&change.says)) {
+                missed.push(format!("{place}: not {}", change.says));
             }
         }
     }
@@ -138,11 +83,10 @@ fn what_differs_in_one_place_is_told_apart() {
 
 #[test]
 fn what_cannot_be_told_is_not_called_the_same() {
-    let text = text();
     let mut same = Vec::new();
-    for pair in read(&text) {
-        for (old, new) in &pair.doubts {
-            let (place, found) = changed(&pair, old, new);
+    for pair in pairs() {
+        for change in &pair.doubts {
+            let (place, found) = changed(&pair, change);
             // A fact that no source confirms would hide what this is about.
             let reasons = found.programs.iter().flat_map(|program| &program.reasons);
             let mut others = reasons.filter(|reason| reason.why != macroglot::verify::Why::Unconfirmed);
@@ -155,16 +99,16 @@ fn what_cannot_be_told_is_not_called_the_same() {
 }
 
 /// A pair with one place of the target changed: which, and what is found.
-fn changed(pair: &Pair<'_>, old: &str, new: &str) -> (String, Certificate) {
+fn changed(pair: &Case, change: &Change) -> (String, Certificate) {
+    let Change { of: old, with: new, .. } = change;
     assert_eq!(pair.target.matches(old).count(), 1, "{}: {old:?} stands once", pair.name);
     (format!("{}: {old:?} made {new:?}", pair.name), judge(pair, &pair.target.replace(old, new)))
 }
 
 /// What is found of a pair without any changes, and why it is not decided.
 fn found(from: &str, to: &str, source: &str, target: &str) -> (Outcome, Vec<macroglot::verify::Why>) {
-    let target = target.to_owned();
-    let pair = Pair { name: "", from, to, lock: Vec::new(), source, target, changes: vec![], doubts: vec![] };
-    let found = judge(&pair, &pair.target);
+    let pair = Case { from: from.into(), to: to.into(), source: source.into(), ..Case::default() };
+    let found = judge(&pair, target);
     (found.outcome, found.programs.iter().flat_map(|p| &p.reasons).map(|reason| reason.why).collect())
 }
 
@@ -233,23 +177,21 @@ fn what_the_last_digit_decides_is_marked_and_nothing_else() {
             };
             let source = counting(from, step, limit);
             let lock = match from {
-                "fadal" => vec![("V1", 501)],
-                "cc100" => vec![("V31", 501), ("V32", 502)],
-                _ => vec![],
+                "fadal" => [("V1".to_owned(), 501)].into(),
+                "cc100" => [("V31".to_owned(), 501), ("V32".to_owned(), 502)].into(),
+                _ => BTreeMap::new(),
             };
             let mut target = counting(to, step, limit);
             if from == "cc100" {
                 target = target.replace("END1", &format!("#502=#501-{limit}\nEND1"));
             }
-            let pair = Pair {
-                name: row,
-                from,
-                to,
+            let pair = Case {
+                name: row.into(),
+                from: from.into(),
+                to: to.into(),
                 lock,
-                source: &source,
-                target: String::new(),
-                changes: vec![],
-                doubts: vec![],
+                source: source.clone(),
+                ..Case::default()
             };
             let found = judge(&pair, &target);
             let [program] = &found.programs[..] else { panic!("one program") };

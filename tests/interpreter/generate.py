@@ -20,9 +20,23 @@ def case(module, dialect, seed):
         return None
     if not MOVES <= len(moves) <= MOST or len(values) < VALUES:
         return None
-    lines = [kind + "".join(f" {axis:.9g}" for axis in place) for kind, place in moves]
-    lines += [f"{name} {value:.9g}" for name, value in values.items()]
-    return f"== {seed}: {'alarm' if alarm else 'ended'}\n{text}--\n" + "".join(line + "\n" for line in lines)
+    moves = "".join(kind + "".join(f" {axis:.9g}" for axis in place) + "\n" for kind, place in moves)
+    values = ", ".join(f"{key(name)} = {value:.9g}" for name, value in values.items())
+    return f"""[[case]]
+name = "seed {seed}"
+from = "{dialect}"
+ends = "{'alarm' if alarm else 'ended'}"
+source = '''
+{text}'''
+moves = '''
+{moves}'''
+variables = {{ {values} }}
+"""
+
+
+def key(name):
+    """A variable as a key of TOML."""
+    return name if name.isalnum() else f'"{name}"'
 
 
 here = os.path.dirname(os.path.abspath(__file__))
@@ -31,6 +45,7 @@ for module, dialect in [(macro_b, "fanuc"), (macro_b, "haas"), (fadal, "fadal"),
     while len(cases) < PROGRAMS:
         seed += 1
         cases += [text for text in [case(module, dialect, seed)] if text]
-    with open(os.path.join(here, f"{dialect}.txt"), "w", encoding="utf-8", newline="\n") as file:
+    with open(os.path.join(here, f"{dialect}.toml"), "w", encoding="utf-8", newline="\n") as file:
         file.write("\n".join(cases))
-    print(f"{dialect}: {len(cases)} programs of {seed}, {sum(': alarm' in text for text in cases)} with an alarm")
+    alarms = sum('ends = "alarm"' in text for text in cases)
+    print(f"{dialect}: {len(cases)} programs of {seed}, {alarms} with an alarm")

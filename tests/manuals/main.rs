@@ -1,5 +1,5 @@
 //! What the manuals say that their expressions and programs give, row by row: `corpus/*/values.tsv` and the
-//! expected results of `corpus/MANIFEST.tsv`. `tests/manuals/*.txt` hold a run on an emulated control for
+//! expected results of `corpus/MANIFEST.tsv`. `tests/manuals/*.toml` hold a run on an emulated control for
 //! each row, or the reason why no run can check it; their first lines explain them.
 
 mod checks;
@@ -13,45 +13,46 @@ use std::collections::BTreeMap;
 use support::text;
 
 /// A row of a manual with what checks it.
-#[derive(Default)]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Row {
-    dialect: String,
-    key: String,
-    cases: Vec<String>,
+    /// The dialect.
+    control: String,
+    row: String,
+    given: String,
+    #[serde(default)]
+    runs: Vec<Check>,
+    /// Why no run can check it.
     why: Option<String>,
+}
+
+/// A run, and what must hold at its end.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Check {
+    /// What the program meets.
+    #[serde(default)]
+    with: String,
+    source: String,
+    holds: Vec<String>,
 }
 
 /// The rows of a file of `tests/manuals/`.
 fn rows(path: &str) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::new();
-    for line in text(path).lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
-        if word == "row" {
-            let (dialect, key) = rest.split_once(' ').expect("a dialect and a row");
-            rows.push(Row { dialect: dialect.into(), key: key.into(), ..Row::default() });
-            continue;
-        }
-        let row = rows.last_mut().expect("a row first");
-        match word {
-            "case" => row.cases.push(rest.to_owned()),
-            "why" => row.why = Some(rest.to_owned()),
-            other => panic!("{path}: {other}"),
-        }
-    }
-    rows
+    let mut file: BTreeMap<String, Vec<Row>> =
+        toml::from_str(&text(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+    file.remove("row").expect("rows")
 }
 
-/// The faults of a row's cases.
+/// The faults of a row's runs.
 fn faults(row: &Row) -> Vec<String> {
     let mut out = Vec::new();
-    for case in &row.cases {
-        let mut parts = case.splitn(2, ":: ");
-        let words = parts.next().unwrap_or_default();
-        let (source, checks) = parts.next().unwrap_or_default().rsplit_once(" :: ").expect("checks");
-        let checks: Vec<&str> = checks.split(" & ").map(str::trim).collect();
-        let run = run(&row.dialect, words, source);
+    for Check { with, source, holds } in &row.runs {
+        let checks: Vec<&str> = holds.iter().map(String::as_str).collect();
+        let run = run(&row.control, with, source);
         let results = checks.iter().map(|one| check(&run, one)).chain([end(&run, &checks)]);
-        out.extend(results.filter_map(Result::err).map(|fault| format!("{}: {case}\n    {fault}", row.key)));
+        let place = |fault| format!("{}: {with} {source}\n    {fault}", row.row);
+        out.extend(results.filter_map(Result::err).map(place));
     }
     out
 }
@@ -59,7 +60,8 @@ fn faults(row: &Row) -> Vec<String> {
 /// Runs the rows of a file that must be those of the manuals; returns how many no run can check.
 fn all_hold(path: &str, manual: &[(String, String)]) -> BTreeMap<String, usize> {
     let rows = rows(path);
-    let keys: Vec<(String, String)> = rows.iter().map(|row| (row.dialect.clone(), row.key.clone())).collect();
+    let keys: Vec<(String, String)> =
+        rows.iter().map(|row| (row.control.clone(), format!("{}\t{}", row.row, row.given))).collect();
     for key in manual {
         assert!(keys.contains(key), "{path}: no row {key:?}");
     }
@@ -68,14 +70,14 @@ fn all_hold(path: &str, manual: &[(String, String)]) -> BTreeMap<String, usize> 
     }
     assert_eq!(keys.len(), manual.len(), "{path}: a row stands twice");
     for row in &rows {
-        let one = row.cases.is_empty() != row.why.as_ref().is_none_or(String::is_empty);
-        assert!(one, "{path}: {} has neither or both of a case and a reason", row.key);
+        let one = row.runs.is_empty() != row.why.as_ref().is_none_or(String::is_empty);
+        assert!(one, "{path}: {} has neither or both of a run and a reason", row.row);
     }
     let wrong: Vec<String> = rows.iter().flat_map(faults).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let mut unchecked = BTreeMap::new();
     for row in rows.iter().filter(|row| row.why.is_some()) {
-        *unchecked.entry(row.dialect.clone()).or_default() += 1;
+        *unchecked.entry(row.control.clone()).or_default() += 1;
     }
     unchecked
 }
@@ -93,7 +95,7 @@ fn values_are_the_manuals() {
         }
     }
     // A row that stands twice (with and without a parameter) is told apart by its result.
-    let unchecked = all_hold("tests/manuals/values.txt", &distinct(manual));
+    let unchecked = all_hold("tests/manuals/values.toml", &distinct(manual));
     assert_eq!(unchecked.values().sum::<usize>(), UNCHECKED_VALUES, "{unchecked:?}");
 }
 
@@ -124,7 +126,7 @@ fn programs_give_what_the_manifest_expects() {
             (dialect.to_owned(), format!("{name}\t{}", row[expected]))
         })
         .collect();
-    let unchecked = all_hold("tests/manuals/programs.txt", &manual);
+    let unchecked = all_hold("tests/manuals/programs.toml", &manual);
     assert_eq!(unchecked.values().sum::<usize>(), UNCHECKED_PROGRAMS, "{unchecked:?}");
 }
 
