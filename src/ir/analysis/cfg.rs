@@ -1,9 +1,11 @@
 //! The control-flow graph of a program.
 
+use super::dataflow::reached_among;
 use crate::ir::{Block, BlockId, Callee, Module, Program, StmtKind, TermKind};
 use crate::syntax::Label;
 use smallvec::{SmallVec, smallvec};
 use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most blocks have one way or two.
 type Ways = SmallVec<[BlockId; 2]>;
@@ -63,6 +65,42 @@ impl Cfg {
         }
         succs.push(behind);
         succs.push(labelled(program).collect());
+        Self::new(succs, program)
+    }
+
+    /// The graph of every way within a program: calls enter their block, and the returns of a called part go on after the
+    /// calls of that part, and at its beginning where a call repeats it. A program with very many calls and blocks is taken
+    /// to go on after any call.
+    ///
+    /// Past the last block stands one for each called part, that all its returns go through.
+    pub fn parts(program: &Program) -> Self {
+        let mut succs: Vec<Ways> = Vec::with_capacity(program.blocks.len());
+        let mut after: BTreeMap<BlockId, Ways> = BTreeMap::new();
+        for block in &program.blocks {
+            succs.push(match own_call(block) {
+                Some((entry, next, repeats)) => {
+                    let ways = after.entry(entry).or_default();
+                    ways.extend(repeats.then_some(entry).into_iter().chain([next]));
+                    smallvec![entry]
+                }
+                None => block.term.kind.successors(),
+            });
+        }
+        let returns = |id: &BlockId| {
+            let block = program.block(*id);
+            block.is_some_and(|block| matches!(block.term.kind, TermKind::Return { .. }))
+        };
+        if after.len().saturating_mul(program.blocks.len()) > MOST {
+            let returned = BlockId(succs.len() as u32);
+            succs.push(std::mem::take(&mut after).into_values().flatten().collect());
+            program.ids().filter(returns).for_each(|id| succs[id.index()].push(returned));
+        }
+        for (entry, after) in after {
+            let returned = BlockId(succs.len() as u32);
+            succs.push(after);
+            let part = reachable(program, entry).into_iter();
+            part.filter(returns).for_each(|id| succs[id.index()].push(returned));
+        }
         Self::new(succs, program)
     }
 
@@ -137,6 +175,27 @@ impl Cfg {
     }
 }
 
+/// Called parts times blocks up to which [`Cfg::parts`] tells their returns apart.
+const MOST: usize = 1 << 22;
+
+/// The part of the same program that a block calls at its end, where control goes on, and whether the call may run it
+/// more than once.
+pub fn own_call(block: &Block) -> Option<(BlockId, BlockId, bool)> {
+    match &block.term.kind {
+        TermKind::Call { call, next } => Some((entry(&call.callee)?, *next, call.count.is_some())),
+        _ => None,
+    }
+}
+
+/// The blocks that a routine entered at `entry` can run, calls stepped over.
+pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
+    let seen = reached_among(program.blocks.len(), [entry.index()], |at, go| {
+        let block = program.blocks.get(at).into_iter();
+        block.flat_map(|block| block.term.kind.successors()).for_each(|to| go(to.index()));
+    });
+    program.ids().filter(|id| seen[id.index()]).collect()
+}
+
 /// The blocks that calls of this program enter, modal ones included.
 pub(super) fn entries(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
     let modal = |block: &Block| {
@@ -169,8 +228,7 @@ pub(super) fn labelled(program: &Program) -> impl Iterator<Item = BlockId> + '_ 
 /// True where a call of another program may come back at a label of the caller: some program of
 /// the library returns to a sequence number, or a callee is not in the library.
 pub fn may_come_back(module: &Module) -> bool {
-    let names: std::collections::BTreeSet<_> =
-        module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
+    let names: BTreeSet<_> = module.programs.iter().filter_map(|p| p.name.as_ref()).collect();
     module.programs.iter().flat_map(|program| &program.blocks).any(|block| match &block.term.kind {
         TermKind::Return { to } => to.is_some(),
         TermKind::Call { call, .. } => match &call.callee {

@@ -24,11 +24,11 @@ mod vacancy;
 mod values;
 
 pub use call_graph::CallGraph;
-pub use cfg::{Cfg, may_come_back};
+pub use cfg::{Cfg, may_come_back, own_call, reachable};
 pub use effects::{Seen, Summaries, Vars};
 pub use live_statics::LiveStatics;
 pub use liveness::{Liveness, Transfer, Ways, live_after};
-pub use modal::{Modal, Setting, calls_of, reachable, span_of};
+pub use modal::{Modal, Setting, calls_of, span_of};
 pub use modal_facts::{ModalFacts, replace_statements};
 pub use ranges::{Numbers, Ranges, Values};
 pub use set::{BitRow, Universe, VarSet};

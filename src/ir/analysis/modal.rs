@@ -2,10 +2,9 @@
 
 use super::tool_word::ToolWord;
 use crate::canon::{Group, Op, Role};
-use crate::ir::analysis::dataflow::{Lattice, reached_among};
-use crate::ir::{Block, BlockId, Call, Expr, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::{Block, Call, Expr, Nc, NcItem, Stmt, StmtKind, TermKind};
 use crate::text::Span;
-use std::collections::BTreeSet;
 
 /// What is in force of one group.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -347,13 +346,4 @@ pub fn calls_of(block: &Block) -> impl Iterator<Item = &Call> {
 pub fn span_of(block: &Block, call: &Call) -> Span {
     let modal = block.stmts.iter().find(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(c) if **c == *call));
     modal.map_or(block.term.site.span, |stmt| stmt.site.span)
-}
-
-/// The blocks that a routine entered at `entry` can run, calls stepped over.
-pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
-    let seen = reached_among(program.blocks.len(), [entry.index()], |at, go| {
-        let block = program.blocks.get(at).into_iter();
-        block.flat_map(|block| block.term.kind.successors()).for_each(|to| go(to.index()));
-    });
-    program.ids().filter(|id| seen[id.index()]).collect()
 }

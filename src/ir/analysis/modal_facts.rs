@@ -6,8 +6,9 @@
 //! computed call enters every program that it may be meant for. What a program without a known caller starts in, and what an
 //! unknown callee leaves, is not known.
 
+use super::cfg::reachable;
 use super::computed_calls::{Callees, computed_calls};
-use super::modal::{Modal, calls_of, reachable};
+use super::modal::{Modal, calls_of};
 use crate::ir::analysis::dataflow::{Flow, Lattice};
 use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, TermKind};
 use crate::syntax::{Label, ProgramName};

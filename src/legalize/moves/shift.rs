@@ -7,7 +7,7 @@
 
 use crate::canon::{Group, Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::analysis::modal::reachable;
+use crate::ir::analysis::reachable;
 use crate::ir::{BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::{Context, Modal};

@@ -12,7 +12,6 @@ mod block;
 mod constants;
 mod cycle;
 mod flow;
-mod graph;
 mod operand;
 mod parts;
 mod register;

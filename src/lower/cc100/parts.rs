@@ -5,42 +5,43 @@
 //! end of a cycle inside a called part would, in the common form, go back to
 //! the call of the part and not to the cycle's caller, so it is refused.
 
-use super::graph::{body, called};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Program, TermKind};
+use crate::ir::analysis::dataflow::reached;
+use crate::ir::analysis::{own_call, reachable};
+use crate::ir::{Block, BlockId, Callee, Program, TermKind};
 use crate::lower::common::Findings;
 use crate::text::Span;
 use std::collections::BTreeSet;
 
+/// True where another program runs after the block.
+pub fn leaves(block: &Block) -> bool {
+    matches!(&block.term.kind, TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)))
+}
+
 /// Reports the jumps out of called parts. `ends` are the places of a cycle's own ends.
 pub fn check(program: &Program, ends: &BTreeSet<Span>, findings: &mut Findings<'_>) {
-    let entries: BTreeSet<usize> =
-        program.blocks.iter().filter_map(|b| called(b).map(|(to, _)| to)).collect();
-    let main = body(program, 0);
-    for (block, _) in program.blocks.iter().zip(&main).filter(|(_, main)| **main) {
+    let main = reachable(program, BlockId(0));
+    let returns = |block: &&Block| matches!(block.term.kind, TermKind::Return { .. });
+    for block in main.iter().filter_map(|id| program.block(*id)).filter(returns) {
         let span = block.term.site.span;
-        if matches!(block.term.kind, TermKind::Return { .. }) && !ends.contains(&span) {
+        if !ends.contains(&span) {
             findings.not_understood(span, "no source says what a return does when no part was called");
         }
     }
     // One walk over all called parts together: which of them a block belongs to does not matter.
-    let mut seen = vec![false; program.blocks.len()];
-    let mut work: Vec<usize> = entries.into_iter().collect();
-    while let Some(at) = work.pop() {
-        let Some(block) = program.blocks.get(at) else { continue };
-        if main[at] || std::mem::replace(&mut seen[at], true) {
-            continue;
-        }
+    let entries = program.blocks.iter().filter_map(own_call).map(|(entry, ..)| entry);
+    reached(entries, |id, go| {
+        let Some(block) = program.block(id).filter(|_| !main.contains(&id)) else { return };
         let span = block.term.site.span;
-        if matches!(block.term.kind, TermKind::Return { .. }) && ends.contains(&span) {
+        if returns(&block) && ends.contains(&span) {
             findings.not_understood(span, "no source says what the end of a cycle does inside a called part");
         }
         for to in block.term.kind.successors() {
-            if main.get(to.index()) == Some(&true) {
+            if main.contains(&to) {
                 let message = "this jump goes from a called part into the main part";
                 findings.add(Diagnostic::new(Code::SubroutineLeft, span, message));
             }
-            work.push(to.index());
+            go(to);
         }
-    }
+    });
 }

@@ -12,12 +12,14 @@
 //! Whether a plain load sets the register no source says. A jump that sees one
 //! after the last arithmetic is therefore left to a reviewer.
 
-use super::graph::Graph;
+use super::parts::leaves;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::analysis::dataflow::{Lattice, reached_among};
-use crate::ir::{Block, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var};
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve, solve_everywhere};
+use crate::ir::{Block, BlockId, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var};
 use crate::lower::common::Findings;
+use std::borrow::Cow;
 
 /// The condition register.
 pub const REGISTER: Var = Var { class: Class::Register, number: 0 };
@@ -100,16 +102,25 @@ impl State {
             }
         }
     }
-
-    fn through(mut self, block: &Block) -> Self {
-        block.stmts.iter().for_each(|stmt| self.step(stmt));
-        if leaves(block) { Self::outside() } else { self }
-    }
 }
 
-/// True where another program runs after the block.
-fn leaves(block: &Block) -> bool {
-    matches!(&block.term.kind, TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)))
+/// What blocks do to it.
+struct Settings;
+
+impl Analysis for Settings {
+    type State = State;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, State)> {
+        vec![(BlockId(0), State::outside())]
+    }
+
+    fn block(&self, _: BlockId, block: &Block, state: &mut State) {
+        block.stmts.iter().for_each(|stmt| state.step(stmt));
+        if leaves(block) {
+            *state = State::outside();
+        }
+    }
 }
 
 /// The relation of a jump on the register.
@@ -122,12 +133,13 @@ fn jump(block: &Block) -> Option<Relation> {
 
 /// Gives every jump its condition and takes the markers out.
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
-    let graph = Graph::of(program);
-    let starts = graph.forward(program, &State::outside(), |block, state| state.through(block));
+    let cfg = Cfg::parts(program);
+    let starts = solve_everywhere(&Settings, program, &cfg, &State::outside());
     let mut seen = false;
-    for (block, start) in program.blocks.iter_mut().zip(starts) {
+    for (at, block) in (0..).map(BlockId).zip(&mut program.blocks) {
         let Some(relation) = jump(block) else { continue };
-        let state = start.through(block);
+        let mut state = starts.at(at).cloned().unwrap_or_else(State::outside);
+        Settings.block(at, block, &mut state);
         report(&state, relation, block, findings);
         let tested = tested(block, relation);
         match (state.var, tested, &mut block.term.kind) {
@@ -138,9 +150,9 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
             _ => seen = true,
         }
     }
-    let live = if seen { live_at_end(program, &graph) } else { vec![false; program.blocks.len()] };
-    for (block, live) in program.blocks.iter_mut().zip(live) {
-        settle(block, live);
+    let live = if seen { solve(&Seen { program }, program, &cfg) } else { Default::default() };
+    for (at, block) in (0..).map(BlockId).zip(&mut program.blocks) {
+        settle(block, live.at(at) == Some(&true));
     }
 }
 
@@ -183,30 +195,37 @@ fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findi
 }
 
 /// Whether a jump can see the register as it is at the end of each block, before its jump.
-fn live_at_end(program: &Program, graph: &Graph) -> Vec<bool> {
-    let back = graph.reversed();
-    let sets = |stmt: &Stmt| source_of(stmt).is_some_and(|(source, _)| source != Source::Load);
-    let jumps = (0..program.blocks.len()).filter(|&at| jump(&program.blocks[at]).is_some());
-    let mut ends = reached_among(graph.len(), jumps, |at, go| {
-        if program.blocks.get(at).is_some_and(|block| block.stmts.iter().any(sets)) {
-            return;
-        }
-        for &before in back.from(at) {
-            if !program.blocks.get(before).is_some_and(leaves) {
-                go(before);
-            }
-        }
-    });
-    ends.truncate(program.blocks.len());
-    ends
+struct Seen<'p> {
+    program: &'p Program,
+}
+
+impl Analysis for Seen<'_> {
+    type State = bool;
+    const DIRECTION: Direction = Direction::Backward;
+
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, bool)> {
+        let blocks = self.program.ids().zip(&self.program.blocks);
+        blocks.filter(|(_, block)| jump(block).is_some()).map(|(id, _)| (id, true)).collect()
+    }
+
+    fn block(&self, _: BlockId, block: &Block, seen: &mut bool) {
+        *seen &= !block.stmts.iter().any(sets);
+    }
+
+    fn edge<'s>(&self, from: BlockId, _: BlockId, seen: &'s bool) -> Option<Cow<'s, bool>> {
+        let left = self.program.block(from).is_some_and(leaves);
+        (*seen && !left).then_some(Cow::Borrowed(seen))
+    }
+}
+
+/// True for what gives the register another value for certain.
+fn sets(stmt: &Stmt) -> bool {
+    source_of(stmt).is_some_and(|(source, _)| source != Source::Load)
 }
 
 /// Turns the markers that a jump can see into assignments of the register, and drops the rest.
 fn settle(block: &mut Block, live: bool) {
-    let last = block
-        .stmts
-        .iter()
-        .rposition(|stmt| source_of(stmt).is_some_and(|(source, _)| source != Source::Load));
+    let last = block.stmts.iter().rposition(sets);
     let mut at = 0;
     block.stmts.retain_mut(|stmt| {
         let here = at;

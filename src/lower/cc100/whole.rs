@@ -8,11 +8,12 @@
 //! after `V5=V4/50`; and `V12=V10`, INC, DEC after `V10=400`, which finds out
 //! whether the operator's V10 is whole.
 
-use super::graph::Graph;
+use super::parts::leaves;
 use crate::canon::Func;
 use crate::dialect::Question;
-use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::{BinOp, Block, Callee, Class, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve_everywhere};
+use crate::ir::{BinOp, Block, BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use crate::lower::common::Findings;
 
 /// One bit a variable of the control. 99 numbers and 26 letters fit.
@@ -49,12 +50,24 @@ impl Wholes {
         let written = constant || always || counts && is_whole(value, self.always | self.written & bit(*var));
         Self { written: set(self.written, written), always: set(self.always, always) }
     }
+}
 
-    fn through(self, block: &Block) -> Self {
-        match &block.term.kind {
-            TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)) => Self::default(),
-            _ => block.stmts.iter().fold(self, Self::step),
-        }
+/// What blocks do to them.
+struct Steps;
+
+impl Analysis for Steps {
+    type State = Wholes;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, _: &Cfg) -> Vec<(BlockId, Wholes)> {
+        vec![(BlockId(0), Wholes::default())]
+    }
+
+    fn block(&self, _: BlockId, block: &Block, known: &mut Wholes) {
+        *known = match leaves(block) {
+            true => Wholes::default(),
+            false => block.stmts.iter().fold(*known, Wholes::step),
+        };
     }
 }
 
@@ -73,8 +86,9 @@ fn is_whole(value: &Expr, known: Variables) -> bool {
 
 /// Takes FIX out of the steps of whole variables, and reports the other steps.
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
-    let starts = Graph::of(program).forward(program, &Wholes::default(), |block, known| known.through(block));
-    for (block, mut known) in program.blocks.iter_mut().zip(starts) {
+    let starts = solve_everywhere(&Steps, program, &Cfg::parts(program), &Wholes::default());
+    for (at, block) in (0..).zip(&mut program.blocks) {
+        let mut known = starts.at(BlockId(at)).copied().unwrap_or_default();
         for stmt in &mut block.stmts {
             let span = stmt.site.span;
             if let StmtKind::Assign { target: Place::Var(var), value: Expr::Binary(_, operands) } =

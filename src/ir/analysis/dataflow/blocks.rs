@@ -83,7 +83,7 @@ pub trait Steps: Analysis {
 }
 
 /// What an analysis found at the head of each block.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct States<S>(Vec<Option<S>>);
 
 impl<S> Default for States<S> {
@@ -111,11 +111,61 @@ pub fn solve_within<A: Analysis>(
     cfg: &Cfg,
     limit: usize,
 ) -> Option<States<A::State>> {
-    let forward = A::DIRECTION == Direction::Forward;
-    let mut flow = Flow::ranked(ranks(cfg, forward));
+    let ranks = ranks(cfg, A::DIRECTION == Direction::Forward);
+    let mut flow = begin(ranks, analysis, cfg);
+    follow(analysis, program, cfg, &mut flow, limit)?;
+    Some(States(flow.into_states()))
+}
+
+/// Follows an analysis to every block: to those that no way leads to from `unreached`, in their order, after all others,
+/// of which they change nothing.
+pub fn solve_everywhere<A: Analysis>(
+    analysis: &A,
+    program: &Program,
+    cfg: &Cfg,
+    unreached: &A::State,
+) -> States<A::State> {
+    let ranks = ranks(cfg, A::DIRECTION == Direction::Forward);
+    solve_everywhere_by(ranks, analysis, program, cfg, unreached)
+}
+
+/// The same where these ranks of blocks say which comes first.
+pub(crate) fn solve_everywhere_by<A: Analysis>(
+    ranks: Vec<u32>,
+    analysis: &A,
+    program: &Program,
+    cfg: &Cfg,
+    unreached: &A::State,
+) -> States<A::State> {
+    let mut flow = begin(ranks, analysis, cfg);
+    let _ = follow(analysis, program, cfg, &mut flow, usize::MAX);
+    for block in 0..program.blocks.len() {
+        if flow.state(block).is_none() {
+            flow.settle();
+            flow.flow(block, unreached);
+            let _ = follow(analysis, program, cfg, &mut flow, usize::MAX);
+        }
+    }
+    States(flow.into_states())
+}
+
+fn begin<A: Analysis>(ranks: Vec<u32>, analysis: &A, cfg: &Cfg) -> Flow<A::State> {
+    let mut flow = Flow::ranked(ranks);
     for (id, state) in analysis.entries(cfg) {
         flow.flow(id.index(), &state);
     }
+    flow
+}
+
+/// Follows the nodes that wait; none if that takes more statements and blocks than so many.
+fn follow<A: Analysis>(
+    analysis: &A,
+    program: &Program,
+    cfg: &Cfg,
+    flow: &mut Flow<A::State>,
+    limit: usize,
+) -> Option<()> {
+    let forward = A::DIRECTION == Direction::Forward;
     let mut left = limit;
     while let Some(at) = flow.pop() {
         let id = BlockId(at as u32);
@@ -131,7 +181,7 @@ pub fn solve_within<A: Analysis>(
             }
         }
     }
-    Some(States(flow.into_states()))
+    Some(())
 }
 
 /// Reverse postorder; postorder for the way back. Blocks that nothing leads to go last.

@@ -47,6 +47,9 @@ pub struct Flow<S> {
     states: Vec<Option<S>>,
     /// By node: how often something was joined into its state.
     joined: Vec<u32>,
+    /// By node: how often states had been settled when it got its own.
+    since: Vec<u32>,
+    settled: u32,
     work: Worklist,
 }
 
@@ -59,7 +62,14 @@ impl<S: Lattice> Flow<S> {
     /// Of nodes with these ranks, the least of which comes first.
     pub fn ranked(ranks: Vec<u32>) -> Self {
         let nodes = ranks.len();
-        Self { states: vec![None; nodes], joined: vec![0; nodes], work: Worklist::ranked(ranks) }
+        let states = vec![None; nodes];
+        let (joined, since) = (vec![0; nodes], vec![0; nodes]);
+        Self { states, joined, since, settled: 0, work: Worklist::ranked(ranks) }
+    }
+
+    /// What has a state keeps it from here on.
+    pub fn settle(&mut self) {
+        self.settled += 1;
     }
 
     /// Joins a state into that of a node, which waits where that changed it; true then.
@@ -70,6 +80,7 @@ impl<S: Lattice> Flow<S> {
     /// The same by a join of the caller's own, which is told how often this node's state was joined into before.
     pub fn flow_by(&mut self, to: usize, state: &S, join: impl FnOnce(&mut S, &S, u32) -> bool) -> bool {
         let changed = match self.states.get_mut(to) {
+            Some(Some(_)) if self.since[to] < self.settled => false,
             Some(Some(mine)) => {
                 let times = self.joined[to];
                 self.joined[to] = times.saturating_add(1);
@@ -77,6 +88,7 @@ impl<S: Lattice> Flow<S> {
             }
             Some(none) => {
                 *none = Some(state.clone());
+                self.since[to] = self.settled;
                 true
             }
             None => false,

@@ -13,12 +13,16 @@
 
 mod blocks;
 mod flow;
+mod one_of;
 
 #[cfg(test)]
 mod tests;
 
-pub use blocks::{Analysis, Cursor, Direction, States, Steps, solve, solve_within};
+#[cfg(test)]
+pub(crate) use blocks::solve_everywhere_by;
+pub use blocks::{Analysis, Cursor, Direction, States, Steps, solve, solve_everywhere, solve_within};
 pub use flow::{Flow, Worklist, reached, reached_among};
+pub use one_of::OneOf;
 
 use std::collections::BTreeSet;
 
