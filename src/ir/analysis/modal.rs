@@ -7,11 +7,8 @@ use crate::ir::{Block, Call, Expr, Nc, NcItem, Stmt, StmtKind, TermKind};
 use crate::text::Span;
 
 /// What is in force of one group.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
-    /// No path leads here.
-    #[default]
-    Unreached,
     /// This operation; for a work offset and a tool length its number, where that is constant.
     Known(Op, Option<u32>),
     /// Not known, or not the same on all paths.
@@ -35,10 +32,8 @@ impl Setting {
 }
 
 /// The number of the last feed word.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Feed {
-    #[default]
-    Unreached,
     Known(f64),
     Unknown,
 }
@@ -80,7 +75,7 @@ impl LengthLost {
 }
 
 /// What is in force of every group, the feed, and the modal calls that are open.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Modal {
     settings: [Setting; Group::ALL.len()],
     /// True where some way here cancelled all zero shifts and selected none since.
@@ -165,11 +160,6 @@ impl Modal {
     /// True where some way here named a tool length.
     pub(crate) fn names_length(&self) -> bool {
         self.length_named
-    }
-
-    /// True when no path leads here.
-    pub fn is_unreached(&self) -> bool {
-        self.of(Group::Motion) == Setting::Unreached
     }
 
     /// Takes a statement's effect.
@@ -296,13 +286,6 @@ impl Modal {
 
 impl Lattice for Modal {
     fn join(&mut self, other: &Self) -> bool {
-        if other.is_unreached() {
-            return false;
-        }
-        if self.is_unreached() {
-            *self = other.clone();
-            return true;
-        }
         let mut changed = false;
         self.one_unit |= other.one_unit;
         for (mine, theirs) in self.settings.iter_mut().zip(&other.settings) {

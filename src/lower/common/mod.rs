@@ -1,11 +1,13 @@
 //! What the lowerings of all dialects need: findings that name a fact once,
-//! the site of a block, constants.
+//! the site of a block, constants, what may be in force.
 
 mod findings;
+mod in_force;
 mod programs;
 mod site;
 
 pub use findings::{Findings, otherwise};
+pub use in_force::InForce;
 pub use programs::{ProgramText, programs, says_something};
 pub use site::{comment_text, site_of};
 

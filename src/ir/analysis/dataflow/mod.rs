@@ -2,8 +2,9 @@
 //!
 //! An analysis is a [`Lattice`] of what may be known at a place, and a rule for what a block makes of it
 //! ([`Analysis`]). [`solve`] follows it through the control-flow graph of one program, forwards or backwards, until
-//! nothing changes. What goes from caller to callee or back is [`super::CallGraph`]'s, and what enters routines and
-//! returns from them is followed on the nodes of [`Flow`], on which both stand.
+//! nothing changes. What goes from caller to callee or back is [`super::CallGraph`]'s. Where routines are entered with the
+//! states of their calls, and calls go on with those of the returns, [`Routines`] follows them, over any text that has nodes:
+//! lowering follows source text so. All stand on [`Flow`].
 //!
 //! **Law.** What is found at a place holds on every way that leads there, if a block's rule loses nothing when more
 //! is known before it (it is monotone). Then the order of visits does not count either.
@@ -14,6 +15,7 @@
 mod blocks;
 mod flow;
 mod one_of;
+mod routines;
 
 #[cfg(test)]
 mod tests;
@@ -23,6 +25,7 @@ pub(crate) use blocks::solve_everywhere_by;
 pub use blocks::{Analysis, Cursor, Direction, States, Steps, solve, solve_everywhere, solve_within};
 pub use flow::{Flow, Worklist, reached, reached_among};
 pub use one_of::OneOf;
+pub use routines::Routines;
 
 use std::collections::BTreeSet;
 

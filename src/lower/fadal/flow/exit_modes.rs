@@ -6,6 +6,7 @@ use super::state::{Motion, Sets};
 use super::ways::Flow;
 use crate::canon::Role;
 use crate::dialect::Control;
+use crate::ir::analysis::CallGraph;
 use crate::lower::common::ProgramText;
 use crate::lower::fadal::codes::{Codes, Step, operand, program_number, steps};
 use crate::syntax::{Block, ProgramName};
@@ -53,7 +54,8 @@ fn number_of(text: &ProgramText<'_>) -> Option<u32> {
     }
 }
 
-/// The programs that others of the file call, each after those that it calls itself; none if there are no calls.
+/// The programs that others of the file call, each after those that it calls itself; none if there are no calls. Not
+/// those that come back to themselves, nor what calls them.
 fn callees_first(texts: &[ProgramText<'_>], control: &Control) -> Option<Vec<usize>> {
     let mut places: BTreeMap<u32, Option<usize>> = BTreeMap::new();
     for (at, text) in texts.iter().enumerate() {
@@ -62,35 +64,23 @@ fn callees_first(texts: &[ProgramText<'_>], control: &Control) -> Option<Vec<usi
         }
     }
     let place = |number: u32| places.get(&number).copied().flatten();
-    let callees: Vec<BTreeSet<usize>> = texts
+    let callees: Vec<BTreeSet<(usize, bool)>> = texts
         .iter()
-        .map(|text| called(text.blocks, control).into_iter().filter_map(place).collect())
+        .map(|text| {
+            called(text.blocks, control).into_iter().filter_map(place).map(|at| (at, false)).collect()
+        })
         .collect();
-    let mut waits: Vec<usize> = callees.iter().map(BTreeSet::len).collect();
-    let mut callers: Vec<Vec<usize>> = vec![Vec::new(); texts.len()];
-    for (from, callees) in callees.iter().enumerate() {
-        callees.iter().for_each(|to| callers.get_mut(*to).into_iter().for_each(|list| list.push(from)));
-    }
-    if callers.iter().all(Vec::is_empty) {
+    let wanted: BTreeSet<usize> = callees.iter().flatten().map(|(callee, _)| *callee).collect();
+    if wanted.is_empty() {
         return None;
     }
-    let mut work: Vec<usize> = (0..texts.len()).filter(|at| waits.get(*at) == Some(&0)).collect();
-    let mut order = Vec::new();
-    // Programs that call each other in a circle are never ready.
-    while let Some(at) = work.pop() {
-        let Some(callers) = callers.get(at).filter(|callers| !callers.is_empty()) else { continue };
-        if texts.get(at).and_then(number_of).and_then(place) == Some(at) {
-            order.push(at);
-        }
-        for caller in callers {
-            if let Some(left) = waits.get_mut(*caller) {
-                *left -= 1;
-                if *left == 0 {
-                    work.push(*caller);
-                }
-            }
-        }
+    let graph = CallGraph::new(callees);
+    let mut order = graph.callees_first();
+    let mut known = vec![false; texts.len()];
+    for at in &order {
+        known[*at] = graph.callees(*at).all(|callee| known[callee]);
     }
+    order.retain(|at| known[*at] && wanted.contains(at));
     Some(order)
 }
 

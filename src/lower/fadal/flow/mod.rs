@@ -5,6 +5,8 @@ mod others;
 mod settings;
 mod shape;
 mod state;
+#[cfg(test)]
+mod tests;
 mod ways;
 
 pub use others::Others;

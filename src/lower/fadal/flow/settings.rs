@@ -1,7 +1,8 @@
 //! What a statement sets of the modal state.
 
-use super::state::{DEFAULT_PLACES, State, Values};
-use crate::lower::common::constant;
+use super::state::{DEFAULT_PLACES, State};
+use crate::ir::analysis::dataflow::OneOf;
+use crate::lower::common::{InForce, constant};
 use crate::lower::fadal::codes::parametric;
 use crate::syntax::{Index, ItemKind, SetOption, VarRef};
 
@@ -12,36 +13,28 @@ pub fn statement(kind: &ItemKind, state: &mut State) {
             let constant = constant(value).map(f64::to_bits);
             let copied = parametric(value).filter(|(_, minus)| !minus);
             let values = match (constant, copied) {
-                (Some(bits), _) => Values::one(bits),
-                (None, Some((number, _))) => {
-                    state.r.get(number as usize).cloned().unwrap_or_else(Values::any)
-                }
-                _ => Values::any(),
+                (Some(bits), _) => OneOf::one(bits),
+                (None, Some((number, _))) => state.r.get(number as usize).cloned().unwrap_or_else(OneOf::any),
+                _ => OneOf::any(),
             };
             set(target, values, state);
         }
         ItemKind::Input { targets, .. } => {
-            targets.iter().for_each(|target| set(target, Values::any(), state));
+            targets.iter().for_each(|target| set(target, OneOf::any(), state));
             state.moved = false;
         }
         ItemKind::Wait => state.moved = false,
         ItemKind::Set(options) => {
             if options.is_empty() {
-                state.radians = Values::one(false);
-                state.radians_outside = false;
-                state.places = Values::one(DEFAULT_PLACES);
-                state.places_called = false;
+                state.radians = InForce::one(false);
+                state.places = InForce::one(DEFAULT_PLACES);
             }
             for option in options {
                 match option {
                     SetOption::Degrees | SetOption::Radians => {
-                        state.radians = Values::one(*option == SetOption::Radians);
-                        state.radians_outside = false;
+                        state.radians = InForce::one(*option == SetOption::Radians);
                     }
-                    SetOption::Round(places) => {
-                        state.places = Values::one(*places);
-                        state.places_called = false;
-                    }
+                    SetOption::Round(places) => state.places = InForce::one(*places),
                     SetOption::Debug | SetOption::Run => {}
                 }
             }
@@ -50,7 +43,7 @@ pub fn statement(kind: &ItemKind, state: &mut State) {
     }
 }
 
-fn set(target: &VarRef, values: Values<u64>, state: &mut State) {
+fn set(target: &VarRef, values: OneOf<u64>, state: &mut State) {
     if target.name != "R" {
         return;
     }
@@ -60,6 +53,6 @@ fn set(target: &VarRef, values: Values<u64>, state: &mut State) {
                 *slot = values;
             }
         }
-        _ => state.r = std::array::from_fn(|_| Values::any()),
+        _ => state.r = std::array::from_fn(|_| OneOf::any()),
     }
 }

@@ -1,63 +1,9 @@
 //! The modal state that the meaning of later blocks depends on.
 
-use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::dataflow::{Lattice, OneOf};
+use crate::lower::common::InForce;
 use crate::syntax::{Block, ItemKind, SetOption, for_each_item};
-
-/// How many values are told apart before the set counts as any.
-const MOST: usize = 8;
-
-/// The values that something may have at a place of the program.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Values<T> {
-    list: Vec<T>,
-    any: bool,
-}
-
-impl<T> Default for Values<T> {
-    fn default() -> Self {
-        Self::NONE
-    }
-}
-
-impl<T> Values<T> {
-    /// No value.
-    pub const NONE: Self = Self { list: Vec::new(), any: false };
-}
-
-impl<T: Copy + Ord> Values<T> {
-    /// Any value at all.
-    pub fn any() -> Self {
-        Self { list: Vec::new(), any: true }
-    }
-
-    /// This value only.
-    pub fn one(value: T) -> Self {
-        Self { list: vec![value], any: false }
-    }
-
-    /// Values of `self` or of `other`.
-    pub fn join(&mut self, other: &Self) {
-        self.any |= other.any;
-        for value in &other.list {
-            if let Err(at) = self.list.binary_search(value) {
-                self.list.insert(at, *value);
-            }
-        }
-        if self.any || self.list.len() > MOST {
-            *self = Self::any();
-        }
-    }
-
-    /// True where nothing is known.
-    pub fn is_any(&self) -> bool {
-        self.any
-    }
-
-    /// The values, in order; none if nothing is known.
-    pub fn list(&self) -> &[T] {
-        &self.list
-    }
-}
+use std::collections::BTreeSet;
 
 /// Places of rounding that SET never stated.
 pub const DEFAULT_PLACES: u8 = u8::MAX;
@@ -69,14 +15,14 @@ pub const MOST_MODAL: u8 = 4;
 #[derive(Clone, Debug, Default)]
 pub struct Sets {
     /// Places of rounding.
-    pub places: Values<u8>,
+    pub places: OneOf<u8>,
     /// Whether angles are radians.
-    pub radians: Values<bool>,
+    pub radians: OneOf<bool>,
 }
 
 impl Sets {
     /// What nothing sets.
-    pub const NONE: Self = Self { places: Values::NONE, radians: Values::NONE };
+    pub const NONE: Self = Self { places: OneOf::NONE, radians: OneOf::NONE };
 
     /// What either sets.
     pub fn join(&mut self, other: &Self) {
@@ -90,15 +36,17 @@ impl Sets {
             for_each_item(&block.items, &mut |item| {
                 let ItemKind::Set(options) = &item.kind else { return };
                 if options.is_empty() {
-                    self.places.join(&Values::one(DEFAULT_PLACES));
-                    self.radians.join(&Values::one(false));
+                    self.places.join(&OneOf::one(DEFAULT_PLACES));
+                    self.radians.join(&OneOf::one(false));
                 }
                 for option in options {
                     match option {
                         SetOption::Degrees | SetOption::Radians => {
-                            self.radians.join(&Values::one(*option == SetOption::Radians));
+                            self.radians.join(&OneOf::one(*option == SetOption::Radians));
                         }
-                        SetOption::Round(places) => self.places.join(&Values::one(*places)),
+                        SetOption::Round(places) => {
+                            self.places.join(&OneOf::one(*places));
+                        }
                         SetOption::Debug | SetOption::Run => {}
                     }
                 }
@@ -112,60 +60,54 @@ impl Sets {
 pub struct State {
     /// G codes of the interpolation, in thousandths: rapid, feed, arcs. Drilling
     /// cycles are a group of their own here.
-    pub motion: Values<u32>,
+    pub motion: InForce<u32>,
     /// G codes of the drilling cycle, in thousandths; 0 for none.
-    pub cycle: Values<u32>,
+    pub cycle: OneOf<u32>,
     /// True where a cycle was ended and no interpolation was given after that.
     pub after_cycle: bool,
     /// True where the interpolation is the one from before a cycle.
     pub resumed: bool,
-    /// True where the motion mode may be the one that the program was entered with.
-    pub motion_entry: bool,
-    /// True where a program was called since the motion mode was set.
-    pub motion_called: bool,
     /// Whether dimensions are incremental; none while only the caller knows.
-    pub incremental: Values<bool>,
+    pub incremental: OneOf<bool>,
     /// Whether angles are radians.
-    pub radians: Values<bool>,
-    /// True where the angle unit may come from outside the program.
-    pub radians_outside: bool,
+    pub radians: InForce<bool>,
     /// Places of rounding.
-    pub places: Values<u8>,
-    /// True where a program was called since they were set.
-    pub places_called: bool,
+    pub places: InForce<u8>,
     /// True where moves may still be to come when a statement runs.
     pub moved: bool,
     /// How many modal calls may be in force, up to [`MOST_MODAL`]; so many may be any number.
     pub modal: u8,
+    /// The subroutines that they may run, by their places.
+    pub modal_subs: BTreeSet<usize>,
     /// True in a subroutine that a modal call may run.
     pub in_modal: bool,
     /// True where a modal call of another program may be in force.
     pub modal_program: bool,
     /// The constants that R0 to R9 may hold, as bits.
-    pub r: [Values<u64>; 10],
+    pub r: [OneOf<u64>; 10],
 }
 
 /// States of `self` or of `other`.
 impl Lattice for State {
     fn join(&mut self, other: &Self) -> bool {
-        let before = self.clone();
-        self.motion.join(&other.motion);
-        self.cycle.join(&other.cycle);
-        self.after_cycle |= other.after_cycle;
-        self.resumed |= other.resumed;
-        self.motion_entry |= other.motion_entry;
-        self.motion_called |= other.motion_called;
-        self.incremental.join(&other.incremental);
-        self.radians.join(&other.radians);
-        self.radians_outside |= other.radians_outside;
-        self.places.join(&other.places);
-        self.places_called |= other.places_called;
-        self.moved |= other.moved;
-        self.modal = self.modal.max(other.modal);
-        self.in_modal |= other.in_modal;
-        self.modal_program |= other.modal_program;
-        self.r.iter_mut().zip(&other.r).for_each(|(mine, theirs)| mine.join(theirs));
-        *self != before
+        let (modal, subs) = (self.modal, self.modal_subs.len());
+        self.modal = modal.max(other.modal);
+        self.modal_subs.extend(&other.modal_subs);
+        let joined = [
+            self.motion.join(&other.motion),
+            self.cycle.join(&other.cycle),
+            self.after_cycle.join(&other.after_cycle),
+            self.resumed.join(&other.resumed),
+            self.incremental.join(&other.incremental),
+            self.radians.join(&other.radians),
+            self.places.join(&other.places),
+            self.moved.join(&other.moved),
+            self.in_modal.join(&other.in_modal),
+            self.modal_program.join(&other.modal_program),
+        ];
+        let registers = self.r.iter_mut().zip(&other.r).map(|(mine, theirs)| mine.join(theirs));
+        let registers = registers.fold(false, |any, one| any | one);
+        registers || joined.contains(&true) || self.modal != modal || self.modal_subs.len() != subs
     }
 }
 
@@ -173,13 +115,12 @@ impl State {
     /// At a program's first block.
     pub fn entry() -> Self {
         Self {
-            motion_entry: true,
-            cycle: Values::one(0),
-            radians: Values::one(false),
-            radians_outside: true,
-            places: Values::one(DEFAULT_PLACES),
+            motion: InForce::entry(),
+            cycle: OneOf::one(0),
+            radians: InForce { entry: true, ..InForce::one(false) },
+            places: InForce::one(DEFAULT_PLACES),
             moved: true,
-            r: std::array::from_fn(|_| Values::any()),
+            r: std::array::from_fn(|_| OneOf::any()),
             ..Self::default()
         }
     }
@@ -187,31 +128,33 @@ impl State {
     /// Another program ran: it may have set any variable, or what `others` do. It leaves `motion`; where that is not
     /// known, and of the other modes, it is taken to leave them as they were.
     pub fn called(&mut self, others: &Sets, motion: Option<&Motion>) {
-        match motion {
-            // Its moves run the subroutine of a modal call, which sets what it likes.
-            Some(motion) if self.modal == 0 && !self.modal_program => motion.give(self),
-            _ => self.motion_called = true,
+        // Its moves run the subroutine of a modal call, which sets what it likes.
+        let before = (self.modal > 0 || self.modal_program).then(|| self.clone());
+        if let Some(motion) = motion {
+            motion.give(self);
         }
-        self.places_called = true;
-        self.places.join(&others.places);
-        self.radians.join(&others.radians);
-        self.radians_outside = true;
+        self.motion.called |= motion.is_none() || before.is_some();
+        if let Some(before) = before {
+            self.join(&before);
+        }
+        self.places.called = true;
+        self.places.set.join(&others.places);
+        self.radians.called = true;
+        self.radians.set.join(&others.radians);
         self.moved = true;
-        self.r = std::array::from_fn(|_| Values::any());
+        self.r = std::array::from_fn(|_| OneOf::any());
     }
 
     /// The interpolation that a block sets, and the cycle (0 for its end).
     pub fn set_motion(&mut self, interpolation: Option<u32>, cycle: Option<u32>) {
         if let Some(code) = interpolation {
-            self.motion = Values::one(code);
-            self.cycle = Values::one(0);
-            self.motion_entry = false;
-            self.motion_called = false;
+            self.motion = InForce::one(code);
+            self.cycle = OneOf::one(0);
             self.after_cycle = false;
             self.resumed = false;
         }
         if let Some(code) = cycle {
-            self.cycle = Values::one(code);
+            self.cycle = OneOf::one(code);
             self.after_cycle = code == 0;
             self.resumed = interpolation.is_none();
         }
@@ -221,13 +164,9 @@ impl State {
 /// The motion modes that a program leaves to its caller.
 #[derive(Clone, Debug, Default)]
 pub struct Motion {
-    /// The interpolation.
-    codes: Values<u32>,
-    /// True where the caller's may still be in force.
-    callers: bool,
-    /// True where another program may have set it, of which nothing is known.
-    unknown: bool,
-    cycle: Values<u32>,
+    /// The interpolation; what it was entered with is the caller's.
+    codes: InForce<u32>,
+    cycle: OneOf<u32>,
     after_cycle: bool,
     resumed: bool,
 }
@@ -235,34 +174,26 @@ pub struct Motion {
 impl Motion {
     /// Those of the state at its return.
     pub fn of(state: State) -> Self {
-        Self {
-            codes: state.motion,
-            callers: state.motion_entry,
-            unknown: state.motion_called,
-            cycle: state.cycle,
-            after_cycle: state.after_cycle,
-            resumed: state.resumed,
-        }
+        let State { motion: codes, cycle, after_cycle, resumed, .. } = state;
+        Self { codes, cycle, after_cycle, resumed }
     }
 
     /// Lets the caller go on in it.
-    pub fn give(&self, state: &mut State) {
-        if self.callers {
-            state.motion.join(&self.codes);
+    fn give(&self, state: &mut State) {
+        if self.codes.entry {
+            state.motion.set.join(&self.codes.set);
             // A cycle goes on if the program touches neither it nor the motion mode, which would end it.
-            let sets_motion = self.codes.is_any() || !self.codes.list().is_empty();
+            let sets_motion = self.codes.set.is_any() || !self.codes.set.list().is_empty();
             if sets_motion || self.after_cycle || self.cycle.is_any() || self.cycle.list() != [0] {
                 state.cycle.join(&self.cycle);
             }
-            state.motion_called |= self.unknown;
+            state.motion.called |= self.codes.called;
             state.after_cycle |= self.after_cycle;
             state.resumed |= self.resumed;
         } else {
             state.motion = self.codes.clone();
             state.cycle = self.cycle.clone();
-            state.motion_entry = false;
-            (state.motion_called, state.after_cycle, state.resumed) =
-                (self.unknown, self.after_cycle, self.resumed);
+            (state.after_cycle, state.resumed) = (self.after_cycle, self.resumed);
         }
     }
 }
@@ -272,23 +203,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn more_values_than_are_told_apart_are_any() {
-        let mut values = Values::one(0);
-        for value in 1..8 {
-            values.join(&Values::one(value));
-            assert!(!values.is_any());
-        }
-        values.join(&Values::one(8));
-        assert!(values.is_any() && values.list().is_empty());
-    }
-
-    #[test]
     fn joining_reports_a_change_once() {
         let mut state = State::entry();
         let mut other = State::entry();
         other.set_motion(Some(1000), None);
         assert!(state.join(&other));
         assert!(!state.join(&other));
-        assert!(state.motion_entry && state.motion.list() == [1000]);
+        assert!(state.motion.entry && state.motion.set.list() == [1000]);
     }
 }

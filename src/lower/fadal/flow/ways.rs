@@ -3,14 +3,13 @@
 use super::others::Others;
 use super::settings::statement;
 use super::shape::{Goal, Shape, goal, return_goal, returns_computed};
-use super::state::{MOST_MODAL, State, Values};
+use super::state::{MOST_MODAL, State};
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
-use crate::ir::analysis::dataflow::{Flow as Places, Lattice};
+use crate::ir::analysis::dataflow::{Lattice, OneOf, Routines};
 use crate::lower::common::constant;
 use crate::lower::fadal::codes::{Codes, Step, operand, parametric, steps, word};
 use crate::syntax::{Block, Expr, Item, ItemKind};
-use std::collections::BTreeSet;
 
 /// The modal state at the head of every run of a program.
 #[derive(Debug)]
@@ -20,14 +19,12 @@ pub struct Flow<'b> {
     shape: &'b Shape,
     /// What is known of the file's programs, and which of them this is.
     others: (&'b Others, usize),
-    at: Places<State>,
-    returned: Vec<Option<State>>,
-    modal_subs: Vec<usize>,
+    /// By run; a subroutine is entered at the run that it begins with.
+    ways: Routines<State>,
     /// The state where the program returns to its caller.
     left: Option<State>,
     /// True where it may end in another way than by a return to after its call.
     ends_elsewhere: bool,
-    calling: BTreeSet<usize>,
 }
 
 impl<'b> Flow<'b> {
@@ -38,24 +35,26 @@ impl<'b> Flow<'b> {
         shape: &'b Shape,
         others: (&'b Others, usize),
     ) -> Self {
-        let mut flow = Self {
-            blocks,
-            control,
-            shape,
-            others,
-            at: Places::new(shape.leaders.len()),
-            returned: vec![None; shape.subs.len()],
-            modal_subs: Vec::new(),
-            left: None,
-            ends_elsewhere: false,
-            calling: BTreeSet::new(),
-        };
+        Self::ranked((0..shape.leaders.len() as u32).collect(), blocks, control, shape, others)
+    }
+
+    /// The same where these ranks of runs say which comes first.
+    pub(super) fn ranked(
+        ranks: Vec<u32>,
+        blocks: &'b [Block],
+        control: &'b Control,
+        shape: &'b Shape,
+        others: (&'b Others, usize),
+    ) -> Self {
+        let ways = Routines::ranked(ranks);
+        let mut flow = Self { blocks, control, shape, others, ways, left: None, ends_elsewhere: false };
         // The definitions at the head are jumped over.
         let defined = shape.subs.first().is_some_and(|sub| sub.blocks.start == 0);
         flow.reach(if defined { shape.main } else { 0 }, &State::entry());
-        while let Some(run) = flow.at.pop() {
-            flow.run(run);
+        while let Some((run, state)) = flow.ways.pop() {
+            flow.run(run, state);
         }
+        flow.ways.close();
         flow
     }
 
@@ -63,7 +62,7 @@ impl<'b> Flow<'b> {
     /// A run that nothing reaches has a state in which nothing was set.
     pub fn at(&self, block: usize) -> Option<State> {
         let run = self.shape.leaders.binary_search(&block).ok()?;
-        Some(self.at.state(run).cloned().unwrap_or_default())
+        Some(self.ways.state(run).cloned().unwrap_or_default())
     }
 
     /// The state where the program returns to its caller; none if it may come back to another place.
@@ -84,30 +83,27 @@ impl<'b> Flow<'b> {
         }
     }
 
-    /// The state after a block that leaves the flow alone.
-    pub fn behind(&mut self, block: &Block, state: State) -> State {
+    /// The state after the block at a place, which leaves the flow alone.
+    pub fn behind(&mut self, at: usize, block: &Block, state: State) -> State {
         let keep = state.clone();
-        self.block(block, None, state).unwrap_or(keep)
+        self.block(block, at, state).unwrap_or(keep)
     }
 
     /// The constants that a subroutine call's value may be.
-    pub fn constants(value: &Expr, state: &State) -> Values<u64> {
+    pub fn constants(value: &Expr, state: &State) -> OneOf<u64> {
         match (constant(value), parametric(value)) {
-            (Some(value), _) => Values::one(value.to_bits()),
-            (None, Some((number, false))) => {
-                state.r.get(number as usize).cloned().unwrap_or_else(Values::any)
-            }
-            _ => Values::any(),
+            (Some(value), _) => OneOf::one(value.to_bits()),
+            (None, Some((number, false))) => state.r.get(number as usize).cloned().unwrap_or_else(OneOf::any),
+            _ => OneOf::any(),
         }
     }
 
-    fn run(&mut self, run: usize) {
-        let Some(mut state) = self.at.state(run).cloned() else { return };
+    fn run(&mut self, run: usize, mut state: State) {
         let start = self.shape.leaders.get(run).copied().unwrap_or(0);
         let end = self.shape.leaders.get(run + 1).copied().unwrap_or(self.blocks.len());
         for at in start..end {
             let Some(block) = self.blocks.get(at) else { return };
-            let Some(next) = self.block(block, Some((run, at)), state) else { return };
+            let Some(next) = self.block(block, at, state) else { return };
             state = next;
         }
         match self.shape.region(end.saturating_sub(1)) {
@@ -122,30 +118,28 @@ impl<'b> Flow<'b> {
     }
 
     fn reach(&mut self, block: usize, state: &State) {
-        let Ok(run) = self.shape.leaders.binary_search(&block) else { return };
-        self.at.flow(run, state);
-    }
-
-    fn give_back(&mut self, sub: usize, state: &State) {
-        let Some(slot) = self.returned.get_mut(sub) else { return };
-        let changed = match slot {
-            Some(old) => old.join(state),
-            None => {
-                *slot = Some(state.clone());
-                true
-            }
-        };
-        if changed {
-            self.calling.iter().for_each(|run| self.at.again(*run));
+        if let Ok(run) = self.shape.leaders.binary_search(&block) {
+            self.ways.go(run, state);
         }
     }
 
-    /// The state after a block; none if control does not go on there. `run` is
-    /// given while the ways are followed, none when they are known.
-    fn block(&mut self, block: &Block, run: Option<(usize, usize)>, state: State) -> Option<State> {
+    /// The run that a subroutine begins with.
+    fn entry(&self, sub: usize) -> Option<usize> {
+        let sub = self.shape.subs.get(sub)?;
+        self.shape.leaders.binary_search(&sub.blocks.start).ok()
+    }
+
+    fn give_back(&mut self, sub: usize, state: &State) {
+        if let Some(entry) = self.entry(sub) {
+            self.ways.give_back(entry, state);
+        }
+    }
+
+    /// The state after the block at a place; none if control does not go on there.
+    fn block(&mut self, block: &Block, at: usize, state: State) -> Option<State> {
         let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
         let before = skipped.then(|| state.clone());
-        let behind = self.items(&block.items, run, state, 0);
+        let behind = self.items(&block.items, at, state, 0);
         match (before, behind) {
             (Some(mut before), Some(behind)) => {
                 before.join(&behind);
@@ -155,24 +149,18 @@ impl<'b> Flow<'b> {
         }
     }
 
-    fn items(
-        &mut self,
-        items: &[Item],
-        run: Option<(usize, usize)>,
-        mut state: State,
-        depth: u8,
-    ) -> Option<State> {
+    fn items(&mut self, items: &[Item], at: usize, mut state: State, depth: u8) -> Option<State> {
         for item in items {
             match &item.kind {
                 ItemKind::Goto(target) => {
-                    if let (Some(goal), Some(_)) = (goal(target), run) {
+                    if let Some(goal) = goal(target) {
                         self.jump(&goal, &state);
                     }
                     return None;
                 }
                 ItemKind::Start(_) => return None,
                 ItemKind::If { body, .. } if depth < 16 => {
-                    if let Some(done) = self.items(body, run, state.clone(), depth + 1) {
+                    if let Some(done) = self.items(body, at, state.clone(), depth + 1) {
                         state.join(&done);
                     }
                 }
@@ -180,7 +168,7 @@ impl<'b> Flow<'b> {
             }
         }
         if items.iter().any(|item| word(item).is_some()) {
-            return self.words(items, run, state);
+            return self.words(items, at, state);
         }
         Some(state)
     }
@@ -191,24 +179,27 @@ impl<'b> Flow<'b> {
         }
     }
 
-    fn words(&mut self, items: &[Item], run: Option<(usize, usize)>, mut state: State) -> Option<State> {
+    fn words(&mut self, items: &[Item], at: usize, mut state: State) -> Option<State> {
         let codes = Codes::new(items, self.control);
         state.set_motion(codes.interpolation(), codes.cycle());
         for row in codes.known() {
             match row.op {
-                Op::Absolute => state.incremental = Values::one(false),
-                Op::Incremental => state.incremental = Values::one(true),
+                Op::Absolute => state.incremental = OneOf::one(false),
+                Op::Incremental => state.incremental = OneOf::one(true),
                 Op::CallModalOff if state.modal == 0 => state.modal_program = false,
                 Op::CallModalOff if state.modal < MOST_MODAL => state.modal -= 1,
                 _ => {}
             }
+        }
+        if state.modal == 0 {
+            state.modal_subs.clear();
         }
         let axis = |letter| self.control.role(letter, false, None).is_some_and(crate::canon::Role::is_axis);
         let moves = items.iter().filter_map(word).any(|word| axis(word.letter));
         state.moved |= moves;
         // A move after a cycle spells its interpolation out, see `motion`.
         let spells = moves && codes.motion().is_none() && !codes.takes_axes() && state.cycle.list() == [0];
-        if spells && !state.motion_entry && state.motion.list().len() == 1 {
+        if spells && !state.motion.entry && state.motion.set.only().is_some() {
             state.after_cycle = false;
             state.resumed = false;
         }
@@ -216,16 +207,16 @@ impl<'b> Flow<'b> {
             let (modal, in_modal) = (state.modal, state.in_modal);
             // The moves of the subroutine run what was in force before it.
             let inside = if modal < MOST_MODAL { modal - 1 } else { modal };
-            for sub in self.modal_subs.clone() {
-                let mut entered = State { modal: inside, in_modal: true, ..state.clone() };
-                if self.call(sub, false, run, &mut entered) {
-                    state.join(&State { modal, in_modal, ..entered });
+            for sub in state.modal_subs.clone() {
+                let entered = State { modal: inside, in_modal: true, ..state.clone() };
+                if let Some(returned) = self.call(sub, false, at, &entered) {
+                    state.join(&State { modal, in_modal, ..returned });
                 }
             }
         }
         // A register code: which variable it writes is the table's, not told apart here.
         if codes.known().any(|row| matches!(row.op, Op::WriteVariable | Op::ReadOffset)) {
-            state.r = std::array::from_fn(|_| Values::any());
+            state.r = std::array::from_fn(|_| OneOf::any());
         }
         let modal = codes.has(Op::CallModal);
         if state.modal_program && moves {
@@ -234,18 +225,14 @@ impl<'b> Flow<'b> {
         for step in steps(items, &codes) {
             match step {
                 Step::Local(value) => {
-                    let subs = self.callees(value, &state);
+                    let (subs, other) = self.callees(value, &state);
                     if modal {
                         state.modal = (state.modal + 1).min(MOST_MODAL);
-                        subs.iter().for_each(|sub| {
-                            if !self.modal_subs.contains(sub) {
-                                self.modal_subs.push(*sub);
-                            }
-                        });
+                        state.modal_subs.extend(subs);
                         continue;
                     }
                     let again = constant(value).is_none_or(|value| value % 100.0 != 1.0);
-                    state = self.call_any(&subs, again, run, state)?;
+                    state = self.call_any(&subs, other, again, at, state)?;
                 }
                 Step::Program => {
                     let (others, own) = self.others;
@@ -258,22 +245,22 @@ impl<'b> Flow<'b> {
                     }
                 }
                 Step::SubEnd => {
-                    if let Some((sub, _)) = run.and_then(|(_, at)| Some((self.shape.region(at)?, ()))) {
+                    if let Some(sub) = self.shape.region(at) {
                         self.give_back(sub, &state);
                     }
                     return None;
                 }
                 Step::Return => {
                     let goal = return_goal(items, &codes);
-                    if run.is_some() && operand(items, &codes, Role::Sequence).is_none() {
+                    if operand(items, &codes, Role::Sequence).is_none() {
                         self.leave(&state);
                     } else {
                         self.ends_elsewhere = true;
                     }
-                    if let (Some(goal), Some(_)) = (goal, run) {
+                    if let Some(goal) = goal {
                         self.jump(&goal, &state);
                     }
-                    if run.is_some() && returns_computed(items, &codes) {
+                    if returns_computed(items, &codes) {
                         let all = self.shape.goals.keys();
                         let all = all.filter(|goal| matches!(goal, Goal::Sequence(_))).cloned();
                         all.collect::<Vec<_>>().iter().for_each(|goal| self.jump(goal, &state));
@@ -287,62 +274,56 @@ impl<'b> Flow<'b> {
         Some(state)
     }
 
-    fn callees(&self, value: &Expr, state: &State) -> Vec<usize> {
+    /// The subroutines of this program that a call's value may name, and whether it may name another: one that the control
+    /// keeps, or none, which is refused or reviewed where it is lowered.
+    fn callees(&self, value: &Expr, state: &State) -> (Vec<usize>, bool) {
         let values = Self::constants(value, state);
         if values.is_any() {
-            return self.shape.numbers.values().copied().collect();
+            return (self.shape.numbers.values().copied().collect(), true);
         }
         let number = |bits: &u64| (f64::from_bits(*bits) / 100.0).floor();
-        let subs = values.list().iter().map(number).filter(|n| (0.0..100.0).contains(n));
-        let mut subs: Vec<usize> = subs.filter_map(|number| self.shape.sub(number as u32)).collect();
+        let numbers = values.list().iter().map(number);
+        let own = numbers.map(|n| if (0.0..100.0).contains(&n) { self.shape.sub(n as u32) } else { None });
+        let own: Vec<Option<usize>> = own.collect();
+        let mut subs: Vec<usize> = own.iter().flatten().copied().collect();
         subs.dedup();
-        subs
+        (subs, own.is_empty() || own.contains(&None))
     }
 
     fn call_any(
         &mut self,
         subs: &[usize],
+        other: bool,
         again: bool,
-        run: Option<(usize, usize)>,
+        at: usize,
         state: State,
     ) -> Option<State> {
-        if subs.is_empty() {
-            // A subroutine that the control keeps, or none: refused or reviewed where it is lowered.
-            let mut state = state;
-            self.called(&mut state);
-            return Some(state);
-        }
         let mut behind: Option<State> = None;
+        if other {
+            let mut called = state.clone();
+            self.called(&mut called);
+            behind = Some(called);
+        }
         for sub in subs {
-            let mut entered = state.clone();
-            if self.call(*sub, again, run, &mut entered) {
-                match &mut behind {
-                    Some(behind) => drop(behind.join(&entered)),
-                    None => behind = Some(entered),
-                }
+            let Some(returned) = self.call(*sub, again, at, &state) else { continue };
+            match &mut behind {
+                Some(behind) => drop(behind.join(&returned)),
+                None => behind = Some(returned),
             }
         }
         behind
     }
 
-    /// Runs a subroutine on the state. False where it is not known yet to return.
-    fn call(&mut self, sub: usize, again: bool, run: Option<(usize, usize)>, state: &mut State) -> bool {
-        if let (Some((run, _)), Some(entry)) = (run, self.shape.subs.get(sub)) {
-            let entry = entry.blocks.start;
-            self.calling.insert(run);
+    /// The state after a subroutine that the block at a place calls; none if it is not known to return.
+    fn call(&mut self, sub: usize, again: bool, at: usize, state: &State) -> Option<State> {
+        let entry = self.entry(sub)?;
+        let run = self.shape.leaders.partition_point(|leader| *leader <= at).saturating_sub(1);
+        self.ways.call(run, entry, state);
+        let returned = self.ways.after(entry).cloned();
+        if let (Some(returned), true) = (&returned, again) {
             // A repeat is entered from the one before it.
-            let mut first = state.clone();
-            if again && let Some(Some(returned)) = self.returned.get(sub) {
-                first.join(returned);
-            }
-            self.reach(entry, &first);
+            self.ways.go(entry, returned);
         }
-        match self.returned.get(sub) {
-            Some(Some(returned)) => {
-                *state = returned.clone();
-                true
-            }
-            _ => false,
-        }
+        returned
     }
 }

@@ -93,7 +93,7 @@ impl<'b> Lowering<'b> {
             Some("modal") => {}
             _ => return Some(false),
         }
-        let radians = match self.state.radians.list() {
+        let radians = match self.state.radians.set.list() {
             // Nothing leads here.
             [] => false,
             [radians] => *radians,
@@ -106,7 +106,7 @@ impl<'b> Lowering<'b> {
                 return None;
             }
         };
-        if self.state.radians_outside {
+        if self.state.radians.is_from_outside() {
             let note =
                 "degrees by default, but SET RADIANS may have been given before or outside the program";
             self.findings.unconfirmed(Question::AnglesUnit.fact().into(), Some(note), span);
@@ -115,7 +115,7 @@ impl<'b> Lowering<'b> {
     }
 
     fn places(&mut self, span: Span) -> Option<f64> {
-        let places = match self.state.places.list() {
+        let places = match self.state.places.set.list() {
             [] => 0,
             [places] => *places,
             _ => {
@@ -126,7 +126,7 @@ impl<'b> Lowering<'b> {
                 return None;
             }
         };
-        if self.state.places_called {
+        if self.state.places.called {
             let message = "the programs called since SET RND are taken to leave the places as they were";
             self.once(Code::ModalAssumed, "places", span, message.into());
         }

@@ -27,7 +27,7 @@ pub fn lower(
         }
         lowering.block(at, block, &mut head);
         let state = std::mem::take(&mut lowering.state);
-        lowering.state = flow.behind(block, state);
+        lowering.state = flow.behind(at, block, state);
     }
     lowering.finish();
     let program = lowering.builder.finish(text.name.cloned(), file, head);

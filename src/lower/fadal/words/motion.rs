@@ -20,7 +20,7 @@ pub struct Move {
 impl<'b> Lowering<'b> {
     /// The meanings that the motion mode may have before the block.
     fn modes(&self, codes: &Codes<'b, 'b>) -> Vec<&'b CodeMeaning> {
-        self.state.motion.list().iter().filter_map(|code| codes.modal(*code)).collect()
+        self.state.motion.set.list().iter().filter_map(|code| codes.modal(*code)).collect()
     }
 
     /// The motion mode that gives letters their roles, where the block has no motion
@@ -75,7 +75,7 @@ impl<'b> Lowering<'b> {
         if self.in_cycle() && !mixed {
             return if shown.centre { self.no_arc(span) } else { Some(Spelling::default()) };
         }
-        if self.state.motion.is_any() {
+        if self.state.motion.set.is_any() {
             return self.conflict(span, "too many different motion modes may be in force here");
         }
         let modes = self.modes(codes);
@@ -84,13 +84,13 @@ impl<'b> Lowering<'b> {
             return self.conflict(span, "an arc mode or a drilling cycle may be in force here");
         }
         if arcs.is_empty() {
-            if self.state.motion_entry && shown.centre {
+            if self.state.motion.entry && shown.centre {
                 return self.conflict(span, "the caller's motion mode decides the direction of this arc");
             }
             if shown.centre && !modes.is_empty() && !mixed {
                 return self.no_arc(span);
             }
-            if self.state.motion_entry {
+            if self.state.motion.entry {
                 let message = "this moves in the caller's motion mode; if that is an arc mode, the conversion moves \
                      straight";
                 self.once(Code::ModalAssumed, "entry", span, message.into());
@@ -103,10 +103,10 @@ impl<'b> Lowering<'b> {
             }
             return Some(self.after_cycle(&modes, span));
         }
-        if self.state.motion_entry {
+        if self.state.motion.entry {
             return self.conflict(span, "an arc mode or the caller's motion mode may be in force here");
         }
-        if self.state.motion_called {
+        if self.state.motion.called {
             let message = "the programs called since G2 or G3 are taken to leave the motion mode as it was";
             self.once(Code::ModalAssumed, "called", span, message.into());
         }
@@ -131,14 +131,14 @@ impl<'b> Lowering<'b> {
         if self.state.resumed {
             self.suppose(Question::MotionAfterCycle, "kept", span);
         }
-        if self.state.motion_called {
+        if self.state.motion.called {
             let message = "this moves in the motion mode from before the cycle, or in one that a program \
                            called since then has set";
             self.once(Code::ModalAssumed, "called", span, message.into());
             return Spelling::default();
         }
         match modes {
-            [row] if !self.state.motion_entry => Spelling { op: Some(row.op), drop: None },
+            [row] if !self.state.motion.entry => Spelling { op: Some(row.op), drop: None },
             _ => Spelling::default(),
         }
     }
