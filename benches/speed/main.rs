@@ -28,7 +28,7 @@ use std::process::ExitCode;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// The grammar without the scanner beside it.
+/// The grammar without the hand reader beside it.
 #[allow(missing_docs)]
 mod grammar {
     #[derive(pest_derive::Parser)]

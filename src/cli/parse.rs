@@ -114,7 +114,7 @@ fn totals(source: Source, parse: Parser, draw: bool) -> Result<(usize, ParseTota
     }
     // Drawing a fault takes the text around it.
     let input = source.read()?;
-    let faults = parse_faults(&input.bytes, parse, |_, _| false);
+    let faults = parse_faults(&input.bytes, parse);
     let mut drawings = Drawings::new(&input.path.display().to_string(), &input.bytes);
     faults.iter().for_each(|fault| streams::tell_drawn(drawings.draw(&fault.clone().into())));
     drawings.left_out().iter().for_each(streams::remark);

@@ -7,7 +7,7 @@ use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
 use crate::lower::{self, Cuts, Lower};
-use crate::syntax::{self, IsSound, Parser, without_tokens};
+use crate::syntax::{self, Parser, without_tokens};
 use std::sync::OnceLock;
 
 /// A dialect: its table, and the modules that know it by name.
@@ -22,8 +22,8 @@ pub struct Entry {
     pub parse: Parser,
     /// Reads its blocks without their tokens.
     pub parse_items: Parser,
-    /// Knows lines that need not be read whole to see that they have no fault.
-    pub is_sound: IsSound,
+    /// Reads its blocks for their faults: it may leave out those that have none.
+    pub parse_faults: Parser,
     /// Lowers its programs.
     pub lower: Lower,
     /// Cuts files that need not be lowered whole.
@@ -44,14 +44,14 @@ struct Head {
 }
 
 macro_rules! entry {
-    ($name:literal, $parse:expr, $parse_items:expr, $is_sound:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr, $by_need:expr) => {
+    ($name:literal, $parse:expr, $parse_items:expr, $parse_faults:expr, $lower:expr, $cuts:expr, $emit:expr, $execute:expr, $by_need:expr) => {
         Entry {
             name: $name,
             file: concat!("dialects/", $name, ".toml"),
             table: include_str!(concat!("../../dialects/", $name, ".toml")),
             parse: $parse,
             parse_items: $parse_items,
-            is_sound: $is_sound,
+            parse_faults: $parse_faults,
             lower: $lower,
             cuts: $cuts,
             emit: $emit,
@@ -67,7 +67,7 @@ static ENTRIES: [Entry; 4] = [
         "fadal",
         syntax::fadal::parse_line,
         |source, line, out| without_tokens(syntax::fadal::parse_line, source, line, out),
-        |_, _| false,
+        syntax::fadal::parse_line,
         lower::fadal::lower,
         |_, _| Vec::new(),
         None,
@@ -78,7 +78,7 @@ static ENTRIES: [Entry; 4] = [
         "fanuc",
         syntax::fanuc::parse_line,
         syntax::fanuc::parse_items,
-        syntax::fanuc::is_sound,
+        syntax::fanuc::parse_faults,
         lower::fanuc::lower,
         lower::fanuc::cuts,
         Some(emit::fanuc::emit),
@@ -89,7 +89,7 @@ static ENTRIES: [Entry; 4] = [
         "haas",
         syntax::haas::parse_line,
         syntax::haas::parse_items,
-        syntax::haas::is_sound,
+        syntax::haas::parse_faults,
         lower::haas::lower,
         lower::haas::cuts,
         Some(emit::haas::emit),
@@ -100,7 +100,7 @@ static ENTRIES: [Entry; 4] = [
         "cc100",
         syntax::cc100::parse_line,
         |source, line, out| without_tokens(syntax::cc100::parse_line, source, line, out),
-        |_, _| false,
+        syntax::cc100::parse_line,
         lower::cc100::lower,
         |_, _| Vec::new(),
         None,

@@ -137,7 +137,7 @@ fn emit(
     emitted.text.shrink_to_fit();
     emitted.blocks.shrink_to_fit();
     let entry = target.entry();
-    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), entry.parse, entry.is_sound)
+    let faults: Vec<Diagnostic> = parse_faults(emitted.text.as_bytes(), entry.parse_faults)
         .into_iter()
         .filter(|fault| fault.code.severity() == Severity::Error)
         .filter_map(|fault| {

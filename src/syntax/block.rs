@@ -12,12 +12,12 @@ impl Block {
 
     /// True when the tokens tile the block.
     pub fn is_tiled(&self) -> bool {
-        let mut at = self.span.start;
-        self.tokens.iter().all(|token| {
-            let joins = token.span.start == at && token.span.end >= at;
+        let (mut at, mut joined) = (self.span.start, true);
+        for token in &self.tokens {
+            joined &= token.span.start == at && token.span.end >= at;
             at = token.span.end;
-            joins
-        }) && at == self.span.end
+        }
+        joined && at == self.span.end
     }
 }
 

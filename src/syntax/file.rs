@@ -1,6 +1,6 @@
 //! Reads a whole file, line by line and in parallel.
 
-use super::{Block, SyntaxError};
+use super::{Block, ItemKind, SyntaxError};
 use crate::text::{Line, Lines, Span};
 use rayon::prelude::*;
 
@@ -10,9 +10,6 @@ use rayon::prelude::*;
 /// appends at least one block for any line but an empty one, and their tokens
 /// tile the line.
 pub type Parser = fn(source: &[u8], line: Span, out: &mut Vec<Block>);
-
-/// True for a line that a dialect's parser surely reads without a fault; false where only reading tells.
-pub type IsSound = fn(source: &[u8], line: Span) -> bool;
 
 /// A file with its blocks.
 #[derive(Clone, Debug)]
@@ -111,15 +108,12 @@ pub fn without_tokens(parser: Parser, source: &[u8], line: Span, out: &mut Vec<B
 
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
-    fold_lines(source, parser, |_, _| false, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
+    fold_lines(source, parser, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)
 }
 
-/// Reads all blocks of `source` but lines that are sound and keeps only their faults, in order: memory stays flat.
-pub fn parse_faults(
-    source: &[u8],
-    parser: Parser,
-    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
-) -> Vec<SyntaxError> {
+/// Reads all blocks of `source` and keeps only their faults, in order: memory stays flat. The parser may leave out
+/// blocks without fault.
+pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
         blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
     };
@@ -127,21 +121,20 @@ pub fn parse_faults(
         a.append(&mut b);
         a
     };
-    fold_lines(source, parser, is_sound, Vec::new, add, join)
+    fold_lines(source, parser, Vec::new, add, join)
 }
 
-/// Folds the blocks of all lines but sound ones in parallel; `join` is given neighbours in their order.
+/// Folds the blocks of all lines in parallel; `join` is given neighbours in their order.
 fn fold_lines<T: Send>(
     source: &[u8],
     parser: Parser,
-    is_sound: impl Fn(&[u8], Span) -> bool + Sync,
     none: impl Fn() -> T + Sync + Send,
     add: impl Fn(&mut T, Line, &mut [Block]) + Sync,
     join: impl Fn(T, T) -> T + Sync + Send,
 ) -> T {
     let fold = |chunk| {
         let (mut out, mut blocks) = (none(), Vec::new());
-        for line in Lines::within(source, chunk).filter(|line| !is_sound(source, line.text)) {
+        for line in Lines::within(source, chunk) {
             blocks.clear();
             parser(source, line.text, &mut blocks);
             add(&mut out, line, &mut blocks);
@@ -161,8 +154,11 @@ impl ParseTotals {
         let mut at = line.text.start;
         for block in blocks.iter() {
             self.blocks += 1;
-            self.unparsed += usize::from(block.items.iter().any(|i| i.kind == super::ItemKind::Unparsed));
-            self.faulty += usize::from(!block.errors.is_empty());
+            if !block.errors.is_empty() {
+                self.faulty += 1;
+                self.unparsed +=
+                    usize::from(block.items.iter().any(|i| matches!(i.kind, ItemKind::Unparsed)));
+            }
             self.lossless &= block.span.start == at && block.is_tiled();
             at = block.span.end;
         }

@@ -1,11 +1,8 @@
 //! Haas macros, legacy and NGC controls.
 
 use super::Block;
-use super::macro_b::{
-    self, Keep, Lexemes, ParseCache, Reading, Rules, bits_behind_relations, lexemes_of_rules,
-};
+use super::macro_b::{self, Keep, Lexemes, Reading, Rules, bits_behind_relations, lexemes_of_rules};
 use crate::text::Span;
-use std::cell::RefCell;
 
 /// What pest makes of the grammar; it stays in here.
 #[allow(missing_docs)]
@@ -19,14 +16,10 @@ use grammar::{Grammar, Rule};
 
 lexemes_of_rules!(Rule);
 
-thread_local! {
-    static KNOWN: RefCell<ParseCache> = RefCell::default();
-}
-
 pub(super) const RULES: Rules = Rules {
     read,
-    known: &KNOWN,
     rank: bits_behind_relations,
+    bits: true,
     bracket_depth: None,
     constant_digits: None,
     comments_do_not_nest: true,
@@ -46,9 +39,9 @@ pub fn parse_items(source: &[u8], line: Span, out: &mut Vec<Block>) {
     macro_b::read_line(&RULES, source, line, Keep::Items, out);
 }
 
-/// See [`super::IsSound`].
-pub fn is_sound(source: &[u8], line: Span) -> bool {
-    macro_b::is_sound(&RULES, source, line)
+/// As [`parse_items`], without blocks of plain words in which nothing can be wrong.
+pub fn parse_faults(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    macro_b::read_line(&RULES, source, line, Keep::Faults, out);
 }
 
 fn read(text: &str, start: u32, row: &mut Lexemes) -> Result<(), Reading> {

@@ -27,7 +27,7 @@ mod walk;
 pub use ast::*;
 pub use block::print_blocks;
 pub use file::{
-    IsSound, ParseTotals, ParsedFile, Parser, chunks, parse_faults, parse_file, parse_part, parse_totals,
+    ParseTotals, ParsedFile, Parser, chunks, parse_faults, parse_file, parse_part, parse_totals,
     without_tokens,
 };
 pub use value::*;

@@ -1,13 +1,11 @@
-//! Cuts a line into blocks and reads each, by the scanner or by the grammar.
+//! Cuts a line into blocks and reads each, by hand or by the grammar.
 
 use super::faults::{self, outside_text};
-use super::lexeme::{Lexemes, tokens};
-use super::parse_cache::{self, is_tiled};
-use super::plain::{NeedsCheck, Plain};
+use super::lexeme::{Lexemes, is_tiled, tokens};
 use super::shape::{self, Shape};
 use super::tree;
-use super::{Rules, checks, precheck, scanner};
-use crate::syntax::support::{LONGEST_LINE, readable, too_long};
+use super::{Rules, checks, reader};
+use crate::syntax::support::{readable, too_long};
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;
 
@@ -18,73 +16,62 @@ pub enum Keep {
     Tokens,
     /// Nothing.
     Items,
+    /// Nothing, and not even the block where it is plain words in which nothing can be wrong.
+    Faults,
 }
 
 /// Reads the blocks of one line.
 pub fn read_line(rules: &Rules, source: &[u8], line: Span, keep: Keep, out: &mut Vec<Block>) {
-    if let Some(block) = too_long(line) {
-        out.push(block);
-        return;
-    }
-    let bytes = line.of(source);
     let first = out.len();
-    let mut at = if is_dump_header(bytes) { line.end } else { line.start };
-    while at < line.end {
-        let block = plain_block(rules, source, Span::new(at, line.end), keep).unwrap_or_else(|| {
-            let (span, shape) = outline(bytes, line.start, at);
-            grammar_block(rules, source, span, line.start, &shape, keep)
-        });
-        // A block has at least one byte, so the line is finished after finitely many.
-        at = block.span.end.max(at + 1);
+    if let Some(block) = whole_line(source, line) {
         out.push(block);
+    } else {
+        let mut at = line.start;
+        while at < line.end {
+            let rest = Span::new(at, line.end);
+            let end = by_hand(rules, source, rest, keep, out);
+            at = end.unwrap_or_else(|| by_grammar(rules, source, line, at, out));
+        }
+        if out[first..].iter().any(|block| !block.errors.is_empty()) && outside_text(source, line) {
+            out.truncate(first);
+            out.push(outside_block(line));
+        }
     }
-    let faulty = out[first..].iter().any(|block| !block.errors.is_empty());
-    if is_dump_header(bytes) || (faulty && outside_text(source, line)) {
-        out.truncate(first);
-        out.push(outside_block(line));
-    }
-    if keep == Keep::Items {
+    if keep != Keep::Tokens {
         out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
     }
 }
 
-/// True for a line of blocks in which nothing can be wrong, as far as their leaves tell; see [`sound`].
-pub fn is_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
-    // What is plain is seen faster than remembered.
-    let found = || {
-        is_plain(source, line)
-            || parse_cache::is_sound(rules, line.of(source), || is_found_sound(rules, source, line))
-    };
-    line.len() <= LONGEST_LINE && found()
+/// The block of a line that is not cut into several whatever stands in it.
+fn whole_line(source: &[u8], line: Span) -> Option<Block> {
+    too_long(line).or_else(|| is_dump_header(line.of(source)).then(|| outside_block(line)))
 }
 
-/// As [`is_sound`], by the grammar.
-pub(super) fn is_found_sound(rules: &Rules, source: &[u8], line: Span) -> bool {
-    let bytes = line.of(source);
-    let mut row = Lexemes::new();
-    let mut at = line.start;
-    while at < line.end {
-        let (span, shape) = outline(bytes, line.start, at);
-        let shaped = shape.depth <= rules.bracket_depth.map_or(shape::DEEPEST, |most| most as usize)
-            && shape.open_comment.is_none()
-            && shape.nested_comment.is_none();
-        row.clear();
-        if !shaped
-            || (rules.read)(&readable(span.of(source)), span.start, &mut row).is_err()
-            || !is_tiled(&row, span)
-            || !precheck::is_sound(rules, source, &row)
-        {
-            return false;
+/// Reads the block at the start of `rest` by hand, unless that declines it; says where it ends.
+pub(super) fn by_hand(
+    rules: &Rules,
+    source: &[u8],
+    rest: Span,
+    keep: Keep,
+    out: &mut Vec<Block>,
+) -> Option<u32> {
+    match keep {
+        Keep::Tokens => reader::read::<true>(rules, source, rest, out),
+        Keep::Items => reader::read::<false>(rules, source, rest, out),
+        Keep::Faults => {
+            reader::pass(rules, source, rest).or_else(|| reader::read::<false>(rules, source, rest, out))
         }
-        at = span.end.max(at + 1);
     }
-    !is_dump_header(bytes)
 }
 
-/// True for a line that is one block of plain words in which nothing can be wrong, or empty.
-pub fn is_plain(source: &[u8], line: Span) -> bool {
-    let mut check = NeedsCheck::default();
-    scanner::scan(source, line, &mut check) == Some(line.end) && !check.0
+/// Reads the block of a line that starts at `at` by the grammar; says where it ends.
+#[cold]
+#[inline(never)]
+pub(super) fn by_grammar(rules: &Rules, source: &[u8], line: Span, at: u32, out: &mut Vec<Block>) -> u32 {
+    let (span, shape) = outline(line.of(source), line.start, at);
+    out.push(grammar_block(rules, source, span, line.start, &shape));
+    // A block has at least one byte, so the line is finished after finitely many.
+    span.end.max(at + 1)
 }
 
 /// The block of a line that starts at `at`, and its outline, which counts from the start of the line.
@@ -95,46 +82,14 @@ fn outline(line: &[u8], line_start: u32, at: u32) -> (Span, Shape) {
     (Span::new(at, line_start + shape.end as u32), shape)
 }
 
-/// The block at the start of `rest`, up to the end of its line, if the scanner reads it.
-fn plain_block(rules: &Rules, source: &[u8], rest: Span, keep: Keep) -> Option<Block> {
-    let text = rest.of(source);
-    if !scanner::begins_plain(text) {
-        return None;
-    }
-    let mut plain = Plain::within(text);
-    let (end, tokens, plain) = match keep {
-        Keep::Tokens => {
-            let mut both = (Lexemes::new(), plain);
-            let end = scanner::scan(source, rest, &mut both)?;
-            (end, tokens(&both.0), both.1)
-        }
-        Keep::Items => (scanner::scan(source, rest, &mut plain)?, Vec::new(), plain),
-    };
-    let needs_check = plain.needs_check;
-    let span = Span::new(rest.start, end);
-    let mut block = Block { span, tokens, items: plain.into_items(), errors: Vec::new() };
-    debug_assert!(keep == Keep::Items || block.is_tiled());
-    if needs_check {
-        checks::check_items(rules, source, &block.items, &mut block.errors);
-    }
-    Some(block)
-}
-
 /// A block read by the grammar.
-pub(super) fn grammar_block(
-    rules: &Rules,
-    source: &[u8],
-    span: Span,
-    line_start: u32,
-    shape: &Shape,
-    keep: Keep,
-) -> Block {
+fn grammar_block(rules: &Rules, source: &[u8], span: Span, line_start: u32, shape: &Shape) -> Block {
     let bytes = span.of(source);
     if shape.depth > shape::DEEPEST {
         return unread(span, end_of_block(bytes, span), faults::too_deep(span, shape.depth));
     }
     let mut row = Lexemes::new();
-    let tree = match parse_cache::read(rules, source, span, &mut row) {
+    let tree = match (rules.read)(&readable(bytes), span.start, &mut row) {
         Ok(()) if !is_tiled(&row, span) => {
             // Cannot happen while grammars tile; if one does not, nothing may be lost.
             return unread(span, None, faults::not_tiled(span));
@@ -144,8 +99,7 @@ pub(super) fn grammar_block(
     };
     match tree {
         Ok(tree) => {
-            let tokens = if keep == Keep::Tokens { tokens(&row) } else { Vec::new() };
-            let mut block = Block { span, tokens, items: tree.items, errors: tree.errors };
+            let mut block = Block { span, tokens: tokens(&row), items: tree.items, errors: tree.errors };
             checks::check_items(rules, source, &block.items, &mut block.errors);
             checks::check_shape(rules, source, &mut block, line_start, shape);
             block
@@ -193,7 +147,7 @@ fn is_blank(byte: u8) -> bool {
 
 /// `&F=//CNC_MEM/USER/`: where a memory dump says which folder a program was in.
 fn is_dump_header(line: &[u8]) -> bool {
-    line.get(..3).is_some_and(|head| head.eq_ignore_ascii_case(b"&F="))
+    matches!(line, [b'&', b'F' | b'f', b'=', ..])
 }
 
 fn outside_block(line: Span) -> Block {

@@ -39,7 +39,7 @@ impl Builder<'_> {
         if !matches!(self.ahead(by), Lex::Operator | Lex::Join) {
             return None;
         }
-        let op = operator(self.span_ahead(by).of(self.source))?;
+        let (op, _) = operator(self.span_ahead(by).of(self.source))?;
         let rank = (self.rank)(op);
         (rank >= least).then_some((op, rank))
     }
@@ -186,28 +186,37 @@ pub fn bits_behind_relations(op: BinaryOp) -> u8 {
     }
 }
 
-fn operator(text: &[u8]) -> Option<BinaryOp> {
-    let second = text.get(1).map(u8::to_ascii_uppercase);
-    Some(match (text.first()?.to_ascii_uppercase(), second) {
-        (b'+', _) => BinaryOp::Add,
-        (b'-', _) => BinaryOp::Subtract,
-        (b'*', _) => BinaryOp::Multiply,
-        (b'/', _) => BinaryOp::Divide,
-        (b'M', _) => BinaryOp::Modulo,
-        (b'A', _) => BinaryOp::And,
-        (b'O', _) => BinaryOp::Or,
-        (b'X', _) => BinaryOp::Xor,
-        (b'E', _) => BinaryOp::Equal,
-        (b'N', _) => BinaryOp::NotEqual,
-        (b'L', Some(b'T')) => BinaryOp::Less,
-        (b'L', _) => BinaryOp::LessEqual,
-        (b'G', Some(b'T')) => BinaryOp::Greater,
-        (b'G', _) => BinaryOp::GreaterEqual,
+/// The operator that a text begins with, and how long it is.
+pub fn operator(text: &[u8]) -> Option<(BinaryOp, usize)> {
+    Some(match text.first()? {
+        b'+' => (BinaryOp::Add, 1),
+        b'-' => (BinaryOp::Subtract, 1),
+        b'*' => (BinaryOp::Multiply, 1),
+        b'/' => (BinaryOp::Divide, 1),
+        b'A'..=b'Z' | b'a'..=b'z' => return named_operator(text),
         _ => return None,
     })
 }
 
-fn function(text: &[u8]) -> Option<Func> {
+fn named_operator(text: &[u8]) -> Option<(BinaryOp, usize)> {
+    let upper = |at: usize| text.get(at).map_or(0, u8::to_ascii_uppercase);
+    Some(match [upper(0), upper(1), upper(2)] {
+        [b'E', b'Q', _] => (BinaryOp::Equal, 2),
+        [b'N', b'E', _] => (BinaryOp::NotEqual, 2),
+        [b'L', b'T', _] => (BinaryOp::Less, 2),
+        [b'L', b'E', _] => (BinaryOp::LessEqual, 2),
+        [b'G', b'T', _] => (BinaryOp::Greater, 2),
+        [b'G', b'E', _] => (BinaryOp::GreaterEqual, 2),
+        [b'O', b'R', _] => (BinaryOp::Or, 2),
+        [b'A', b'N', b'D'] => (BinaryOp::And, 3),
+        [b'X', b'O', b'R'] => (BinaryOp::Xor, 3),
+        [b'M', b'O', b'D'] => (BinaryOp::Modulo, 3),
+        _ => return None,
+    })
+}
+
+/// The function of a name.
+pub fn function(text: &[u8]) -> Option<Func> {
     let mut name = [0; 5];
     for (to, from) in name.iter_mut().zip(text) {
         *to = from.to_ascii_uppercase();

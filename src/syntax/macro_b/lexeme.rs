@@ -1,4 +1,4 @@
-//! The leaves of a block, as the scanner and the grammars both yield them.
+//! The leaves of a block, as the grammars yield them.
 
 use crate::syntax::{Token, TokenKind};
 use crate::text::Span;
@@ -234,6 +234,12 @@ impl Cut<'_> {
             self.take(Lex::Bit, 1 + self.rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count());
         }
     }
+}
+
+/// True where the leaves tile the block.
+pub fn is_tiled(row: &[Lexeme], block: Span) -> bool {
+    let mut at = block.start;
+    row.iter().all(|leaf| std::mem::replace(&mut at, leaf.span.end) == leaf.span.start) && at == block.end
 }
 
 /// Leaves as the tokens of a block.

@@ -1,7 +1,6 @@
 //! What a dialect of the family fills in, and how its grammar is run.
 
 use super::lexeme::{self, Lex, Lexemes};
-use super::parse_cache::Memory;
 use crate::syntax::BinaryOp;
 use crate::syntax::support::stopped_at;
 use pest::error::ErrorVariant;
@@ -14,10 +13,10 @@ use pest::{Parser, RuleType, Token};
 pub struct Rules {
     /// Runs the dialect's grammar over the text of one block.
     pub read: fn(text: &str, start: u32, row: &mut Lexemes) -> Result<(), Reading>,
-    /// What that has read already.
-    pub known: &'static Memory,
     /// How close an operator binds; those of one rank go from left to right.
     pub rank: fn(BinaryOp) -> u8,
+    /// True where a point after a variable's number selects a bit.
+    pub bits: bool,
     /// How deep brackets may nest, function brackets included; none for freely.
     pub bracket_depth: Option<u32>,
     /// Digits that an assigned constant may have, leading zeros included.

@@ -1,6 +1,6 @@
 //! Builds what a block says from its row of leaves.
 //!
-//! The grammar (or the scanner) has found that the leaves stand in a legal order; the
+//! The grammar has found that the leaves stand in a legal order; the
 //! tree gives them their shape. A row that does not fit is a fault, never a panic.
 
 use super::lexeme::{Lex, Lexeme};

@@ -1,8 +1,12 @@
 //! What is read from what, for both dialects of the family.
 
 mod fragments;
+#[allow(dead_code, reason = "the benches use the rest")]
+#[path = "../../../../benches/speed/inputs.rs"]
+mod inputs;
 mod properties;
 mod show;
+mod statements;
 mod trees;
 
 use super::Rules;
@@ -14,13 +18,21 @@ struct Dialect {
     name: &'static str,
     rules: &'static Rules,
     parse_line: crate::syntax::Parser,
-    is_sound: crate::syntax::IsSound,
+    parse_faults: crate::syntax::Parser,
 }
 
-const FANUC: Dialect =
-    Dialect { name: "fanuc", rules: &fanuc::RULES, parse_line: fanuc::parse_line, is_sound: fanuc::is_sound };
-const HAAS: Dialect =
-    Dialect { name: "haas", rules: &haas::RULES, parse_line: haas::parse_line, is_sound: haas::is_sound };
+const FANUC: Dialect = Dialect {
+    name: "fanuc",
+    rules: &fanuc::RULES,
+    parse_line: fanuc::parse_line,
+    parse_faults: fanuc::parse_faults,
+};
+const HAAS: Dialect = Dialect {
+    name: "haas",
+    rules: &haas::RULES,
+    parse_line: haas::parse_line,
+    parse_faults: haas::parse_faults,
+};
 const BOTH: [Dialect; 2] = [FANUC, HAAS];
 
 impl Dialect {

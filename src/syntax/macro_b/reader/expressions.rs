@@ -1,0 +1,176 @@
+//! Expressions, by precedence climbing.
+
+use super::super::expressions::{function, operator};
+use super::super::shape::DEEPEST;
+use super::super::tree::MOST_OPERATORS;
+use super::cursor::Reader;
+use crate::canon::Func;
+use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, TokenKind, VarRef};
+use crate::text::Span;
+
+/// What operators stand between.
+#[derive(Clone, Copy)]
+enum Between {
+    /// The operands of an expression.
+    Operands,
+    /// The groups of a condition.
+    Groups,
+}
+
+impl Between {
+    fn takes(self, op: BinaryOp) -> bool {
+        match self {
+            Self::Operands => true,
+            Self::Groups => matches!(op, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor),
+        }
+    }
+}
+
+impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
+    /// `#1+#2*3`
+    pub fn expression(&mut self) -> Option<Expr> {
+        self.joined(0, Between::Operands)
+    }
+
+    /// `[#1 EQ #2]`, and several joined: `[#1 EQ #2] AND [#3 EQ #4]`.
+    pub fn condition(&mut self) -> Option<Expr> {
+        self.joined(0, Between::Groups)
+    }
+
+    /// Operands with operators of at least this rank between them, from left to right.
+    fn joined(&mut self, least: u8, between: Between) -> Option<Expr> {
+        let mut left = self.operand(between)?;
+        while let Some((op, length)) = operator(self.rest()) {
+            let rank = (self.rules.rank)(op);
+            if rank < least || !between.takes(op) {
+                break;
+            }
+            self.operators += 1;
+            if self.operators > MOST_OPERATORS {
+                return None;
+            }
+            self.take(TokenKind::Operator, length);
+            let right = self.joined(rank + 1, between)?;
+            let span = left.span.to(right.span);
+            left = Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span };
+        }
+        Some(left)
+    }
+
+    fn operand(&mut self, between: Between) -> Option<Expr> {
+        match between {
+            Between::Operands => self.signed_operand(),
+            Between::Groups => self.group(),
+        }
+    }
+
+    fn signed_operand(&mut self) -> Option<Expr> {
+        self.signed(|reader| match reader.byte() {
+            b'A'..=b'Z' | b'a'..=b'z' => reader.call(),
+            _ => reader.value(),
+        })
+    }
+
+    /// The value of a word: a number, variable or bracket with the sign before it.
+    #[inline]
+    pub fn signed_value(&mut self) -> Option<Expr> {
+        self.signed(Self::value)
+    }
+
+    #[inline]
+    fn signed(&mut self, operand: impl FnOnce(&mut Self) -> Option<Expr>) -> Option<Expr> {
+        let sign = self.byte();
+        if !matches!(sign, b'-' | b'+') {
+            return operand(self);
+        }
+        let start = self.take(TokenKind::Operator, 1);
+        let operand = Box::new(operand(self)?);
+        let span = start.to(operand.span);
+        let kind = if sign == b'-' { ExprKind::Negate(operand) } else { ExprKind::Plus(operand) };
+        Some(Expr { kind, span })
+    }
+
+    /// A number, variable or bracket.
+    #[inline]
+    pub fn value(&mut self) -> Option<Expr> {
+        match self.byte() {
+            b'0'..=b'9' | b'.' => {
+                let (number, span) = self.number()?;
+                Some(Expr { kind: ExprKind::Number(number), span })
+            }
+            b'#' => {
+                let variable = self.variable()?;
+                let span = variable.span;
+                Some(Expr { kind: ExprKind::Variable(Box::new(variable)), span })
+            }
+            b'[' => self.group(),
+            _ => None,
+        }
+    }
+
+    /// `[#1+2]`
+    fn group(&mut self) -> Option<Expr> {
+        let (inner, span) = self.bracketed(|reader| reader.expression())?;
+        Some(Expr { kind: ExprKind::Group(Box::new(inner)), span })
+    }
+
+    /// What stands in a pair of brackets, and the span of both.
+    fn bracketed<T>(&mut self, inner: impl FnOnce(&mut Self) -> Option<T>) -> Option<(T, Span)> {
+        let open = self.take_sign(b'[', TokenKind::Bracket)?;
+        self.brackets += 1;
+        // Deeper ones are a fault.
+        if self.brackets > self.rules.bracket_depth.map_or(DEEPEST, |most| most as usize) {
+            return None;
+        }
+        let inner = inner(self)?;
+        self.brackets -= 1;
+        Some((inner, open.to(self.take_sign(b']', TokenKind::Bracket)?)))
+    }
+
+    /// `SIN[#1]`, `POW[#1,2]`, `ATAN[#1]/[#2]`
+    fn call(&mut self) -> Option<Expr> {
+        let text = self.rest();
+        let length = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        let function = function(&text[..length])?;
+        let word = self.take(TokenKind::Keyword, length);
+        let ((mut arguments, mut form), brackets) = self.bracketed(Self::arguments)?;
+        let mut span = word.to(brackets);
+        if matches!(function, Func::Atan | Func::Parameter) && self.second_part_follows() {
+            self.take(TokenKind::Operator, 1);
+            let (second, brackets) = self.bracketed(|reader| reader.expression())?;
+            arguments.push(second);
+            form = CallForm::Slash;
+            span = span.to(brackets);
+        }
+        Some(Expr { kind: ExprKind::Call { function, arguments, form }, span })
+    }
+
+    fn arguments(&mut self) -> Option<(Vec<Expr>, CallForm)> {
+        let first = self.expression()?;
+        if self.take_sign(b',', TokenKind::Operator).is_none() {
+            return Some((vec![first], CallForm::Plain));
+        }
+        Some((vec![first, self.expression()?], CallForm::Comma))
+    }
+
+    /// A slash divides unless a bracket comes after it.
+    fn second_part_follows(&self) -> bool {
+        let text = self.rest();
+        text.strip_prefix(b"/").is_some_and(|after| after.trim_ascii_start().first() == Some(&b'['))
+    }
+
+    /// `#1`, `#[#1+2]`, `#30057.21`
+    pub fn variable(&mut self) -> Option<VarRef> {
+        let hash = self.take_sign(b'#', TokenKind::Variable)?;
+        let index = if self.byte() == b'[' {
+            let (inner, _) = self.bracketed(|reader| reader.expression())?;
+            Index::Computed(Box::new(inner))
+        } else {
+            match self.index()? {
+                (number, None) => Index::Number(number),
+                (number, Some(bit)) => Index::Bit(number, bit),
+            }
+        };
+        Some(VarRef { name: "#".into(), index, span: self.since(hash.start) })
+    }
+}
