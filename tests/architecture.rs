@@ -24,6 +24,7 @@ const ROOMS: &[&str] = &[
 const INNER: &[(&str, &[&str])] = &[
     ("src/verify", &["sides", "compare", "explore", "certificate", "entry", "triage", "driver"]),
     ("src/lower/fadal", &["codes", "flow", "build", "macros", "words", "program"]),
+    ("src/lower/macro_b", &["codes", "parts", "build", "expressions", "words", "flow", "program"]),
 ];
 
 const REGISTRY: &str = "src/dialect/registry.rs";

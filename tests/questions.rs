@@ -124,7 +124,7 @@ fn the_tests_have_teeth() {
     );
     let own = ["src/lower/cc100/flow.rs".to_owned()];
     assert!(concerns(plain.dialect(), &own) && !concerns(macro_b.dialect(), &own));
-    let family = ["src/lower/macro_b/flow.rs".to_owned()];
+    let family = ["src/lower/macro_b/flow/jumps.rs".to_owned()];
     assert!(!concerns(plain.dialect(), &family) && concerns(macro_b.dialect(), &family));
     assert!(concerns(plain.dialect(), &["src/legalize/mod.rs".to_owned()]));
     assert_eq!(places(Question::PrintFormat).len(), 2);

@@ -8,6 +8,7 @@ use super::refused_calls::{Link, Linked};
 use super::{Conversion, Outcome};
 use crate::control::ProgramRef;
 use crate::diag::{Code, Diagnostic};
+use crate::ir::analysis::dataflow::reached;
 use crate::text::Span;
 use crate::verify::{self, ProgramCertificate, Reason, Why};
 use std::collections::{BTreeMap, BTreeSet};
@@ -92,15 +93,14 @@ impl Callees {
     /// Withdraws what calls a program that is withdrawn, until nothing more does.
     pub fn withdraw(&mut self) {
         self.callers = self.called_from();
-        let mut work: Vec<usize> = self.withdrawn.keys().copied().collect();
-        while let Some(callee) = work.pop() {
-            for (caller, _) in self.callers.get(&callee).into_iter().flatten() {
-                if !self.refused.contains(caller) && !self.withdrawn.contains_key(caller) {
-                    self.withdrawn.insert(*caller, Withdrawn::Calls(callee));
-                    work.push(*caller);
-                }
+        let differ: Vec<usize> = self.withdrawn.keys().copied().collect();
+        reached(differ, |callee, go| {
+            let callers = self.callers.get(&callee).into_iter().flatten();
+            for (caller, _) in callers.filter(|(caller, _)| !self.refused.contains(caller)) {
+                self.withdrawn.entry(*caller).or_insert(Withdrawn::Calls(callee));
+                go(*caller);
             }
-        }
+        });
         self.missing = self.find_missing();
     }
 
@@ -165,8 +165,7 @@ impl Callees {
         }
         let mut missing: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
         for (caller, callees) in faults {
-            let (mut seen, mut work) = (BTreeSet::from([caller]), vec![caller]);
-            while let Some(at) = work.pop() {
+            reached([caller], |at, go| {
                 missing.entry(at).or_default().extend(callees.iter().map(|name| {
                     match name {
                         Some(name) => {
@@ -179,9 +178,8 @@ impl Callees {
                     }
                 }));
                 // What is gone is not come through.
-                let ways = above.get(&at).into_iter().flatten();
-                work.extend(ways.filter(|above| seen.insert(**above)));
-            }
+                above.get(&at).into_iter().flatten().for_each(|above| go(*above));
+            });
         }
         missing
     }

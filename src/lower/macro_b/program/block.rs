@@ -1,47 +1,13 @@
 //! One block: its label, its block skip, its statements in order.
 
-use super::split::Piece;
-use super::{Lowering, Motion};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Question;
-use crate::ir::{Comment, Cond, SourceInfo, StmtKind, TermKind};
-use crate::lower::common::{comment_text, site_of};
-use crate::syntax::{Block, Item, ItemKind, Label, Word, for_each_item};
-use crate::text::Span;
+use crate::ir::{Cond, SourceInfo, StmtKind, TermKind};
+use crate::lower::macro_b::build::{Lowering, Motion};
+use crate::lower::macro_b::parts::{Piece, Words, acts, site};
+use crate::syntax::{Block, Item, ItemKind, Label};
 use smallvec::SmallVec;
-
-/// The words of a block, in order.
-pub(super) type Words<'w> = SmallVec<[(&'w Word, Span); 12]>;
-
-/// The site of a block, with the comments after a THEN.
-pub(super) fn site(block: &Block, source: &[u8]) -> SourceInfo {
-    let mut site = site_of(block, source);
-    for item in &block.items {
-        if let ItemKind::If { body, .. } = &item.kind {
-            for_each_item(body, &mut |item| {
-                if let ItemKind::Comment(comment) = &item.kind {
-                    let text = comment_text(comment.text, source);
-                    site.comments.push(Comment { text, leading: false });
-                }
-            });
-        }
-    }
-    site
-}
-
-/// True for what a block does, as against its number, its comments and its framing.
-pub(super) fn acts(item: &Item) -> bool {
-    !matches!(
-        item.kind,
-        ItemKind::Skip(_)
-            | ItemKind::Tape
-            | ItemKind::EndOfBlock
-            | ItemKind::Program(_)
-            | ItemKind::Sequence { .. }
-            | ItemKind::Comment(_)
-    )
-}
 
 /// What stands on a block, besides words and comments.
 #[derive(Default)]
@@ -78,7 +44,7 @@ impl Contents {
 
 impl<'a> Lowering<'a> {
     /// All blocks of the program.
-    pub(super) fn body(&mut self, piece: &Piece) {
+    pub fn body(&mut self, piece: &Piece) {
         let parsed = self.parsed;
         if piece.head.is_none() && piece.name.is_none() {
             for &index in &piece.leading {
@@ -237,7 +203,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The items of a block, or those after a THEN, in order.
-    pub(super) fn items(&mut self, items: &'a [Item], site: &SourceInfo) {
+    pub fn items(&mut self, items: &'a [Item], site: &SourceInfo) {
         let mut words = Words::new();
         let (mut groups, mut assigns) = (0u32, 0u32);
         for (index, item) in items.iter().enumerate() {
@@ -273,11 +239,5 @@ impl<'a> Lowering<'a> {
                 None => self.unknown_behaviour(question, site.span),
             }
         }
-    }
-
-    /// Says that the construct rests on a question that the table does not answer.
-    pub(super) fn unknown_behaviour(&mut self, question: Question, span: Span) {
-        let note = self.control.behaviour(question).and_then(|row| row.origin.note.as_deref());
-        self.findings.unconfirmed(question.fact().into(), note.or(Some(question.meaning())), span);
     }
 }

@@ -1,20 +1,14 @@
 //! WHILE, DO and END.
 
-use super::{Loop, Lowering};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{SourceInfo, TermKind};
+use crate::lower::macro_b::build::{Loop, Lowering};
 use crate::syntax::Expr;
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
     /// `WHILE [..] DO n`: the condition is tested before each pass, that is at its head.
-    pub(super) fn do_loop(
-        &mut self,
-        condition: Option<&'a Expr>,
-        number: u32,
-        span: Span,
-        site: &SourceInfo,
-    ) {
+    pub fn do_loop(&mut self, condition: Option<&'a Expr>, number: u32, span: Span, site: &SourceInfo) {
         let row = self.control.statement(if condition.is_some() { "while" } else { "do.endless" });
         row.iter().for_each(|row| self.findings.rest_on(*row, span));
         if self.loops.iter().any(|open| open.number == number) {
@@ -39,7 +33,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `END n` closes the nearest open loop of its number, which must be the innermost one.
-    pub(super) fn end_loop(&mut self, number: u32, span: Span, site: &SourceInfo) {
+    pub fn end_loop(&mut self, number: u32, span: Span, site: &SourceInfo) {
         let Some(found) = self.loops.iter().rposition(|open| open.number == number) else {
             return self.loop_error(
                 Code::LoopNotPaired,
@@ -57,7 +51,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// Loops that are open at the end of the program.
-    pub(super) fn close_loops(&mut self) {
+    pub fn close_loops(&mut self) {
         for open in std::mem::take(&mut self.loops).into_iter().rev() {
             self.loop_error(
                 Code::LoopNotPaired,

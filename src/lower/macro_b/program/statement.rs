@@ -1,18 +1,18 @@
 //! The macro statements that are not flow.
 
-use super::Lowering;
-use super::expr::At;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Expr, OutputPart, Place, SourceInfo, StmtKind, Var};
+use crate::ir::{Expr, OutputPart, Place, SourceInfo, StmtKind};
 use crate::lower::common::comment_text;
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::expressions::At;
 use crate::syntax::{ExprKind, Item, ItemKind, OutputPart as Part};
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
     /// One statement; `rest` is what stands after it in its block.
-    pub(super) fn statement(&mut self, item: &'a Item, rest: &'a [Item], site: &SourceInfo) {
+    pub fn statement(&mut self, item: &'a Item, rest: &'a [Item], site: &SourceInfo) {
         match &item.kind {
             ItemKind::Assign { target, value, by_sign: false } => {
                 let text = comment(rest).map(|span| comment_text(span, self.source));
@@ -81,7 +81,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The construct is one of the control's statements.
-    pub(super) fn rest_on_statement(&mut self, name: &str, span: Span) {
+    pub fn rest_on_statement(&mut self, name: &str, span: Span) {
         match self.control.statement(name) {
             Some(row) => self.findings.rest_on(row, span),
             None => self.findings.not_understood(span, "the control has no such statement"),
@@ -126,9 +126,4 @@ fn comment(items: &[Item]) -> Option<Span> {
         ItemKind::Comment(comment) => Some(comment.text),
         _ => None,
     })
-}
-
-/// The variable `count` places after `first`.
-pub(super) fn behind(first: Var, count: usize) -> Var {
-    Var { number: first.number.saturating_add(count as u32), ..first }
 }

@@ -4,14 +4,13 @@
 //! and C once and then up to ten sets of I, J, K for the locals from 4 on. Some
 //! controls take it where I, J, K are out of order or repeated, others only where one is repeated.
 
-use super::Lowering;
-use super::block::Words;
-use super::expr::At;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, Question, Row};
 use crate::ir::{Argument, Expr};
-use crate::lower::common::constant;
-use crate::syntax::{self, ExprKind};
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::expressions::At;
+use crate::lower::macro_b::parts::{Words, literal};
+use crate::syntax;
 use crate::text::Span;
 
 /// The first local of the sets of I, J, K, and the last local there is.
@@ -47,7 +46,7 @@ fn column(letter: char) -> u32 {
 
 impl<'a> Lowering<'a> {
     /// The arguments that the words of a call set, in the order written.
-    pub(super) fn arguments(&mut self, words: &Words<'a>) -> Vec<Argument> {
+    pub fn arguments(&mut self, words: &Words<'a>) -> Vec<Argument> {
         let mut arguments: Vec<Argument> = Vec::with_capacity(words.len());
         let mut sets = Sets::default();
         let by_place = self.by_place(words);
@@ -165,21 +164,6 @@ impl<'a> Lowering<'a> {
                 self.findings.unconfirmed(fact, Some(&note), value.span);
                 Expr::Number(number)
             }
-        }
-    }
-}
-
-/// The value of a literal that stands alone, and whether it has a decimal point. In
-/// brackets it is an expression, whose numbers count whole units.
-pub(super) fn literal(value: &syntax::Expr) -> Option<(f64, bool)> {
-    let mut at = value;
-    loop {
-        match &at.kind {
-            ExprKind::Number(number) => {
-                return Some((constant(value).filter(|value| value.is_finite())?, number.point));
-            }
-            ExprKind::Negate(inner) | ExprKind::Plus(inner) => at = inner,
-            _ => return None,
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Jumps and conditions, and the codes that leave a program or jump in it.
 
-use super::Lowering;
-use super::block::{Words, acts};
 use super::call::{Flow, Parts};
-use super::expr::At;
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BinOp, Class, Cond, Expr, Place, Relation, SourceInfo, StmtKind, TermKind, Var};
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::expressions::At;
+use crate::lower::macro_b::parts::{Words, acts};
 use crate::syntax::{self, Item, ItemKind, Target};
 use crate::text::Span;
 
@@ -16,7 +16,7 @@ const HUB: Var = Var { class: Class::Temp, number: 1 };
 
 impl<'a> Lowering<'a> {
     /// `GOTO`.
-    pub(super) fn goto(&mut self, target: &'a Target, span: Span, site: &SourceInfo) {
+    pub fn goto(&mut self, target: &'a Target, span: Span, site: &SourceInfo) {
         match target {
             Target::Sequence(number) => {
                 let to = self.target(*number, span);
@@ -58,7 +58,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The block that jumps for all computed jumps, after the program's text.
-    pub(super) fn close_hub(&mut self) {
+    pub fn close_hub(&mut self) {
         let Some((hub, span)) = self.hub.take() else { return };
         if self.builder.is_open() {
             self.builder.end(TermKind::Stray, SourceInfo::default());
@@ -70,7 +70,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `IF [..]` and what is done when it holds.
-    pub(super) fn if_statement(
+    pub fn if_statement(
         &mut self,
         condition: &'a syntax::Expr,
         then: bool,
@@ -135,7 +135,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M99`, with `P` or without.
-    pub(super) fn returning(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
+    pub fn returning(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let parts = self.parts(flow, words, &[Role::Sequence]);
         if !parts.rest.is_empty() {
             match self.findings.behaviour(Question::M99BlockMovesFirst, site.span) {
@@ -157,7 +157,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M96 P Q`: jumps when an input is off, that is reads 0.
-    pub(super) fn jump_on_input(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
+    pub fn jump_on_input(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let parts = self.parts(flow, words, &[Role::Sequence, Role::Input]);
         self.run_first(&parts, site);
         let number = self.part(&parts, Role::Sequence);
@@ -183,14 +183,14 @@ impl<'a> Lowering<'a> {
     }
 
     /// `M30`, `M02`: the other words of the block act first.
-    pub(super) fn ending(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
+    pub fn ending(&mut self, flow: Flow<'a>, words: &Words<'a>, site: &SourceInfo) {
         let parts = self.parts(flow, words, &[]);
         self.run_first(&parts, site);
         self.builder.end(TermKind::End { rewind: flow.row.op == Op::EndRewind }, site.clone());
     }
 
     /// The words beside a call or a jump act before it.
-    pub(super) fn run_first(&mut self, parts: &Parts<'a>, site: &SourceInfo) {
+    pub fn run_first(&mut self, parts: &Parts<'a>, site: &SourceInfo) {
         if !parts.rest.is_empty() {
             self.nc(&parts.rest, site);
         }

@@ -1,19 +1,18 @@
 //! Variables: by number, by name, by a computed number.
 
-use super::expr::At;
-use super::statement::behind;
-use super::{Family, Lowering};
+use super::place::At;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, SystemVariable};
 use crate::ir::{Bank, BinOp, Class, Cond, Expr, Place, Relation, Var};
 use crate::lower::common::constant;
+use crate::lower::macro_b::build::{Family, Lowering};
 use crate::syntax::{Index, ItemKind, ParsedFile, VarRef};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// The names that the programs of a file give to variables.
-pub(super) fn names(parsed: &ParsedFile<'_>, control: &Control, family: Family) -> BTreeMap<String, Var> {
+pub fn names(parsed: &ParsedFile<'_>, control: &Control, family: Family) -> BTreeMap<String, Var> {
     let mut found = BTreeMap::new();
     for item in parsed.blocks.iter().flat_map(|block| &block.items) {
         let ItemKind::SetNames { first, names } = &item.kind else { continue };
@@ -42,7 +41,7 @@ fn user_variable(control: &Control, family: Family, number: u32) -> Option<Var> 
 
 impl<'a> Lowering<'a> {
     /// What a variable reads.
-    pub(super) fn read(&mut self, variable: &'a VarRef, depth: u32) -> Expr {
+    pub fn read(&mut self, variable: &'a VarRef, depth: u32) -> Expr {
         if let Index::Bit(number, bit) = variable.index {
             return self.bit(number, bit, variable.span);
         }
@@ -55,7 +54,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The place that an assignment writes.
-    pub(super) fn target_place(&mut self, variable: &'a VarRef) -> Option<Place> {
+    pub fn target_place(&mut self, variable: &'a VarRef) -> Option<Place> {
         let span = variable.span;
         if let Index::Bit(..) = variable.index {
             self.findings.not_understood(span, "a single bit cannot be assigned to");
@@ -115,7 +114,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The variable with a number.
-    pub(super) fn numbered(&mut self, number: u32, span: Span) -> Option<Expr> {
+    pub fn numbered(&mut self, number: u32, span: Span) -> Option<Expr> {
         if number == 0 {
             return Some(Expr::Vacant);
         }
@@ -219,4 +218,9 @@ impl<'a> Lowering<'a> {
             self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
         }
     }
+}
+
+/// The variable `count` places after `first`.
+fn behind(first: Var, count: usize) -> Var {
+    Var { number: first.number.saturating_add(count as u32), ..first }
 }

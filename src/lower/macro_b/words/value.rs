@@ -1,12 +1,12 @@
 //! Values of words: decimal points, whole numbers, seconds and milliseconds, vacancy.
 
-use super::Lowering;
-use super::arguments::literal;
-use super::expr::{At, is_constant};
 use crate::canon::Role;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{BareLength, CodeMeaning, Question};
 use crate::ir::{BinOp, Expr};
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::expressions::{At, is_constant};
+use crate::lower::macro_b::parts::literal;
 use crate::syntax::{self, ExprKind};
 use crate::text::Span;
 
@@ -15,7 +15,7 @@ const BARE_FEED: &str = "numbers:bare_feed";
 
 impl<'a> Lowering<'a> {
     /// The value of a word in its role; the role too, since a dwell's may be in either unit.
-    pub(super) fn word_value(
+    pub fn word_value(
         &mut self,
         role: Role,
         letter: char,
@@ -79,7 +79,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The construct rests on what a number without a point counts, unless the profile says it.
-    pub(super) fn rest_on_numbers(&mut self, span: Span) {
+    pub fn rest_on_numbers(&mut self, span: Span) {
         if self.control.profile().decimal_point.is_none() && self.codes.tell_numbers() {
             self.findings.rest_on(self.control.numbers(), span);
         }

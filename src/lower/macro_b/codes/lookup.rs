@@ -7,11 +7,11 @@ use crate::dialect::{Alias, CodeHead, CodeMeaning, Control, WordMeaning};
 use foldhash::{HashMap, HashMapExt};
 
 /// Index of a code among those met so far.
-pub(super) type CodeId = u32;
+pub type CodeId = u32;
 
 /// What is known of one code.
 #[derive(Debug)]
-pub(super) struct Coded<'c> {
+pub struct Coded<'c> {
     /// Its letter and number.
     pub head: CodeHead,
     /// What it means where no other word counts.
@@ -25,7 +25,7 @@ pub(super) struct Coded<'c> {
 
 /// The codes met so far.
 #[derive(Debug)]
-pub(super) struct Codes<'c> {
+pub struct Codes<'c> {
     control: &'c Control,
     list: Vec<Coded<'c>>,
     /// Whole numbers below 1000 of G and M: the index plus one.

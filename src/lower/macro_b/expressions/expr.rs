@@ -1,36 +1,22 @@
 //! Expressions.
 
-use super::Lowering;
 use super::cond::is_condition;
+use super::place::{At, MAX_DEPTH};
 use crate::canon::{Func, Role};
 use crate::dialect::Question;
 use crate::ir::{BinOp, Expr};
 use crate::lower::common::constant;
+use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
 
-/// Where an expression stands: ROUND means another thing in a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum At {
-    /// In a statement, a condition, a subscript.
-    Value,
-    /// In a word of this role.
-    Word(Role),
-    /// In an argument of a macro call.
-    Argument,
-}
-
-/// How deep expressions may nest: more than any control takes, and half of what the common form allows, since
-/// emulations nest deeper.
-pub(super) const MAX_DEPTH: u32 = 128;
-
 impl<'a> Lowering<'a> {
     /// The value of an expression. What has no meaning is reported, and the value is 0.
-    pub(super) fn expr(&mut self, expr: &'a syntax::Expr, at: At) -> Expr {
+    pub fn expr(&mut self, expr: &'a syntax::Expr, at: At) -> Expr {
         self.expr_at(expr, at, 0)
     }
 
-    pub(super) fn expr_at(&mut self, expr: &'a syntax::Expr, at: At, depth: u32) -> Expr {
+    pub fn expr_at(&mut self, expr: &'a syntax::Expr, at: At, depth: u32) -> Expr {
         if depth > MAX_DEPTH {
             self.findings.not_understood(expr.span, "the expression nests too deep");
             return Expr::Number(0.0);
@@ -98,7 +84,7 @@ impl<'a> Lowering<'a> {
 
     /// The rank of an operator matters where an operand is another operation without brackets. `joins`
     /// is true for AND, OR and XOR between conditions.
-    pub(super) fn ranks(&mut self, op: BinaryOp, a: &syntax::Expr, b: &syntax::Expr, joins: bool) {
+    pub fn ranks(&mut self, op: BinaryOp, a: &syntax::Expr, b: &syntax::Expr, joins: bool) {
         let bits = matches!(op, BinaryOp::Modulo | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor);
         for operand in [a, b] {
             let inner = match &operand.kind {
@@ -272,6 +258,6 @@ fn meaning(op: BinaryOp, joins: bool) -> &'static str {
 }
 
 /// True for a plain constant.
-pub(super) fn is_constant(expr: &syntax::Expr) -> bool {
+pub fn is_constant(expr: &syntax::Expr) -> bool {
     constant(expr).is_some()
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// A program's place in its file.
 #[derive(Debug)]
-pub(super) struct Piece {
+pub struct Piece {
     /// Its name; none if no O word begins it.
     pub name: Option<ProgramName>,
     /// The block with the O word.
@@ -23,7 +23,7 @@ pub(super) struct Piece {
 /// A program begins at an O word, or at the first block that does something
 /// where none stands before it, and ends before the next one or at `%`. Comments
 /// between the head of the file and its first O word belong to that program.
-pub(super) fn split(parsed: &ParsedFile<'_>) -> (Vec<Piece>, bool) {
+pub fn split(parsed: &ParsedFile<'_>) -> (Vec<Piece>, bool) {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut open = false;
     let mut tape = false;

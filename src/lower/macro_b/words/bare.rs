@@ -2,31 +2,16 @@
 //!
 //! What such a word is hangs on its letter and the motion code in force, so that it is found out once for each code.
 
-use super::arguments::literal;
-use super::block::Words;
-use super::words::Seen;
-use super::{Lowering, Motion};
+use super::nc::Seen;
 use crate::canon::Role;
 use crate::ir::{Expr, Nc, NcItem};
+use crate::lower::macro_b::build::{Lowering, RolesUnder};
+use crate::lower::macro_b::parts::{Words, literal};
 use crate::syntax::Word;
-
-/// The roles that letters had under a motion code, where nothing was to be said of them.
-#[derive(Debug, Default)]
-pub(super) struct RolesUnder {
-    under: Motion,
-    roles: [Option<Role>; 26],
-}
-
-impl RolesUnder {
-    fn role(&self, word: &Word) -> Option<Role> {
-        let at = (word.letter as usize).wrapping_sub('A' as usize);
-        self.roles.get(at).copied().flatten().filter(|_| !word.comma && !word.equals)
-    }
-}
 
 impl Lowering<'_> {
     /// Keeps the role of a word that stood in a block without a code; the next need not be asked for.
-    pub(super) fn note_role(&mut self, word: &Word, role: Role) {
+    pub fn note_role(&mut self, word: &Word, role: Role) {
         use Role::*;
         let depends =
             matches!(role, DwellMs | DwellS | CycleDwell | ArcI | ArcJ | ArcK | ArcRadius | Builder);
@@ -43,7 +28,7 @@ impl Lowering<'_> {
     }
 
     /// A block of words that all were noted, each with a decimal point and none twice; none for any other.
-    pub(super) fn bare_words(&self, words: &Words<'_>) -> Option<Nc> {
+    pub fn bare_words(&self, words: &Words<'_>) -> Option<Nc> {
         if self.known.under != self.motion || words.iter().any(|(word, _)| self.known.role(word).is_none()) {
             return None;
         }

@@ -1,28 +1,28 @@
 //! Calls: of programs, of parts of this program, of macros with arguments, and the
 //! codes that a machine profile makes call programs.
 
-use super::Lowering;
-use super::block::Words;
-use super::codes::CodeId;
-use super::expr::At;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Alias, CodeMeaning, Question};
 use crate::ir::eval::whole;
 use crate::ir::{BinOp, Call, Callee, Expr, SourceInfo, StmtKind, TermKind};
 use crate::lower::common::otherwise;
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::codes::CodeId;
+use crate::lower::macro_b::expressions::At;
+use crate::lower::macro_b::parts::Words;
 use crate::syntax::{ProgramName, Word};
 use crate::text::Span;
 
 /// A code that leaves the block, and where it stands among the words.
 #[derive(Clone, Copy)]
-pub(super) struct Flow<'a> {
+pub struct Flow<'a> {
     pub row: &'a CodeMeaning,
     pub at: usize,
 }
 
 /// The words of a block with a call: those of the call, and the others.
-pub(super) struct Parts<'a> {
+pub struct Parts<'a> {
     own: Vec<(Role, &'a Word, Span)>,
     /// The words that are not the call's.
     pub rest: Words<'a>,
@@ -30,7 +30,7 @@ pub(super) struct Parts<'a> {
 
 impl<'a> Lowering<'a> {
     /// The words of a block: a call or a jump with the words beside it, or NC words.
-    pub(super) fn words(&mut self, words: &Words<'a>, site: &SourceInfo) {
+    pub fn words(&mut self, words: &Words<'a>, site: &SourceInfo) {
         let mut found =
             words.iter().enumerate().filter_map(|(at, (word, _))| Some((at, self.flow_code(word)?)));
         let (first, second) = (found.next(), found.next());
@@ -48,7 +48,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The code of a word that calls, jumps or ends.
-    pub(super) fn flow_code(&mut self, word: &Word) -> Option<CodeId> {
+    pub fn flow_code(&mut self, word: &Word) -> Option<CodeId> {
         let id = self.constant_code(word)?;
         let code = self.codes.get(id)?;
         if code.alias.is_some() {
@@ -110,7 +110,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// Sorts the words of a block with a call: those whose role beside it is one of `roles`, and the rest.
-    pub(super) fn parts(&mut self, flow: Flow<'a>, words: &Words<'a>, roles: &[Role]) -> Parts<'a> {
+    pub fn parts(&mut self, flow: Flow<'a>, words: &Words<'a>, roles: &[Role]) -> Parts<'a> {
         let mut parts = Parts { own: Vec::new(), rest: Words::new() };
         for (at, &(word, span)) in words.iter().enumerate() {
             let explicit = (!word.comma)
@@ -132,7 +132,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The value of a call's word.
-    pub(super) fn part(&mut self, parts: &Parts<'a>, role: Role) -> Option<Expr> {
+    pub fn part(&mut self, parts: &Parts<'a>, role: Role) -> Option<Expr> {
         let (_, word, span) = parts.own.iter().find(|(other, _, _)| *other == role)?;
         match &word.value {
             Some(value) => Some(self.expr(value, At::Word(role))),

@@ -1,21 +1,21 @@
 //! Blocks of NC words.
 
-use super::Lowering;
-use super::block::Words;
-use super::codes::CodeId;
-use super::expr::At;
 use super::roles::BlockCodes;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, StmtKind};
 use crate::lower::common::constant;
+use crate::lower::macro_b::build::{Lowering, Motion};
+use crate::lower::macro_b::codes::CodeId;
+use crate::lower::macro_b::expressions::At;
+use crate::lower::macro_b::parts::Words;
 use crate::syntax::{ExprKind, Word};
 use crate::text::Span;
 
 impl<'a> Lowering<'a> {
     /// The code of a G or M word with a constant for its number.
-    pub(super) fn constant_code(&mut self, word: &Word) -> Option<CodeId> {
+    pub fn constant_code(&mut self, word: &Word) -> Option<CodeId> {
         if !matches!(word.letter, 'G' | 'M') || word.comma {
             return None;
         }
@@ -26,7 +26,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// What a code means among the words of its block.
-    pub(super) fn row_beside(&mut self, id: CodeId, words: &Words<'a>) -> Option<&'a CodeMeaning> {
+    pub fn row_beside(&mut self, id: CodeId, words: &Words<'a>) -> Option<&'a CodeMeaning> {
         let code = self.codes.get(id)?;
         if !code.depends {
             return code.row;
@@ -38,14 +38,14 @@ impl<'a> Lowering<'a> {
     }
 
     /// The construct rests on a code's row; said once a program.
-    pub(super) fn rest_on_code(&mut self, id: CodeId, row: &'a CodeMeaning, span: Span) {
+    pub fn rest_on_code(&mut self, id: CodeId, row: &'a CodeMeaning, span: Span) {
         if !row.origin.confirmed && (self.codes.tell(id) || self.codes.get(id).is_some_and(|c| c.depends)) {
             self.findings.rest_on(row, span);
         }
     }
 
     /// A block of NC words.
-    pub(super) fn nc(&mut self, words: &Words<'a>, site: &SourceInfo) {
+    pub fn nc(&mut self, words: &Words<'a>, site: &SourceInfo) {
         if let Some(nc) = self.bare_words(words) {
             return self.builder.push(StmtKind::Nc(nc), site.clone());
         }
@@ -146,7 +146,7 @@ impl<'a> Lowering<'a> {
             self.findings.add(Diagnostic::new(Code::GroupTwice, span, message));
         }
         if matches!(group, Group::Motion | Group::Cycle) {
-            self.motion = super::Motion { code: Some(id), joined: false };
+            self.motion = Motion { code: Some(id), joined: false };
         }
         // Many codes share these operations: which one it is, only its number says.
         if matches!(
@@ -277,7 +277,7 @@ fn drop_clashing(nc: &mut Nc, op: Op) -> bool {
 
 /// What a block has said already.
 #[derive(Default)]
-pub(super) struct Seen {
+pub struct Seen {
     groups: u32,
     roles: u128,
     m_codes: u32,

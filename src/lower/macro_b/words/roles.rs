@@ -1,24 +1,24 @@
 //! What a letter means beside the codes of its block and the motion code in force.
 
-use super::Lowering;
-use super::block::Words;
-use super::codes::CodeId;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Axis, CodeMeaning, Machine};
+use crate::lower::macro_b::build::Lowering;
+use crate::lower::macro_b::codes::CodeId;
+use crate::lower::macro_b::parts::Words;
 use crate::syntax::{ExprKind, Word};
 use crate::text::Span;
 use smallvec::SmallVec;
 
 /// The codes of a block.
-pub(super) type BlockCodes<'c> = SmallVec<[(CodeId, &'c CodeMeaning); 6]>;
+pub type BlockCodes<'c> = SmallVec<[(CodeId, &'c CodeMeaning); 6]>;
 
 impl<'a> Lowering<'a> {
     /// The role of a word and the code that gives it; none, and an error, where it has none.
     ///
     /// A code of the block decides first, then the motion code in force, then the table's
     /// general meaning of the letter.
-    pub(super) fn role(
+    pub fn role(
         &mut self,
         word: &Word,
         span: Span,
@@ -152,7 +152,7 @@ impl<'a> Lowering<'a> {
 
     /// Signs of a lathe program that a mill's table would read as something else: `G50 S3000`,
     /// `G50 X100.`, `G99 G01 F.003` and tool words with an offset in them.
-    pub(super) fn check_machine(&mut self, words: &Words<'a>, codes: &BlockCodes<'a>) {
+    pub fn check_machine(&mut self, words: &Words<'a>, codes: &BlockCodes<'a>) {
         if self.control.machine() != Machine::Mill {
             return;
         }

@@ -16,7 +16,7 @@ type Sure = BTreeSet<Var>;
 
 /// The first block with a signed variable in a word that may be vacant there. With
 /// `returns_anywhere` a called program may return to any label.
-pub(super) fn signed_word(program: &Program, returns_anywhere: bool) -> Option<Span> {
+pub fn signed_word(program: &Program, returns_anywhere: bool) -> Option<Span> {
     // A modal call runs after moves, and what it does to shared variables is not known here.
     let modal = (program.blocks.iter().flat_map(|block| &block.stmts))
         .any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));

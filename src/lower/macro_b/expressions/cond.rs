@@ -1,16 +1,16 @@
 //! Conditions.
 
-use super::Lowering;
-use super::expr::{At, MAX_DEPTH};
+use super::place::{At, MAX_DEPTH};
 use crate::canon::Sys;
 use crate::dialect::Question;
 use crate::ir::{BinOp, Cond, Expr, Relation};
 use crate::lower::common::relation;
+use crate::lower::macro_b::build::Lowering;
 use crate::syntax::{self, BinaryOp, ExprKind};
 use crate::text::Span;
 
 /// True for a comparison, and for AND, OR and XOR between such: elsewhere those are bit operations.
-pub(super) fn is_condition(expr: &syntax::Expr) -> bool {
+pub fn is_condition(expr: &syntax::Expr) -> bool {
     let mut at = expr;
     loop {
         match &at.kind {
@@ -46,11 +46,11 @@ fn compares(expr: &syntax::Expr) -> bool {
 
 impl<'a> Lowering<'a> {
     /// A condition.
-    pub(super) fn cond(&mut self, expr: &'a syntax::Expr) -> Cond {
+    pub fn cond(&mut self, expr: &'a syntax::Expr) -> Cond {
         self.cond_at(expr, 0)
     }
 
-    pub(super) fn cond_at(&mut self, expr: &'a syntax::Expr, depth: u32) -> Cond {
+    pub fn cond_at(&mut self, expr: &'a syntax::Expr, depth: u32) -> Cond {
         if depth > MAX_DEPTH {
             self.findings.not_understood(expr.span, "the condition nests too deep");
             return Cond::Switch(1);

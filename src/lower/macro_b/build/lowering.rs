@@ -1,0 +1,129 @@
+//! One program while it is lowered.
+
+use crate::canon::Role;
+use crate::dialect::{Control, Question};
+use crate::ir::{BlockId, Builder, SourceInfo, Var};
+use crate::lower::common::Findings;
+use crate::lower::macro_b::codes::{CodeId, Codes};
+use crate::lower::macro_b::parts::{Labels, Piece};
+use crate::syntax::{ParsedFile, ProgramName, Word};
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// What only one control of the family has, and no table can say.
+#[derive(Clone, Copy)]
+pub struct Family {
+    /// Another number of the same variable, where the control numbers it twice.
+    pub twin: fn(u32) -> Option<u32>,
+}
+
+/// The roles that letters had under a motion code, where nothing was to be said of them.
+#[derive(Debug, Default)]
+pub struct RolesUnder {
+    pub under: Motion,
+    pub roles: [Option<Role>; 26],
+}
+
+impl RolesUnder {
+    /// That of a word; none if it was not noted.
+    pub fn role(&self, word: &Word) -> Option<Role> {
+        let at = (word.letter as usize).wrapping_sub('A' as usize);
+        self.roles.get(at).copied().flatten().filter(|_| !word.comma && !word.equals)
+    }
+}
+
+/// One program while it is lowered.
+pub struct Lowering<'a> {
+    pub parsed: &'a ParsedFile<'a>,
+    pub source: &'a [u8],
+    pub control: &'a Control,
+    pub family: Family,
+    pub names: &'a BTreeMap<String, Var>,
+    pub codes: Codes<'a>,
+    pub labels: Labels,
+    pub findings: Findings<'a>,
+    pub builder: Builder,
+    /// The block that computed jumps share, and where the first of them stands.
+    pub hub: Option<(BlockId, Span)>,
+    /// The loops that are open here, innermost last.
+    pub loops: Vec<Loop>,
+    /// Modal calls that were begun and not ended, as the text has it.
+    pub modal_calls: usize,
+    /// The motion code in force as the text has it, for the roles of words that stand without one.
+    pub motion: Motion,
+    pub known: RolesUnder,
+    /// Index of the block being lowered.
+    pub at: usize,
+    /// True in a program that a code calls, where such codes call nothing.
+    pub aliased: bool,
+    /// True where a word has a signed variable for its value.
+    pub signed: bool,
+    /// True while the look-ahead is limited, as the text has it.
+    pub lookahead_limited: bool,
+}
+
+/// A loop that has begun.
+pub struct Loop {
+    pub number: u32,
+    /// The block of the file where it begins.
+    pub start: usize,
+    pub head: BlockId,
+    pub exit: BlockId,
+    pub site: SourceInfo,
+}
+
+/// The motion code in force as the text has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    pub code: Option<CodeId>,
+    /// True where a jump may have come in since the code, with another one in force.
+    pub joined: bool,
+}
+
+impl<'a> Lowering<'a> {
+    /// Nothing of a program yet.
+    pub fn new(
+        parsed: &'a ParsedFile<'a>,
+        control: &'a Control,
+        family: Family,
+        names: &'a BTreeMap<String, Var>,
+        (codes, findings): (Codes<'a>, Findings<'a>),
+        labels: Labels,
+        piece: &Piece,
+    ) -> Self {
+        let mut builder = Builder::over(1 + labels.count());
+        if labels.count() == 0 {
+            builder.reserve(piece.body.len());
+        }
+        let aliased = match piece.name {
+            Some(ProgramName::Number(number)) => codes.is_alias_target(number),
+            _ => false,
+        };
+        Self {
+            parsed,
+            source: parsed.source,
+            control,
+            family,
+            names,
+            codes,
+            labels,
+            findings,
+            builder,
+            hub: None,
+            loops: Vec::new(),
+            modal_calls: 0,
+            motion: Motion::default(),
+            known: RolesUnder::default(),
+            at: piece.body.start,
+            aliased,
+            signed: false,
+            lookahead_limited: false,
+        }
+    }
+
+    /// Says that the construct rests on a question that the table does not answer.
+    pub fn unknown_behaviour(&mut self, question: Question, span: Span) {
+        let note = self.control.behaviour(question).and_then(|row| row.origin.note.as_deref());
+        self.findings.unconfirmed(question.fact().into(), note.or(Some(question.meaning())), span);
+    }
+}

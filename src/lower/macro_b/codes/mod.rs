@@ -1,0 +1,5 @@
+//! The codes of the control.
+
+mod lookup;
+
+pub use lookup::{CodeId, Codes};

@@ -1,0 +1,7 @@
+//! A program: its blocks in order, their statements, and what is seen of the whole.
+
+mod block;
+mod statement;
+mod vacancy;
+
+pub use vacancy::signed_word;

@@ -1,0 +1,7 @@
+//! Words: of NC blocks, and as arguments of calls.
+
+mod arguments;
+mod bare;
+mod nc;
+mod roles;
+mod value;
