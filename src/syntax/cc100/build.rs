@@ -1,6 +1,6 @@
 //! From pest's pairs to the items of a block.
 
-use super::Rule;
+use super::grammar::Rule;
 use crate::canon::Func;
 use crate::diag::Code;
 use crate::syntax::support::{fault, number};

@@ -1,7 +1,7 @@
 //! Why a block cannot be read: the commonest slips by name, the rest by what was
 //! expected where reading stopped.
 
-use super::Rule;
+use super::grammar::Rule;
 use super::lexemes::name;
 use crate::diag::Code;
 use crate::syntax::SyntaxError;

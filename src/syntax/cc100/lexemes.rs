@@ -1,6 +1,6 @@
 //! Which rules of the grammar are lexemes, and of what kind.
 
-use super::Rule;
+use super::grammar::Rule;
 use crate::syntax::TokenKind::{self, *};
 
 /// The kind of token a rule's text becomes; `None` for rules made of others.

@@ -3,23 +3,15 @@
 mod build;
 mod check;
 mod diagnose;
+mod grammar;
 mod lexemes;
 
 use super::Block;
 use super::plain::plain_block;
 use super::support::{readable, tile, too_long, unparsed};
 use crate::text::Span;
-use pest::Parser as _;
-
-/// The grammar. Its rules do not leave this module.
-mod grammar {
-    #![allow(missing_docs)]
-
-    #[derive(pest_derive::Parser)]
-    #[grammar = "grammar/cc100.pest"]
-    pub(super) struct Grammar;
-}
 use grammar::{Grammar, Rule};
+use pest::Parser as _;
 
 /// Reads the one block of a line. Nothing nests in this language, so no line is
 /// too deep.

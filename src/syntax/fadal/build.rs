@@ -1,9 +1,9 @@
 //! From pest's pairs to the items of a block.
 
-use super::Rule;
+use super::builder::Build;
 use super::check::{condition, value};
+use super::grammar::Rule;
 use crate::diag::Code;
-use crate::syntax::support::fault;
 use crate::syntax::*;
 use crate::text::Span;
 use pest::iterators::{Pair, Pairs};
@@ -13,7 +13,7 @@ const MACRO_LINE: u32 = 63;
 
 /// The items of a line that was read, and what is wrong with them.
 pub(super) fn items(source: &[u8], line: Span, pairs: Pairs<'_, Rule>) -> (Vec<Item>, Vec<SyntaxError>) {
-    let mut build = Build { source, start: line.start, mark: None, errors: Vec::new() };
+    let mut build = Build::new(source, line);
     let mut items = Vec::with_capacity(8);
     for pair in pairs.filter(|pair| pair.as_rule() != Rule::EOI) {
         let span = build.span(&pair);
@@ -29,34 +29,7 @@ pub(super) fn items(source: &[u8], line: Span, pairs: Pairs<'_, Rule>) -> (Vec<I
     (items, build.errors)
 }
 
-/// What building a block needs.
-pub(super) struct Build<'s> {
-    source: &'s [u8],
-    start: u32,
-    mark: Option<Span>,
-    errors: Vec<SyntaxError>,
-}
-
 impl Build<'_> {
-    /// The place of a pair in the file, blanks after it left out.
-    pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        let span = pair.as_span();
-        let length = span.as_str().trim_ascii_end().len();
-        Span::new(self.start + span.start() as u32, self.start + (span.start() + length) as u32)
-    }
-
-    pub(super) fn fault(&mut self, code: Code, span: Span, message: impl Into<String>) {
-        self.errors.push(fault(code, span, message));
-    }
-
-    /// A whole number; where it has too many digits, a fault and the largest one.
-    pub(super) fn whole(&mut self, pair: &Pair<'_, Rule>) -> u32 {
-        pair.as_str().parse().unwrap_or_else(|_| {
-            self.fault(Code::NumberTooLarge, self.span(pair), "the number has too many digits");
-            u32::MAX
-        })
-    }
-
     fn item(&mut self, pair: Pair<'_, Rule>) -> Option<Item> {
         let mut span = self.span(&pair);
         let kind = match pair.as_rule() {

@@ -1,8 +1,9 @@
 //! Why a line cannot be read: the commonest slips by name, the rest by what was
 //! expected where reading stopped.
 
+use super::grammar::Rule;
 use super::lexemes::name;
-use super::{Rule, mark_of};
+use super::mark::mark_of;
 use crate::diag::Code;
 use crate::syntax::SyntaxError;
 use crate::syntax::support::{expected, fault, found, lexeme_at, stopped_at};

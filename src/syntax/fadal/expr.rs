@@ -1,7 +1,7 @@
 //! Expressions: pest gives operands and operators in a row, this ranks them.
 
-use super::Rule;
-use super::build::Build;
+use super::builder::Build;
+use super::grammar::Rule;
 use crate::canon::Func;
 use crate::diag::Code;
 use crate::syntax::support::number;

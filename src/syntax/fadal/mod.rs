@@ -1,27 +1,22 @@
 //! Fadal: NC lines, and macro lines after `#`. One line is one block.
 
 mod build;
+mod builder;
 mod check;
 mod diagnose;
 mod expr;
+mod grammar;
 mod lexemes;
+mod mark;
 
 use super::plain::plain_block;
 use super::support::{depth, fault, readable, tile, too_long, unparsed};
 use super::{Block, SyntaxError};
 use crate::diag::Code;
 use crate::text::Span;
-use pest::Parser as _;
-
-/// The grammar. Its rules do not leave this module.
-mod grammar {
-    #![allow(missing_docs)]
-
-    #[derive(pest_derive::Parser)]
-    #[grammar = "grammar/fadal.pest"]
-    pub(super) struct Grammar;
-}
 use grammar::{Grammar, Rule};
+use mark::mark_of;
+use pest::Parser as _;
 
 /// Longest macro line that is read, and deepest brackets: far above the 63
 /// characters the control takes, so that only damage is refused, and low enough
@@ -60,26 +55,6 @@ fn by_grammar(source: &[u8], line: Span, out: &mut Vec<Block>) {
         }
         Err(error) => out.push(unparsed(line, diagnose::diagnose(&text, line, &error))),
     }
-}
-
-/// Where the macro statement of a line begins: the offset of its `#`.
-fn mark_of(text: &str) -> Option<usize> {
-    let bytes = text.as_bytes();
-    let mut at = 0;
-    let skip = |at: &mut usize, test: fn(&u8) -> bool| {
-        *at += bytes.iter().skip(*at).take_while(|byte| test(byte)).count();
-    };
-    let blank: fn(&u8) -> bool = |byte| matches!(byte, b' ' | b'\t');
-    for sign in [b'/', b'N', b'/'] {
-        skip(&mut at, blank);
-        if bytes.get(at).is_some_and(|byte| byte.eq_ignore_ascii_case(&sign)) {
-            at += 1;
-            skip(&mut at, blank);
-            skip(&mut at, u8::is_ascii_digit);
-        }
-    }
-    skip(&mut at, blank);
-    (bytes.get(at) == Some(&b'#')).then_some(at)
 }
 
 fn too_complex(text: &str, line: Span) -> Option<SyntaxError> {

@@ -2,9 +2,10 @@
 
 use super::faults::{self, outside_text};
 use super::lexeme::{Lexemes, is_tiled, tokens};
+use super::rules::Rules;
 use super::shape::{self, Shape};
 use super::tree;
-use super::{Rules, checks, reader};
+use super::{checks, reader};
 use crate::syntax::support::{readable, too_long};
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;

@@ -1,6 +1,6 @@
 //! Where reading is, and what was gathered on the way.
 
-use super::super::Rules;
+use super::super::rules::Rules;
 use crate::syntax::{Item, ItemKind, Token, TokenKind};
 use crate::text::Span;
 

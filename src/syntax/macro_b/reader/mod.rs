@@ -8,7 +8,8 @@ mod expressions;
 mod items;
 mod numbers;
 
-use super::{Rules, checks};
+use super::checks;
+use super::rules::Rules;
 use crate::syntax::{Block, Item, Token};
 use crate::text::Span;
 use cursor::{Reader, taken};
