@@ -9,14 +9,8 @@ use smallvec::SmallVec;
 pub enum Lex {
     Space,
     Comment,
-    /// `N10 G1 Y[#1+2]`, `#100=SIN[#2]`: cut by [`push`].
-    PlainItems,
     /// `#100`: cut by [`push`].
     Numbered,
-    /// `#1+SIN[#2]`: cut by [`push`].
-    PlainValue,
-    /// `[#1 LT 2]`: cut by [`push`].
-    PlainGroup,
     Letter,
     Number,
     Integer,
@@ -81,12 +75,12 @@ impl Lex {
             Self::Space | Self::Comment | Self::Skip | Self::Tape | Self::Slash | Self::Nothing => {
                 return None;
             }
-            Self::Letter | Self::PlainItems => "a word",
-            Self::Number | Self::Integer | Self::PlainValue => "a number",
+            Self::Letter => "a word",
+            Self::Number | Self::Integer => "a number",
             Self::Bit => "a bit number",
             Self::Sign => "a sign",
             Self::Hash | Self::Numbered => "a variable",
-            Self::Open | Self::PlainGroup => "`[`",
+            Self::Open => "`[`",
             Self::Close => "`]`",
             Self::Equals => "`=`",
             Self::Comma => "a comma",
@@ -125,8 +119,10 @@ pub fn push(row: &mut Lexemes, kind: Lex, start: u32, text: &[u8]) {
     let mut cut = Cut { row, at: start, rest: text };
     match kind {
         Lex::Nothing => {}
-        Lex::PlainItems => cut.items(),
-        Lex::PlainValue | Lex::PlainGroup | Lex::Numbered => cut.value(),
+        Lex::Numbered => {
+            cut.take(Lex::Hash, 1);
+            cut.integer();
+        }
         Lex::Integer => cut.integer(),
         // A comment that nothing closes ends with the line, blanks included.
         Lex::Comment if !text.trim_ascii_end().ends_with(b")") => cut.take(kind, text.len()),
@@ -164,69 +160,6 @@ impl Cut<'_> {
         }
     }
 
-    /// Sequence numbers, words and assignments.
-    fn items(&mut self) {
-        while let Some(&byte) = self.rest.first() {
-            match byte {
-                b'#' => {
-                    self.take(Lex::Hash, 1);
-                    self.integer();
-                    self.blanks();
-                    self.take(Lex::Equals, 1);
-                    self.value();
-                }
-                b'N' | b'n' => {
-                    self.take(Lex::SequenceLetter, 1);
-                    self.integer();
-                    self.blanks();
-                }
-                _ => {
-                    self.take(Lex::Letter, 1);
-                    self.value();
-                }
-            }
-        }
-    }
-
-    /// Operands, the operators between them, and brackets, up to the next item.
-    fn value(&mut self) {
-        // Before an operand a sign is no operator, and a name a function.
-        let mut operand = true;
-        while let [byte, behind @ ..] = self.rest {
-            match byte {
-                b' ' | b'\t' => self.blanks(),
-                b'[' => self.take(Lex::Open, 1),
-                b']' => {
-                    self.take(Lex::Close, 1);
-                    operand = false;
-                }
-                b'#' if operand => {
-                    self.take(Lex::Hash, 1);
-                    if behind.first() != Some(&b'[') {
-                        self.integer();
-                        operand = false;
-                    }
-                }
-                b'-' | b'+' if operand => self.take(Lex::Sign, 1),
-                b'0'..=b'9' | b'.' => {
-                    self.take(Lex::Number, self.run(|byte| matches!(byte, b'0'..=b'9' | b'.')));
-                    operand = false;
-                }
-                _ if operand => self.take(Lex::Function, self.run(u8::is_ascii_alphabetic).max(1)),
-                b'+' | b'-' | b'*' | b'/' => {
-                    self.take(Lex::Operator, 1);
-                    operand = true;
-                }
-                _ if behind.first().is_some_and(u8::is_ascii_alphabetic) => {
-                    let three = matches!(byte.to_ascii_uppercase(), b'M' | b'A' | b'X');
-                    self.take(Lex::Operator, if three { 3 } else { 2 });
-                    operand = true;
-                }
-                _ => return,
-            }
-        }
-    }
-
     /// Digits, and the bit that may stand after those of a variable.
     fn integer(&mut self) {
         self.take(Lex::Integer, self.run(u8::is_ascii_digit));
@@ -256,10 +189,7 @@ macro_rules! lexemes_of_rules {
                 match rule {
                     $rule::space => Self::Space,
                     $rule::comment => Self::Comment,
-                    $rule::plain_items => Self::PlainItems,
-                    $rule::numbered | $rule::output_numbered => Self::Numbered,
-                    $rule::plain_value => Self::PlainValue,
-                    $rule::plain_group => Self::PlainGroup,
+                    $rule::output_numbered => Self::Numbered,
                     $rule::letter => Self::Letter,
                     $rule::number => Self::Number,
                     $rule::integer | $rule::index | $rule::output_integer | $rule::output_index => {
