@@ -9,54 +9,111 @@
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::ir::{self, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::codes::pauses::{AFTER_CALL, pause_of};
 use crate::legalize::features::Features;
-use crate::legalize::{Context, Modal, replace_statements};
+use crate::legalize::{Context, Modal};
 
 /// True where anything stands that may stand beside a move.
 pub fn concerns(features: &Features) -> bool {
     features.any_op(|op| op.auxiliary().is_some()) || features.role(Role::Speed)
 }
 
-/// Puts what acts before or after the move of its block into blocks of its own.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// Puts what acts before or after the move of its block into blocks of its own; true if there was any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let blocks = || module.programs.iter().flat_map(|program| &program.blocks);
+    if !blocks().any(acts_beside) {
+        return false;
+    }
     let facts = context.modal_facts(module);
-    let mut stmts = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
-    let pauses = stmts.any(|stmt| pause_of(&stmt.kind).is_some());
-    replace_statements(module, &facts, |index, state, mut stmt, out| {
-        let before = match &stmt.kind {
-            StmtKind::Nc(nc) if kinds(nc).next().is_some() => Some(state.clone()),
-            _ => None,
-        };
-        state.step(&stmt);
-        let (Some(before), StmtKind::Nc(nc)) = (before, &mut stmt.kind) else { return out.push(stmt) };
-        let moves = move_of(nc, &before);
-        if moves == Move::None {
-            return out.push(stmt);
+    let pauses = blocks().flat_map(|block| &block.stmts).any(|stmt| pause_of(&stmt.kind).is_some());
+    let (mut out, mut changed) = (Vec::new(), false);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| acts_beside(block)) {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in block.stmts.drain(..) {
+                let before = stmt.kind.nc().is_some_and(|nc| kinds(nc).next().is_some());
+                let before = before.then(|| state.clone());
+                state.step(&stmt);
+                match before {
+                    Some(before) => changed |= split(index, stmt, &before, pauses, context, &mut out),
+                    None => out.push(stmt),
+                }
+            }
+            block.stmts.reserve_exact(out.len());
+            block.stmts.append(&mut out);
         }
-        let mut block = Block { nc, before: &before, pauses, moves, early: Vec::new(), late: Vec::new() };
-        for fact in block.split(context) {
-            context.rests_on_source(index, stmt.site.span, fact);
-        }
-        let Block { early, late, .. } = block;
-        if !late.is_empty() && before.may_call() {
-            context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
-        }
-        let site = |first: bool, stmt: &mut Stmt| SourceInfo {
-            span: stmt.site.span,
-            sequence: if first { stmt.site.sequence.take() } else { None },
-            skip: stmt.site.skip,
-            ..SourceInfo::default()
-        };
-        for (at, items) in early.into_iter().enumerate() {
-            let site = site(at == 0, &mut stmt);
-            out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
-        }
-        let behind = late.into_iter().map(|items| (items, site(false, &mut stmt))).collect::<Vec<_>>();
+    }
+    changed
+}
+
+/// True for a block with a statement that may move and does something else too.
+fn acts_beside(block: &ir::Block) -> bool {
+    block.stmts.iter().filter_map(|stmt| stmt.kind.nc()).any(|nc| kinds(nc).next().is_some() && may_move(nc))
+}
+
+/// True for a statement that moves or waits in one state or another.
+fn may_move(nc: &Nc) -> bool {
+    nc.ops().any(|op| cuts(op) || waits(op)) || names_place(nc)
+}
+
+fn cuts(op: Op) -> bool {
+    op.is_cycle() || matches!(op, Op::CycleHere | Op::Probe | Op::ProbeOther)
+}
+
+fn waits(op: Op) -> bool {
+    matches!(op, Op::Dwell | Op::ReferenceReturn | Op::ReferenceFrom | Op::Reference2 | Op::Home)
+}
+
+/// True where words say where to.
+fn names_place(nc: &Nc) -> bool {
+    let words = |role: Role| {
+        matches!(role, Role::PolarAngle | Role::PolarDistance | Role::ArcI | Role::ArcJ | Role::ArcK)
+    };
+    nc.moves() || nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if words(*role)))
+}
+
+/// Lays down a statement, and around it what acts before or after its move; true if there is any.
+fn split(
+    index: usize,
+    mut stmt: Stmt,
+    before: &Modal,
+    pauses: bool,
+    context: &mut Context<'_>,
+    out: &mut Vec<Stmt>,
+) -> bool {
+    let StmtKind::Nc(nc) = &mut stmt.kind else {
         out.push(stmt);
-        out.extend(behind.into_iter().map(|(items, site)| Stmt { kind: StmtKind::Nc(Nc { items }), site }));
-    });
+        return false;
+    };
+    let moves = move_of(nc, before);
+    if moves == Move::None {
+        out.push(stmt);
+        return false;
+    }
+    let mut block = Block { nc, before, pauses, moves, early: Vec::new(), late: Vec::new() };
+    for fact in block.split(context) {
+        context.rests_on_source(index, stmt.site.span, fact);
+    }
+    let Block { early, late, .. } = block;
+    let changed = !early.is_empty() || !late.is_empty();
+    if !late.is_empty() && before.may_call() {
+        context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
+    }
+    let site = |first: bool, stmt: &mut Stmt| SourceInfo {
+        span: stmt.site.span,
+        sequence: if first { stmt.site.sequence.take() } else { None },
+        skip: stmt.site.skip,
+        ..SourceInfo::default()
+    };
+    for (at, items) in early.into_iter().enumerate() {
+        let site = site(at == 0, &mut stmt);
+        out.push(Stmt { kind: StmtKind::Nc(Nc { items }), site });
+    }
+    let behind = late.into_iter().map(|items| (items, site(false, &mut stmt))).collect::<Vec<_>>();
+    out.push(stmt);
+    out.extend(behind.into_iter().map(|(items, site)| Stmt { kind: StmtKind::Nc(Nc { items }), site }));
+    changed
 }
 
 /// What a block moves.
@@ -71,25 +128,19 @@ enum Move {
 }
 
 fn move_of(nc: &Nc, before: &Modal) -> Move {
-    use Op::*;
-    if nc.ops().any(|op| op.is_cycle() || matches!(op, CycleHere | Probe | ProbeOther)) {
+    if nc.ops().any(cuts) {
         return Move::Cut;
     }
-    if nc.ops().any(|op| matches!(op, Dwell | ReferenceReturn | ReferenceFrom | Reference2 | Home)) {
+    if nc.ops().any(waits) {
         return Move::Idle;
     }
-    let words = |role: Role| {
-        matches!(role, Role::PolarAngle | Role::PolarDistance | Role::ArcI | Role::ArcJ | Role::ArcK)
-    };
-    let moves =
-        nc.moves() || nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if words(*role)));
-    if !moves {
+    if !names_place(nc) {
         return Move::None;
     }
     let mut state = before.clone();
     state.step_words(nc);
-    let drills = state.op(Group::Cycle) != Some(CycleOff);
-    let rapid = nc.ops().any(|op| op == RapidOnce) || state.op(Group::Motion) == Some(Rapid);
+    let drills = state.op(Group::Cycle) != Some(Op::CycleOff);
+    let rapid = nc.ops().any(|op| op == Op::RapidOnce) || state.op(Group::Motion) == Some(Op::Rapid);
     if rapid && !drills && !before.may_call() { Move::Idle } else { Move::Cut }
 }
 

@@ -11,14 +11,13 @@ mod after;
 use crate::canon::{Group, Op, Pause, Running};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::CallGraph;
-use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why what acts after a move cannot have a block of its own where that move runs a modal call.
 pub(in crate::legalize) const AFTER_CALL: &str = "a modal call is in force, and this block does something \
@@ -61,15 +60,35 @@ fn ends(running: Running) -> (Group, Op) {
 const LETS_GO: &str = "the M5 before this stop releases a spindle that M19 holds: write M3 or M19 again \
                        after the stop";
 
-/// Ends before stops what the source ends at them.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// Ends before stops what the source ends at them; true if that changed anything.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let stops = stops(module, context);
+    let changes = !stops.is_empty();
+    for Stop { place: (index, id), before } in stops {
+        let Some(block) = module.programs[index].blocks.get_mut(id.index()) else { continue };
+        lay(block, before);
+    }
+    changes
+}
+
+/// What has to be ended in a block before its stops.
+struct Stop {
+    place: (usize, BlockId),
+    /// By the number of a statement, past the last for the end of the block.
+    before: BTreeMap<usize, Vec<Op>>,
+}
+
+/// The blocks in which something has to be ended.
+fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
+    let mut found = Vec::new();
+    if !module.programs.iter().flat_map(|program| &program.blocks).any(stops_in) {
+        return found;
+    }
     let facts = context.modal_facts(module);
-    let (after, started) = (After::of(module, &facts), started(module));
+    let (after, started) = (After::of(module, &facts), started(module, context));
     let holds = Features::of(&module.programs).op(Op::SpindleOrient);
-    let mut out = Vec::new();
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        for (at, block) in program.blocks.iter_mut().enumerate() {
-            let id = BlockId(at as u32);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| stops_in(block)) {
             let mut place = Place {
                 index,
                 id,
@@ -80,39 +99,41 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 holds,
                 after: &after,
             };
-            for (number, stmt) in block.stmts.drain(..).enumerate() {
-                let pause = pause_of(&stmt.kind);
-                place.state.step(&stmt);
-                place.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
-                place.skipped = stmt.site.skip.is_some();
-                if let Some((pause, optional)) = pause {
-                    let before = place.stop(pause, optional, number + 1, stmt.site.span, context);
-                    let moves = matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
-                    if moves && !before.is_empty() && place.state.may_call() {
-                        let refused = Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL);
-                        context.add(index, refused);
-                    }
-                    ended(before, stmt, &mut out);
-                } else {
-                    out.push(stmt);
-                }
+            let before = place.block(block, context);
+            if !before.is_empty() {
+                found.push(Stop { place: (index, id), before });
             }
-            if let TermKind::End { .. } = block.term.kind {
-                (place.restarted, place.skipped) = ([false; 2], false);
-                let span = block.term.site.span;
-                for op in place.stop(Pause::End, false, usize::MAX, span, context) {
-                    let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
-                    out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
-                }
-            }
-            block.stmts.reserve_exact(out.len());
-            block.stmts.append(&mut out);
         }
     }
+    found
+}
+
+/// True for a block with a stop, or at whose end the run ends.
+fn stops_in(block: &Block) -> bool {
+    let ends = matches!(block.term.kind, TermKind::End { .. });
+    ends || block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
+}
+
+/// Puts what ends something before the stops of a block.
+fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>) {
+    let more = before.values().map(Vec::len).sum::<usize>() + before.len();
+    let mut out = Vec::with_capacity(block.stmts.len() + more);
+    for (at, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
+        match before.remove(&at) {
+            Some(before) => ended(before, stmt, &mut out),
+            None => out.push(stmt),
+        }
+    }
+    let span = block.term.site.span;
+    for op in before.into_values().flatten() {
+        let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
+        out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
+    }
+    block.stmts = out;
 }
 
 /// For each program, what it, those that it calls, or those that call it start.
-fn started(module: &Module) -> Vec<[bool; 2]> {
+fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
     let mut found: Vec<[bool; 2]> = (module.programs.iter())
         .map(|program| {
             let features = Features::of(std::slice::from_ref(program));
@@ -120,7 +141,7 @@ fn started(module: &Module) -> Vec<[bool; 2]> {
         })
         .collect();
     let mut callees = vec![BTreeSet::new(); found.len()];
-    for (caller, callee) in CalledPrograms::of(module).pairs(module) {
+    for (caller, callee) in context.called(module).pairs(module) {
         callees[caller].insert((callee, false));
     }
     let graph = CallGraph::new(callees);
@@ -137,7 +158,7 @@ fn started(module: &Module) -> Vec<[bool; 2]> {
 fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
     let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
     let nc = |items: Vec<NcItem>| StmtKind::Nc(Nc { items });
-    if let (StmtKind::Nc(block), false) = (&mut stmt.kind, before.is_empty()) {
+    if let StmtKind::Nc(block) = &mut stmt.kind {
         let (stop, words) = std::mem::take(&mut block.items)
             .into_iter()
             .partition(|item| matches!(item, NcItem::Op(Op::Stop | Op::OptionalStop)));
@@ -185,10 +206,38 @@ struct Place<'p> {
     started: [bool; 2],
     /// True if some program of the library holds the spindle at an angle.
     holds: bool,
-    after: &'p After,
+    after: &'p After<'p>,
 }
 
 impl Place<'_> {
+    /// What has to be ended before the stops of a block, by the numbers of their statements.
+    fn block(&mut self, block: &Block, context: &mut Context<'_>) -> BTreeMap<usize, Vec<Op>> {
+        let mut found = BTreeMap::new();
+        for (number, stmt) in block.stmts.iter().enumerate() {
+            let pause = pause_of(&stmt.kind);
+            self.state.step(stmt);
+            self.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
+            self.skipped = stmt.site.skip.is_some();
+            let Some((pause, optional)) = pause else { continue };
+            let before = self.stop(pause, optional, number + 1, stmt.site.span, context);
+            if before.is_empty() {
+                continue;
+            }
+            if matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves()) && self.state.may_call() {
+                context.add(self.index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, AFTER_CALL));
+            }
+            found.insert(number, before);
+        }
+        if let TermKind::End { .. } = block.term.kind {
+            (self.restarted, self.skipped) = ([false; 2], false);
+            let before = self.stop(Pause::End, false, usize::MAX, block.term.site.span, context);
+            if !before.is_empty() {
+                found.insert(block.stmts.len(), before);
+            }
+        }
+        found
+    }
+
     /// True where it may be running here.
     fn may_run(&self, running: Running) -> bool {
         let (group, _) = ends(running);

@@ -6,10 +6,14 @@
 use crate::ir::{Module, StmtKind};
 use crate::legalize::Context;
 
-/// Leaves empty blocks out.
-pub fn run(module: &mut Module, _: &mut Context<'_>) {
+/// Leaves empty blocks out; true if there were any.
+pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
+    let mut changed = false;
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
         let says = |site: &crate::ir::SourceInfo| site.sequence.is_some() || !site.comments.is_empty();
+        let before = block.stmts.len();
         block.stmts.retain(|stmt| stmt.kind != StmtKind::Comment || says(&stmt.site));
+        changed |= block.stmts.len() != before;
     }
+    changed
 }

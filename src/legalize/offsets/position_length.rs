@@ -19,17 +19,22 @@ pub(in crate::legalize) const FACT: Question = Question::PositionLength;
 pub(in crate::legalize) const DEPTH: u32 = 3;
 const Z: f64 = DEPTH as f64;
 
-/// Adds the length to positions, or takes it away.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// Adds the length to positions, or takes it away; true if there are any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let row =
         |control: &Control| control.behaviour(FACT).map(|row| (row.value == "added", row.origin.confirmed));
     let (ours, theirs) = (row(context.source), row(context.target));
     if ours == theirs && (context.source.name() == context.target.name() || ours == Some((true, true))) {
-        return;
+        return false;
+    }
+    let asks: Vec<usize> =
+        (0..module.programs.len()).filter(|index| asks(&module.programs[*index], context.source)).collect();
+    if asks.is_empty() {
+        return false;
     }
     let added = |row: Option<(bool, bool)>| row.is_some_and(|(added, _)| added);
     let facts = context.modal_facts(module);
-    for index in 0..module.programs.len() {
+    for index in asks {
         let Some((span, computed)) = reads(&module.programs[index], index, &facts, context.source) else {
             continue;
         };
@@ -53,6 +58,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             e => e,
         });
     }
+    true
+}
+
+/// True for a program that reads a position which may be along the axis of the length.
+fn asks(program: &Program, source: &Control) -> bool {
+    let mut any = false;
+    let mut look = |e: &Expr| e.walk(&mut |e| any = any || is_depth(e) || is_computed(e, source));
+    for block in &program.blocks {
+        block.stmts.iter().for_each(|stmt| stmt.kind.exprs(&mut look));
+        block.term.kind.exprs(&mut look);
+    }
+    any
 }
 
 /// Where a program first reads a position along the axis of the length while one may be in force, and where it reads one

@@ -89,7 +89,7 @@ const SOURCE: &[Pass] = &[
 ];
 
 const STRUCTURE: &[Pass] = &[
-    Pass::rewrites("blanks", "empty blocks that hold nothing back go", blanks::run)
+    Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits("link", "reports calls that leave the library", link::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::Chain)),
@@ -102,14 +102,14 @@ const STRUCTURE: &[Pass] = &[
 const BLOCKS: &[Pass] = &[
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
         .when(|c, _| c.has(Feature::Code)),
-    Pass::rewrites(
+    Pass::edits(
         "beside-moves",
         "spindle, coolant and tool change get blocks of their own",
         beside_moves::run,
     )
     .when(|c, _| beside_moves::concerns(c))
     .needs(&["codes"]),
-    Pass::rewrites("pauses", "what the source ends at a stop is ended before it", pauses::run)
+    Pass::edits("pauses", "what the source ends at a stop is ended before it", pauses::run)
         .when(|c, context| pauses::concerns(c, &context.entry))
         .needs(&["beside-moves"]),
 ];
@@ -214,7 +214,7 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("probe-points", "touch points by number are kept in registers", probe_points::run)
         .changes_flow()
         .when(|c, _| c.role(Role::ProbePoint)),
-    Pass::rewrites("position-length", "positions hold the tool length as they did", position_length::run)
+    Pass::edits("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
     Pass::reports(

@@ -4,6 +4,7 @@ use crate::canon::{Group, Op, Role, Running};
 use crate::ir::{BlockId, Call, Callee, Module, Nc, NcItem, StmtKind, TermKind};
 use crate::legalize::{Modal, ModalFacts};
 use crate::syntax::ProgramName;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a run of statements does about what runs.
@@ -16,10 +17,13 @@ enum Step {
 }
 
 /// The blocks of a library, as far as spindle and coolant go.
-pub(super) struct After {
-    /// For each program and block: the steps of its statements by their numbers, for spindle and coolant, and its end.
-    programs: Vec<Vec<Steps>>,
-    by_name: BTreeMap<ProgramName, usize>,
+pub(super) struct After<'m> {
+    module: &'m Module,
+    facts: &'m ModalFacts,
+    /// By program and block: the steps of its statements by their numbers, for spindle and coolant, and its end. Few
+    /// programs are asked for.
+    programs: Vec<OnceCell<Vec<Steps>>>,
+    by_name: BTreeMap<&'m ProgramName, usize>,
 }
 
 /// The steps of a block's statements, and how it ends.
@@ -37,29 +41,34 @@ enum End {
     Over,
 }
 
-impl After {
-    pub fn of(module: &Module, facts: &ModalFacts) -> Self {
+impl<'m> After<'m> {
+    pub fn of(module: &'m Module, facts: &'m ModalFacts) -> Self {
         let names = module.programs.iter().enumerate();
-        let by_name = names.filter_map(|(index, program)| Some((program.name.clone()?, index))).collect();
-        let mut all = Self { programs: Vec::new(), by_name };
-        for (index, program) in module.programs.iter().enumerate() {
-            let blocks = program.ids().zip(&program.blocks).map(|(id, block)| {
-                let mut state = facts.at(index, id);
-                let steps = block.stmts.iter().map(|stmt| {
-                    state.step(stmt);
-                    let steps = steps(&stmt.kind, &state);
-                    match stmt.site.skip {
-                        // It may be passed over: what it says does not count, what it cuts does.
-                        Some(_) => steps.map(|step| step.filter(|step| *step == Step::Cuts)),
-                        None => steps,
-                    }
-                });
-                (steps.collect(), all.end(index, &block.term.kind))
+        let by_name = names.filter_map(|(index, program)| Some((program.name.as_ref()?, index))).collect();
+        let programs = std::iter::repeat_with(OnceCell::new).take(module.programs.len()).collect();
+        Self { module, facts, programs, by_name }
+    }
+
+    fn block(&self, index: usize, id: BlockId) -> Option<&Steps> {
+        self.programs.get(index)?.get_or_init(|| self.program(index)).get(id.index())
+    }
+
+    fn program(&self, index: usize) -> Vec<Steps> {
+        let program = &self.module.programs[index];
+        let blocks = program.ids().zip(&program.blocks).map(|(id, block)| {
+            let mut state = self.facts.at(index, id);
+            let steps = block.stmts.iter().map(|stmt| {
+                state.step(stmt);
+                let steps = steps(&stmt.kind, &state);
+                match stmt.site.skip {
+                    // It may be passed over: what it says does not count, what it cuts does.
+                    Some(_) => steps.map(|step| step.filter(|step| *step == Step::Cuts)),
+                    None => steps,
+                }
             });
-            let blocks = blocks.collect();
-            all.programs.push(blocks);
-        }
-        all
+            (steps.collect(), self.end(index, &block.term.kind))
+        });
+        blocks.collect()
     }
 
     fn end(&self, index: usize, kind: &TermKind) -> End {
@@ -99,8 +108,7 @@ impl After {
         let mut work = vec![(from, number)];
         let mut returns = false;
         while let Some(((program, id), first)) = work.pop() {
-            let block = self.programs.get(program).and_then(|blocks| blocks.get(id.index()));
-            let Some((steps, end)) = block else { return (true, true) };
+            let Some((steps, end)) = self.block(program, id) else { return (true, true) };
             let rest = steps.iter().skip(first).filter_map(|steps| steps[running as usize]);
             match rest.into_iter().next() {
                 Some(Step::Says) => continue,
