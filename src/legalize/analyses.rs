@@ -3,13 +3,14 @@
 use crate::ir::Module;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::{Modal, ModalFacts, Summaries};
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 /// What is known of a library as it is now.
 #[derive(Default)]
 pub(super) struct Analyses {
-    facts: OnceCell<Rc<ModalFacts>>,
+    /// By the state in which runs begin.
+    facts: RefCell<Vec<(Modal, Rc<ModalFacts>)>>,
     summaries: OnceCell<Rc<Summaries>>,
     called: OnceCell<Rc<CalledPrograms>>,
     /// The library that they are of: debug builds hold every question against it.
@@ -20,7 +21,13 @@ impl Analyses {
     /// What is in force at every block, if runs begin in the state `entry`.
     pub fn modal_facts(&self, module: &Module, entry: &Modal) -> Rc<ModalFacts> {
         self.check(module);
-        self.facts.get_or_init(|| Rc::new(ModalFacts::of(module, entry))).clone()
+        let mut known = self.facts.borrow_mut();
+        if let Some((_, facts)) = known.iter().find(|(other, _)| other == entry) {
+            return Rc::clone(facts);
+        }
+        let facts = Rc::new(ModalFacts::of(module, entry));
+        known.push((entry.clone(), Rc::clone(&facts)));
+        facts
     }
 
     /// What programs may write.

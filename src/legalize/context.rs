@@ -144,6 +144,11 @@ impl<'a> Context<'a> {
         self.analyses.modal_facts(module, &self.entry)
     }
 
+    /// The same where runs begin in another state.
+    pub(super) fn modal_facts_from(&self, module: &Module, entry: &Modal) -> Rc<ModalFacts> {
+        self.analyses.modal_facts(module, entry)
+    }
+
     /// What programs of the library may write.
     pub(super) fn summaries(&self, module: &Module) -> Rc<Summaries> {
         self.analyses.summaries(module)

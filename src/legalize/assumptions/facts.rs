@@ -9,8 +9,7 @@ mod vacant;
 use crate::canon::{Func, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Control, Question, Row, Side};
-use crate::ir::analysis::computed_calls::CalledPrograms;
-use crate::ir::analysis::{Summaries, Vacancy};
+use crate::ir::analysis::Vacancy;
 use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Feature;
@@ -18,6 +17,7 @@ use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use vacant::VACANCY;
 
 /// Reports the unconfirmed facts of the target that programs rest on.
@@ -49,8 +49,8 @@ fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Co
     let asked =
         VACANCY.iter().any(|question| control.behaviour(*question).is_some_and(|row| !row.origin.confirmed));
     let own = computes && asked && context.source.is(Question::Vacancy);
-    let summaries = if own { Summaries::of(module) } else { Summaries::default() };
-    let given = if own { CalledPrograms::of(module).given(module) } else { BTreeMap::new() };
+    let summaries = if own { context.summaries(module) } else { Rc::default() };
+    let given = if own { context.called(module).given(module) } else { BTreeMap::new() };
     let none = BTreeSet::new();
     let mut found = Found {
         control,

@@ -16,10 +16,11 @@ use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
 use std::cell::LazyCell;
+use std::rc::Rc;
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let summaries = LazyCell::new(|| Summaries::of(module));
+    let summaries = LazyCell::new(|| context.summaries(module));
     let rounds =
         [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
@@ -91,7 +92,7 @@ pub(in crate::legalize) struct Number {
 pub(in crate::legalize) fn numbers(
     value: &Expr,
     program: &Program,
-    summaries: &LazyCell<Summaries, impl FnOnce() -> Summaries>,
+    summaries: &LazyCell<Rc<Summaries>, impl FnOnce() -> Rc<Summaries>>,
     id: BlockId,
     at: usize,
     source: &Control,

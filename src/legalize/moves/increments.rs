@@ -13,6 +13,7 @@ use crate::legalize::moves::units::exit::ExitUnit;
 use crate::legalize::{Context, Modal, ModalFacts, Setting};
 use crate::text::Span;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -66,7 +67,7 @@ fn each(
     if !module.programs.iter().flat_map(|program| &program.blocks).any(&chosen) {
         return false;
     }
-    let left = ExitUnit::of(module, context.source);
+    let left = ExitUnit::of(module, context);
     let all = left.iter().copied().fold(ExitUnit::default(), ExitUnit::join);
     let facts = facts(module, context, all);
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -116,7 +117,7 @@ fn report(index: usize, unknown: Option<Span>, guessed: Option<Span>, context: &
 }
 
 /// What is in force in the library, as far as that is known for sure.
-fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> ModalFacts {
+fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> Rc<ModalFacts> {
     let mut entry = context.entry.clone();
     if let (Setting::Unknown, Some(units)) = (entry.of(Group::Units), context.source.units()) {
         entry.start_in(if units == Units::Inch { Op::Inch } else { Op::Metric });
@@ -124,7 +125,7 @@ fn facts(module: &Module, context: &Context<'_>, all: ExitUnit) -> ModalFacts {
     entry.one_unit = all.is_one();
     // Where no program names a unit, it is the machine's all through.
     let known = context.entry.op(Group::Units).is_some() || all != ExitUnit::default();
-    if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() }
+    if known { context.modal_facts_from(module, &entry) } else { Rc::new(ModalFacts::unknown()) }
 }
 
 /// What a program that names one unit has in force where every way to a place names it, and nothing in the library that

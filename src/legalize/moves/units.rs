@@ -27,6 +27,7 @@ use crate::legalize::{Context, ModalFacts, calls_of, reachable};
 use crate::text::Span;
 use exit::ExitUnit;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// False where the unit is known at the start and stays so: nothing names it, checks it or may leave another.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -44,21 +45,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
     let checked: Vec<Option<Units>> =
         module.programs.iter_mut().map(|program| take_checks(program, &mut changed)).collect();
+    if changed {
+        context.analyses.drop_all();
+    }
     let (ours, theirs) = (context.source.units(), context.target.units());
     if ours.is_some() && ours == theirs && selects_unit(context.source) {
         return changed;
     }
     let mut entry = context.entry.clone();
-    entry.one_unit = ExitUnit::of_library(module, context.source).is_one();
+    entry.one_unit = ExitUnit::of_library(module, context).is_one();
     let known =
         entry.op(Group::Units).is_some() || module.programs.iter().flat_map(units_named).next().is_some();
-    let facts = if known { ModalFacts::of(module, &entry) } else { ModalFacts::unknown() };
-    let open = open(module, &facts);
-    let mut heads = mains(module);
+    let facts = if known { context.modal_facts_from(module, &entry) } else { Rc::new(ModalFacts::unknown()) };
+    let called = context.called(module);
+    let open = open(module, &facts, &called);
+    let mut heads = mains(module, &called);
     if let Some(units) = ours.filter(|units| theirs.is_some_and(|theirs| theirs != *units)) {
-        heads.extend(lone(module, units));
+        heads.extend(lone(module, units, &called));
     }
-    let called = CalledPrograms::of(module);
     for root in heads.into_iter().filter(|&root| open[root]) {
         // One that may also be called has the unit of its caller then.
         let alone = !(called.is_guessed(root) && returns(&module.programs[root]));
@@ -165,8 +169,7 @@ fn lost(module: &Module, facts: &ModalFacts, root: usize) -> Option<(Span, &'sta
 }
 
 /// Which programs come to a length while no unit is named, themselves or in what they call then.
-fn open(module: &Module, facts: &ModalFacts) -> Vec<bool> {
-    let called = CalledPrograms::of(module);
+fn open(module: &Module, facts: &ModalFacts, called: &CalledPrograms) -> Vec<bool> {
     let mut open = vec![false; module.programs.len()];
     let mut calls: Vec<BTreeSet<(usize, bool)>> = vec![BTreeSet::new(); open.len()];
     for (index, program) in module.programs.iter().enumerate() {
@@ -244,8 +247,8 @@ fn reads_length(each: impl FnOnce(&mut dyn FnMut(&Expr))) -> bool {
 
 /// The programs that end the run, but for those that others call and that may return to them. What only their
 /// subroutines do, or what nothing reaches, says nothing of them.
-fn mains(module: &Module) -> Vec<usize> {
-    let roots: BTreeSet<usize> = uncalled(module).into_iter().collect();
+fn mains(module: &Module, called: &CalledPrograms) -> Vec<usize> {
+    let roots: BTreeSet<usize> = uncalled(module, called).into_iter().collect();
     let is_main = |index: &usize| {
         let program = &module.programs[*index];
         let ends = |kind: &TermKind| matches!(kind, TermKind::End { .. } | TermKind::Stray);
@@ -266,18 +269,17 @@ fn leaves_by(program: &Program, ends: impl Fn(&TermKind) -> bool) -> bool {
 
 /// The programs that others call whom the library has not, where nothing in it names another unit than this one: what
 /// calls them on the target may be in the unit that the target is set to.
-fn lone(module: &Module, units: Units) -> Vec<usize> {
+fn lone(module: &Module, units: Units, called: &CalledPrograms) -> Vec<usize> {
     if module.programs.iter().flat_map(units_named).any(|named| named != units) {
         return Vec::new();
     }
-    let mains: BTreeSet<usize> = mains(module).into_iter().collect();
+    let mains: BTreeSet<usize> = mains(module, called).into_iter().collect();
     let is_named = |root: &usize| module.programs[*root].name.is_some();
-    uncalled(module).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
+    uncalled(module, called).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
 }
 
 /// The programs that no call runs, by name or surely by a computed number.
-fn uncalled(module: &Module) -> Vec<usize> {
-    let called = CalledPrograms::of(module);
+fn uncalled(module: &Module, called: &CalledPrograms) -> Vec<usize> {
     roots(module).into_iter().filter(|root| !called.is_known(*root)).collect()
 }
 

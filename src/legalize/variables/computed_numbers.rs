@@ -15,7 +15,7 @@ mod shift;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
-use crate::ir::analysis::{self, Ranges, Summaries, Values, values_at};
+use crate::ir::analysis::{self, Ranges, Values, values_at};
 use crate::ir::{Bank, Expr, Module};
 use crate::legalize::Context;
 use crate::legalize::variables::banks::{all_numbers, each_index};
@@ -71,7 +71,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 }
 
 fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -> Reached {
-    let summaries = LazyCell::new(|| Summaries::of(module));
+    let summaries = context.summaries(module);
     let mut reached = Reached::default();
     for (index, program) in module.programs.iter().enumerate() {
         let ranges = LazyCell::new(|| Ranges::of(program, &summaries));

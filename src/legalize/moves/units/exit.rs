@@ -4,12 +4,11 @@
 //! call of the library. A computed code counts where one of the numbers that it may be selects a unit.
 
 use crate::canon::{Group, Op};
-use crate::dialect::{Control, Units};
-use crate::ir::analysis::computed_calls::CalledPrograms;
-use crate::ir::analysis::{CallGraph, Summaries};
+use crate::dialect::Units;
+use crate::ir::analysis::CallGraph;
 use crate::ir::{Module, NcItem, StmtKind};
-use crate::legalize::calls_of;
 use crate::legalize::codes::by_number::numbers;
+use crate::legalize::{Context, calls_of};
 use std::cell::LazyCell;
 use std::collections::BTreeSet;
 
@@ -28,9 +27,9 @@ pub struct ExitUnit {
 
 impl ExitUnit {
     /// By program of a library.
-    pub fn of(module: &Module, source: &Control) -> Vec<Self> {
-        let mut left = own(module, source);
-        let called = CalledPrograms::of(module);
+    pub fn of(module: &Module, context: &Context<'_>) -> Vec<Self> {
+        let mut left = own(module, context);
+        let called = context.called(module);
         let (mut macros, mut unknown) = (Vec::<usize>::new(), Self::default());
         for (index, program) in module.programs.iter().enumerate() {
             for (id, block) in program.ids().zip(&program.blocks) {
@@ -59,8 +58,8 @@ impl ExitUnit {
     }
 
     /// All programs of a library together.
-    pub fn of_library(module: &Module, source: &Control) -> Self {
-        Self::of(module, source).into_iter().fold(Self::default(), Self::join)
+    pub fn of_library(module: &Module, context: &Context<'_>) -> Self {
+        Self::of(module, context).into_iter().fold(Self::default(), Self::join)
     }
 
     /// What either does.
@@ -101,8 +100,9 @@ impl ExitUnit {
 }
 
 /// What the codes of each program name.
-fn own(module: &Module, source: &Control) -> Vec<ExitUnit> {
-    let summaries = LazyCell::new(|| Summaries::of(module));
+fn own(module: &Module, context: &Context<'_>) -> Vec<ExitUnit> {
+    let source = context.source;
+    let summaries = LazyCell::new(|| context.summaries(module));
     let is_unit = |number: f64| {
         let row = |number| source.code('G', number, &[]);
         [number, number.round()].into_iter().filter_map(row).any(|row| row.op.group() == Group::Units)
