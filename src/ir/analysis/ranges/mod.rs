@@ -92,7 +92,7 @@ impl Analysis for Rules<'_> {
     fn edge<'s>(&self, from: BlockId, to: BlockId, state: &'s State) -> Option<Cow<'s, State>> {
         match self.program.block(from).map(|block| &block.term.kind) {
             Some(TermKind::Branch { cond, then, otherwise }) if then != otherwise => {
-                self.narrowed(cond, to == *then, state).map(Cow::Owned)
+                self.narrowed(cond, to == *then, state)
             }
             _ => Some(Cow::Borrowed(state)),
         }
@@ -191,19 +191,32 @@ impl Rules<'_> {
     }
 
     /// What is known where a condition holds or does not; none if it never does.
-    fn narrowed(&self, cond: &Cond, holds: bool, state: &State) -> Option<State> {
+    fn narrowed<'s>(&self, cond: &Cond, holds: bool, state: &'s State) -> Option<Cow<'s, State>> {
+        if !self.follows(cond) {
+            return Some(Cow::Borrowed(state));
+        }
         let negated = (!holds).then(|| Cond::Not(Box::new(cond.clone())));
-        let mut kept = state.clone();
+        let mut kept = Cow::Borrowed(state);
         evaluate::narrow(
             negated.as_ref().unwrap_or(cond),
             &|var| self.value(var, state),
             &mut |var, values| {
                 if let Some(at) = self.places.get(&var) {
-                    kept[*at] = kept[*at].meet(&values);
+                    let met = kept[*at].meet(&values);
+                    if met != kept[*at] {
+                        kept.to_mut()[*at] = met;
+                    }
                 }
             },
         );
         kept.iter().zip(state).all(|(kept, before)| before.is_empty() || !kept.is_empty()).then_some(kept)
+    }
+
+    /// True where a condition compares a variable that is followed.
+    fn follows(&self, cond: &Cond) -> bool {
+        let mut any = false;
+        cond.exprs(&mut |e| e.variables(&mut |var| any |= self.places.contains_key(&var)));
+        any
     }
 
     /// A variable with a computed number is written: one of those that the number may name.
