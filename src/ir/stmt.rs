@@ -318,6 +318,11 @@ impl TermKind {
 }
 
 impl Nc {
+    /// True where it has no code, only words.
+    pub fn is_words(&self) -> bool {
+        self.items.iter().all(|item| matches!(item, NcItem::Word(..)))
+    }
+
     /// True when the block has this operation.
     pub fn has(&self, op: Op) -> bool {
         self.ops().any(|o| o == op)

@@ -7,7 +7,7 @@
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BlockId, Module, Nc, StmtKind};
+use crate::ir::{BlockId, Module, Nc};
 use crate::legalize::Context;
 
 /// Refuses arcs that say nothing about their curve, and reports those that say it twice.
@@ -25,8 +25,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         for (at, block) in program.blocks.iter().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
             for stmt in &block.stmts {
-                state.step(stmt);
-                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                let nc = stmt.kind.nc();
+                // Words alone leave the motion as it is.
+                if state.may_call() || !nc.is_some_and(Nc::is_words) {
+                    state.step(stmt);
+                }
+                let Some(nc) = nc else { continue };
                 if !state.op(Group::Motion).is_some_and(is_arc) {
                     continue;
                 }
