@@ -31,7 +31,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let mut plans: Vec<Plan> = Vec::with_capacity(module.programs.len());
     for (at, program) in module.programs.iter_mut().enumerate() {
         let first = first_colours(program, context.target);
-        plans.push(Plan { first, ..Plan::of(at, program, modal, statics.as_ref()) });
+        let mut plan = Plan { first, ..Plan::of(at, program, modal, statics.as_ref()) };
+        if statics.is_none() && plan.over.is_empty() {
+            // Nothing in other programs matters to it: what it needs is not kept for the whole library.
+            plan.colour(&BTreeSet::new());
+            (plan.apart, plan.copies) = Default::default();
+        }
+        plans.push(plan);
     }
     if statics.is_some() || plans.iter().any(|plan| !plan.over.is_empty()) {
         over_calls(module, &mut plans, statics.as_ref(), context);
