@@ -16,7 +16,7 @@ mod targets;
 
 use macroglot::control::{Library, LoadedFile, ProgramRef, Scenario};
 use macroglot::dialect::Control;
-use macroglot::syntax::parse_file;
+use macroglot::syntax::ParsedFile;
 use measured::Use;
 use pest::Parser;
 use std::ffi::OsStr;
@@ -62,6 +62,8 @@ const CASES: &[(&str, &str, &[&str])] = &[
 const FILES: &str = "MACROGLOT_FILES";
 
 const ROUNDS: usize = 3;
+/// Bytes of a program that are read at a time while it runs.
+const PIECE: usize = 32 << 10;
 /// How often lines are counted in a round: once is too short for the clock.
 const COUNTS: usize = 100;
 
@@ -198,11 +200,21 @@ fn work(case: &str) -> (usize, u64) {
     (1, 0)
 }
 
-/// Runs a program on the emulated control; how many blocks it ran.
+/// Runs a program on the emulated control as `macroglot run` does, but for the printing: blocks are read where the run
+/// comes to them, and nobody keeps events. How many blocks it ran.
 fn emulate(bytes: &[u8]) -> Option<u64> {
     let control = Control::plain("fanuc")?;
-    let parsed = parse_file(bytes, control.entry().parse);
-    let file = LoadedFile { name: "main.nc", parsed: &parsed };
+    let entry = control.entry();
+    let (parsed, execute) = (ParsedFile::unread(bytes), entry.execute?);
+    let files = [LoadedFile { name: "main.nc", parsed: &parsed }];
+    let library = Library::read_by_need(&files, entry.parse_items, PIECE);
     let scenario = Scenario { steps: 10_000_000, events: 10_000_000, ..Scenario::default() };
-    Some((control.entry().execute?)(&Library::new(&[file]), ProgramRef::FIRST, &control, &scenario).steps)
+    let run = std::thread::scope(|scope| {
+        let (listener, heard) = std::sync::mpsc::sync_channel(4);
+        scope.spawn(|| heard.into_iter().for_each(drop));
+        let run = execute(&library.heard_by(&listener), ProgramRef::FIRST, &control, &scenario);
+        drop(listener);
+        run
+    });
+    Some(run.steps)
 }
