@@ -2,6 +2,7 @@
 
 use super::chunks::lower::lower;
 use super::compile::make;
+use super::names::both_nameless;
 use super::prepare::{Prepared, prepare};
 use super::refused_calls::{self, Link};
 use super::{Input, Lock};
@@ -159,11 +160,6 @@ pub fn convert(
     debug_assert!(home.windows(2).all(|w| w[0] <= w[1]));
     let (lock, taken, links) = (made.lock, made.taken, made.links);
     Conversion { programs: reports, texts, lock, taken, states_reserved: target.states_reserved(), links }
-}
-
-/// True where a program without a number begins behind a `%` on both controls, and stays what it is.
-pub(super) fn both_nameless(source: &Control, target: &Control) -> bool {
-    source.names().nameless && target.names().nameless
 }
 
 pub(super) fn outcome(diagnostics: &[Diagnostic]) -> Outcome {

@@ -1,11 +1,12 @@
 //! Finds and reads the programs that a command was given.
 
-use super::walk::{LeftOut, Walked, WhyNot, walk};
+use super::unread::{InputError, LeftOut, WhyNot};
+use super::walk::{Walked, walk};
 use crate::text::MAX_FILE;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// A program file.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,49 +18,6 @@ pub struct Input {
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
-}
-
-/// Why the programs could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum InputError {
-    /// A path that does not exist.
-    #[error("{0}: there is no such file or folder")]
-    Missing(PathBuf),
-    /// A path that cannot be read.
-    #[error("{0}: cannot be read: {1}")]
-    Unreadable(PathBuf, io::Error),
-    /// A folder in which nothing looks like a program.
-    #[error(
-        "{0}: the folder has no program files (looked for {1}); to read a file with another ending, name \
-         the file itself"
-    )]
-    NoPrograms(PathBuf, String),
-    /// A file of no bytes.
-    #[error("{0}: the file is empty")]
-    Empty(PathBuf),
-    /// A file that is no text.
-    #[error("{0}: is a binary file, not a program (byte {1} is {2:#04x})")]
-    Binary(PathBuf, usize, u8),
-    /// A file that is too long, or a line in it.
-    #[error("{0}: is longer than 4 GB")]
-    TooLong(PathBuf),
-    /// Two files whose conversions would be one.
-    #[error(
-        "{0} and {1} are both '{2}' under the folders named: their conversions would overwrite each other"
-    )]
-    Twice(PathBuf, PathBuf, String),
-}
-
-impl InputError {
-    /// The file that is left out for it, if it is one that harms nothing in a folder of programs.
-    pub fn left_out(&self) -> Option<LeftOut> {
-        let (path, why) = match self {
-            Self::Empty(path) => (path, WhyNot::Empty),
-            Self::Binary(path, ..) => (path, WhyNot::Binary),
-            _ => return None,
-        };
-        Some(LeftOut { path: path.clone(), why })
-    }
 }
 
 /// Bytes that are looked at to tell a binary file from a program.
@@ -173,15 +131,6 @@ fn find(path: &Path, endings: &[String]) -> Result<Walked, InputError> {
         return walk(path, endings);
     }
     Ok(one(path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())))
-}
-
-/// A path with `/` between its parts, wherever it is written down.
-pub fn slashed(path: &Path) -> String {
-    let parts = path.components().filter_map(|part| match part {
-        Component::Normal(part) => Some(part.to_string_lossy().into_owned()),
-        _ => None,
-    });
-    parts.collect::<Vec<_>>().join("/")
 }
 
 /// A program file that is not read yet.

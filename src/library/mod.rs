@@ -22,21 +22,23 @@ mod prepare;
 mod project;
 mod publish;
 mod refused_calls;
+mod unread;
 mod verified;
 mod walk;
 mod withdrawn;
 
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
 pub use detect::{Detected, detect, looks_like};
-pub use inputs::{Files, Found, Input, InputError, Source, gather, same_file, slashed, sources};
+pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
 pub use partway::{Partway, partway};
-pub use places::{Spots, real_place};
+pub use places::{Spots, real_place, slashed};
 pub use project::{Library, Machine, Project, ProjectError};
 pub use publish::{
     Change, Held, Home, Kind, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
     abandon, changes, check, is_pending, publish, write_file,
 };
-pub use verified::{Certificates, judge};
-pub use walk::{LeftOut, WhyNot};
+pub use unread::{InputError, LeftOut, WhyNot};
+pub use verified::judge;
+pub use withdrawn::Certificates;

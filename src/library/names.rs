@@ -2,12 +2,18 @@
 
 use super::Input;
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
 use crate::emit::{Naming, Register, last_sequence};
 use crate::ir::analysis::{Ranges, Summaries};
 use crate::ir::{Callee, Module, Program, TermKind};
 use crate::legalize::{Registers, calls_of};
 use crate::syntax::ProgramName;
 use std::collections::BTreeMap;
+
+/// True where a program without a number begins after a `%` on both controls, and stays what it is.
+pub(super) fn both_nameless(source: &Control, target: &Control) -> bool {
+    source.names().nameless && target.names().nameless
+}
 
 /// What everything is called on the target.
 pub fn naming(module: &Module, registers: &Registers, names: &[(ProgramName, u32)]) -> Naming {

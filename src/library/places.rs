@@ -53,6 +53,15 @@ fn folded(part: Component<'_>) -> OsString {
     }
 }
 
+/// A path with `/` between its parts, wherever it is written down.
+pub fn slashed(path: &Path) -> String {
+    let parts = path.components().filter_map(|part| match part {
+        Component::Normal(part) => Some(part.to_string_lossy().into_owned()),
+        _ => None,
+    });
+    parts.collect::<Vec<_>>().join("/")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,7 @@
 //! A library as the passes get it: all files lowered into one module, with what was found in them.
 
 use super::chunks::lower::lower;
-use super::convert::both_nameless;
-use super::names::report_duplicates;
+use super::names::{both_nameless, report_duplicates};
 use super::{Input, machine_kind};
 use crate::diag::Diagnostic;
 use crate::dialect::Control;

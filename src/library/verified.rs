@@ -1,7 +1,7 @@
 //! Lets the verifier judge a conversion: what differs is refused, what is not decided is for review.
 
 use super::callees::{Callees, programs_of};
-use super::withdrawn::{cut, withdraw, written};
+use super::withdrawn::{Certificates, cut, withdraw, written};
 use super::{Conversion, Input, Outcome};
 use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
@@ -19,28 +19,6 @@ type Wanted = (usize, ProgramRef);
 
 /// The longest file that is verified beside its conversion, bytes: both are held in memory block by block.
 const LONGEST: usize = 8 << 20;
-
-/// The certificates of a conversion, by file.
-#[derive(Clone, Debug, Default)]
-pub struct Certificates {
-    /// Of the programs that are written: each is of the text that stands in the file.
-    pub written: Vec<Option<Certificate>>,
-    /// Of the programs that were converted and are not written: they differ, or call one that does.
-    pub withheld: Vec<Option<Certificate>>,
-    /// The other files that the runs of a file's programs, and of what calls them, may have come through: were they another
-    /// text, so might be what was found.
-    pub rest_on: Vec<BTreeSet<usize>>,
-}
-
-impl Certificates {
-    fn none(files: usize) -> Self {
-        Self {
-            written: vec![None; files],
-            withheld: vec![None; files],
-            rest_on: vec![BTreeSet::new(); files],
-        }
-    }
-}
 
 /// Verifies every program that was converted, and lets its outcome rest on that.
 ///

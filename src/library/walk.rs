@@ -1,59 +1,15 @@
 //! Finds the programs in a folder, and says of every other file why it is left out.
 
-use super::inputs::{InputError, slashed};
 use super::outputs::SIDECARS;
+use super::places::slashed;
+use super::unread::{InputError, LeftOut, WhyNot};
 use super::{Lock, Manifest, Project};
 use crate::dialect::registry;
 use ignore::WalkBuilder;
-use serde::Serialize;
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-
-/// A file or folder that was not read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
-    /// Where it is.
-    pub path: PathBuf,
-    /// Why.
-    pub why: WhyNot,
-}
-
-/// Why a file was not read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum WhyNot {
-    /// Its name begins with a dot.
-    Hidden,
-    /// An ignore file names it.
-    Ignored,
-    /// It is a link: what it leads to has a place of its own, or is none of the folder's.
-    Link,
-    /// Its ending is none that programs have.
-    Unknown,
-    /// It has no bytes.
-    Empty,
-    /// It is no text.
-    Binary,
-    /// An output folder: a run of macroglot wrote what it holds.
-    Written,
-}
-
-impl WhyNot {
-    /// The reason in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Hidden => "hidden",
-            Self::Ignored => "ignored",
-            Self::Link => "a link",
-            Self::Unknown => "with an unknown ending",
-            Self::Empty => "empty",
-            Self::Binary => "binary",
-            Self::Written => "written by macroglot",
-        }
-    }
-}
 
 /// What a folder holds.
 #[derive(Debug, Default)]

@@ -4,11 +4,33 @@
 //! of it still holds.
 
 use super::callees::Withdrawn;
-use super::verified::Certificates;
 use super::{Conversion, Input};
 use crate::verify::{Certificate, ProgramCertificate, sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+
+/// The certificates of a conversion, by file.
+#[derive(Clone, Debug, Default)]
+pub struct Certificates {
+    /// Of the programs that are written: each is of the text that stands in the file.
+    pub written: Vec<Option<Certificate>>,
+    /// Of the programs that were converted and are not written: they differ, or call one that does.
+    pub withheld: Vec<Option<Certificate>>,
+    /// The other files that the runs of a file's programs, and of what calls them, may have come through: were they another
+    /// text, so might be what was found.
+    pub rest_on: Vec<BTreeSet<usize>>,
+}
+
+impl Certificates {
+    /// Of as many files, none yet.
+    pub(super) fn none(files: usize) -> Self {
+        Self {
+            written: vec![None; files],
+            withheld: vec![None; files],
+            rest_on: vec![BTreeSet::new(); files],
+        }
+    }
+}
 
 /// What separates a program without a name from what stands before it.
 const FRAME: &str = "%\n";

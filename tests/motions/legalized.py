@@ -61,7 +61,7 @@ part.rapid(0.0, 0.0)
 for x, y in ((-3, 3), (-2, 2), (exp(1.5), log(20)), (95, 149), (30, 60), (90, 60), (-36.869897646, 126.869897646),
              (-135, tan(30)), (4, 12), (13, None)):
     part.rapid(least(x), None if y is None else least(y))
-part.to("haas", "functions/exponential.rs", "functions/rounding.rs", "functions/decimal.rs", "functions/modulo.rs",
+part.to("haas", "functions/exponential.rs", "functions/rounding.rs", "functions/decimal.rs", "functions/emulated.rs", "functions/modulo.rs",
         "functions/trigonometry.rs", "functions/mod.rs", "rewrite.rs")
 
 part = Short("fanuc", "dwells", "G82 dwells .5 s; G83 and G73 take no P, so they do not; G82 dwells again. G04: P in ms, X in seconds.")

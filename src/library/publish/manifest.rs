@@ -2,8 +2,8 @@
 //!
 //! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
 
-use crate::library::inputs::slashed;
 use crate::library::outputs::{read_file, read_text};
+use crate::library::places::slashed;
 use crate::verify::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

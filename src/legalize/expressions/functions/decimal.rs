@@ -1,6 +1,6 @@
 //! BIN and BCD, for whole numbers of up to eight digits.
 
-use super::{Emulated, apply, number};
+use super::emulated::{Emulated, apply, number};
 use crate::assume::Domain;
 use crate::canon::Func;
 use crate::ir::{BinOp, Expr};

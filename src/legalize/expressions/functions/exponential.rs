@@ -1,6 +1,6 @@
 //! EXP, LN and POW by series that need no loop.
 
-use super::{Emulated, apply, number};
+use super::emulated::{Emulated, apply, number};
 use crate::assume::Domain;
 use crate::canon::Func;
 use crate::dialect::Control;

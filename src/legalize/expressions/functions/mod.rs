@@ -5,30 +5,20 @@
 //! more than the last digit of binary64 brings a review diagnostic with its bound.
 
 mod decimal;
+mod emulated;
 mod exponential;
 mod modulo;
 mod rounding;
 mod trigonometry;
 
-use crate::assume::{Domain, Predicate};
+use crate::assume::Predicate;
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Expr, Program};
 use crate::legalize::{Context, Rewriter, rewrite_program};
+use emulated::{Emulated, missing};
 use thin_vec::ThinVec;
-
-/// What became of a function.
-enum Emulated {
-    /// The same value, to the last digit of the arithmetic.
-    Exact(Expr),
-    /// The same value within a bound, or inside a domain: the text says which.
-    Near(Expr, String),
-    /// As near, for such arguments only.
-    Inside(Expr, String, Domain),
-    /// Not to be had: why.
-    Missing(String),
-}
 
 /// Replaces the functions that the target lacks.
 pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
@@ -130,19 +120,4 @@ fn call(
         (Func::Pow, Some(power)) => exponential::pow(first, power, rewriter, target),
         _ => missing(function.name(), target),
     }
-}
-
-fn missing(function: &str, target: &Control) -> Emulated {
-    let title = &target.dialect().title;
-    Emulated::Missing(format!("{title} has no function '{function}', and no arithmetic gives it"))
-}
-
-/// The function of one argument.
-fn apply(function: Func, a: Expr) -> Expr {
-    Expr::Call(function, [a].into())
-}
-
-/// A constant.
-fn number(value: f64) -> Expr {
-    Expr::Number(value)
 }

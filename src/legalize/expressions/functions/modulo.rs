@@ -3,7 +3,8 @@
 //! Law: with a and b rounded to whole numbers, `a - FIX[a/b]*b` has the dividend's sign and is the remainder. Exact for
 //! whole numbers up to 2^53; a divisor of 0 stops the machine in the quotient as it does in MOD.
 
-use super::{Emulated, apply, missing, number, rounding};
+use super::emulated::{Emulated, apply, missing, number};
+use super::rounding;
 use crate::canon::Func;
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Expr};

@@ -1,6 +1,6 @@
 //! SGN, FUP, ROUND and rounding to places.
 
-use super::{Emulated, apply, number};
+use super::emulated::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};

@@ -1,6 +1,6 @@
 //! TAN, ASIN, ACOS and the two-argument ATAN.
 
-use super::{Emulated, apply, number};
+use super::emulated::{Emulated, apply, number};
 use crate::canon::Func;
 use crate::dialect::{Control, Question};
 use crate::ir::{BinOp, Cond, Expr, Relation};
