@@ -160,6 +160,7 @@ questions! {
     SubEndsAtNext "sub.ends.at.next" YES, "a subroutine at the head of a program ends where the next one begins", if "op:sub.area.end";
     SubAreaEntered "sub.area.entered" YES, "blocks before the subroutines at the head run first, then the \
                                             main part", if "op:sub.area.end";
+    SubsInCalled "subs.in.called" YES, "a program that others call may have subroutines of its own", if "statement:call.local";
     EndAlone "end.alone" YES, "the code that closes the subroutines ends a program that has none", if "op:sub.area.end";
     CycleEndEndsProgram "cycle.end.ends.program" YES, "the code that ends a called cycle ends any other program too", if "op:call.cycle";
     CallAfterWords "call.after.words" YES, "a subroutine that is called beside words runs when the words are done";

@@ -70,7 +70,7 @@ static ENTRIES: [Entry; 4] = [
         syntax::fadal::parse_line,
         lower::fadal::lower,
         |_, _| Vec::new(),
-        None,
+        Some(emit::fadal::emit),
         Some(control::fadal::execute),
         false
     ),

@@ -11,6 +11,7 @@
 //! share: `common`.
 
 mod common;
+pub mod fadal;
 pub mod fanuc;
 pub mod haas;
 pub mod macro_b;

@@ -71,7 +71,7 @@ pub use stmt::{
     StmtKind, TermKind, Terminator,
 };
 pub use validate::{Valid, validate};
-pub use var::{Class, FLAGS, LOCAL_FLAGS, Var};
+pub use var::{Class, FLAGS, LOCAL_FLAGS, Var, flag_of};
 
 use crate::syntax::{Label, ProgramName};
 use smallvec::SmallVec;

@@ -53,6 +53,11 @@ impl Var {
     }
 }
 
+/// What people and the lock call the flag of a variable.
+pub fn flag_of(name: &str) -> String {
+    format!("flag of {name}")
+}
+
 /// Flags of locals have numbers from here on.
 pub const LOCAL_FLAGS: u32 = 100;
 

@@ -67,6 +67,8 @@ pub(in crate::emit) struct Abilities<'c> {
     pub guarded: bool,
     /// `IF[..]THEN` before a macro statement.
     pub then: bool,
+    /// `IF[..]THEN` before an alarm or a message.
+    pub then_messages: bool,
     /// `IF[..]THEN` before words.
     pub then_words: bool,
     /// Loops inside one another; 0 where there is no WHILE.
@@ -165,10 +167,11 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
         }
         match (block.stmts.as_slice(), &block.term.kind) {
             ([stmt], TermKind::Jump(join)) => {
-                let macro_statement = matches!(
-                    stmt.kind,
-                    StmtKind::Assign { .. } | StmtKind::Alarm { .. } | StmtKind::StopMessage { .. }
-                );
+                let macro_statement = match stmt.kind {
+                    StmtKind::Assign { .. } => self.abilities.then,
+                    StmtKind::Alarm { .. } | StmtKind::StopMessage { .. } => self.abilities.then_messages,
+                    _ => false,
+                };
                 let words = matches!(stmt.kind, StmtKind::Nc(_));
                 *join == otherwise
                     && join.index() == body + 1
@@ -176,8 +179,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                     && shares_line(self.abilities.control, cond, &stmt.kind)
                     && stmt.site.skip.is_none()
                     && (stmt.site.sequence.is_none() || one_block(stmt.site.span))
-                    && ((macro_statement && self.abilities.then)
-                        || (words && self.abilities.then_words && one_block(stmt.site.span)))
+                    && (macro_statement || (words && self.abilities.then_words && one_block(stmt.site.span)))
             }
             ([], TermKind::Return { to }) => {
                 if to.is_some() && self.abilities.guarded {

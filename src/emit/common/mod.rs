@@ -12,3 +12,4 @@ pub mod lines;
 pub mod loops;
 pub mod reach;
 pub mod sheet;
+pub mod spellings;

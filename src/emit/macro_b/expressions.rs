@@ -1,10 +1,10 @@
 //! Expressions, with as few brackets as keep their tree, and as a reader needs.
 
 use super::Emitter;
-use super::spellings::Operator;
 use crate::canon::{Func, Sys};
 use crate::diag::Code;
 use crate::dialect::Question;
+use crate::emit::common::spellings::Operator;
 use crate::ir::{Bank, BinOp, Expr, Relation, Var};
 
 /// Expressions inside one another before the writer gives up; no control reads as many.

@@ -10,7 +10,6 @@ mod calls;
 mod conditions;
 mod expressions;
 mod program;
-mod spellings;
 mod statements;
 mod system;
 mod taken;
@@ -22,8 +21,8 @@ use super::{Naming, Writer};
 use crate::dialect::Control;
 use crate::emit::common::lines::Kind;
 use crate::emit::common::sheet::{Forms, Sheet};
+use crate::emit::common::spellings::Spellings;
 use crate::ir::{Program, SourceInfo};
-use spellings::Spellings;
 
 /// `O0001`, `N10`.
 const FORMS: Forms = Forms { sequence: 'N', program: 'O', program_digits: 4 };

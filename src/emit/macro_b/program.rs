@@ -73,6 +73,7 @@ impl<'p> Emitter<'p> {
             control,
             guarded: false,
             then: control.statement("if.then").is_some(),
+            then_messages: control.statement("if.then").is_some(),
             then_words: control.statement("if.then.words").is_some() || control.is(Question::ThenWords),
             loops: control.statement("while").and(depth).unwrap_or(0),
         }

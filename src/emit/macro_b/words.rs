@@ -2,9 +2,9 @@
 
 use super::Emitter;
 use super::expressions::Place;
-use super::spellings::{Code, Operand};
 use crate::canon::Role;
 use crate::dialect::{BareLength, CodeHead, Question};
+use crate::emit::common::spellings::{Code, Operand};
 use crate::ir::{BinOp, Expr, Nc, NcItem};
 use smallvec::SmallVec;
 

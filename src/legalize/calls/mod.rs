@@ -8,3 +8,13 @@ pub(in crate::legalize) mod modal_off;
 pub(in crate::legalize) mod nesting;
 pub(in crate::legalize) mod outline;
 pub(in crate::legalize) mod repeats;
+
+use crate::canon::{Op, Role};
+use crate::dialect::Control;
+use std::collections::BTreeMap;
+
+/// True if a modal call can name a program, and not only a subroutine of the program that it stands in.
+fn calls_programs(target: &Control) -> bool {
+    let row = target.code_for(Op::CallModal, &BTreeMap::new());
+    row.is_some_and(|row| row.words.values().any(|role| *role == Role::Program))
+}

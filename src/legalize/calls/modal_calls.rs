@@ -11,7 +11,7 @@
 //! A drilling cycle under a modal call is refused: no source says which of the two runs first, or whether both do.
 //! A code that runs the macro where the tool stands becomes a call on every target.
 
-use super::carried;
+use super::{calls_programs, carried};
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::computed_calls::CalledPrograms;
@@ -29,7 +29,7 @@ use std::collections::BTreeSet;
 
 /// Replaces modal calls by explicit ones.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let native = context.target.statement("call.modal").is_some();
+    let native = context.target.statement("call.modal").is_some() && calls_programs(context.target);
     if !native {
         increments::of_modal_calls(module, context);
         module.programs.iter_mut().for_each(carried::hold_arguments);

@@ -9,6 +9,7 @@
 //! Side condition: blocks that the main part reaches as well are copied, so an
 //! operator who edits one must edit both; the copies carry the same comments.
 
+use crate::dialect::Question;
 use crate::ir::{
     Block, BlockId, Callee, Comment, Module, Program, SourceInfo, StmtKind, TermKind, Terminator,
 };
@@ -20,7 +21,8 @@ use thin_vec::ThinVec;
 
 /// Gives each called block a program of its own, or its place after the program's end.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if context.target.statement("call.local").is_some() {
+    // A program that is called may not have any: no program is told apart by that, so none has.
+    if context.target.statement("call.local").is_some() && context.target.is(Question::SubsInCalled) {
         module.programs.iter_mut().for_each(move_behind);
         return;
     }

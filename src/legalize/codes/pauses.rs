@@ -4,12 +4,14 @@
 //! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
 //! change is left to the machine. What a stop ends matters after it where the program cuts before it says itself what
 //! runs: then the facts that no source confirms are named.
+//! What a message leaves running, and a stop that is written for it ends, is started again after it where it is known.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
 mod after;
 
-use crate::canon::{Group, Op, Pause, Running};
+use crate::canon::{Group, Op, Pause, Running, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
@@ -64,9 +66,9 @@ const LETS_GO: &str = "the M5 before this stop releases a spindle that M19 holds
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let stops = stops(module, context);
     let changes = !stops.is_empty();
-    for Stop { place: (index, id), before } in stops {
+    for Stop { place: (index, id), before, again } in stops {
         let Some(block) = module.programs[index].blocks.get_mut(id.index()) else { continue };
-        lay(block, before);
+        lay(block, before, &again);
     }
     changes
 }
@@ -76,6 +78,8 @@ struct Stop {
     place: (usize, BlockId),
     /// By the number of a statement, past the last for the end of the block.
     before: BTreeMap<usize, Vec<Op>>,
+    /// What is started again, by the number of the statement that it comes after.
+    again: Vec<(usize, Op)>,
 }
 
 /// The blocks in which something has to be ended.
@@ -98,10 +102,12 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
                 started: started[index],
                 holds,
                 after: &after,
+                again: Vec::new(),
             };
             let before = place.block(block, context);
-            if !before.is_empty() {
-                found.push(Stop { place: (index, id), before });
+            let again = std::mem::take(&mut place.again);
+            if !before.is_empty() || !again.is_empty() {
+                found.push(Stop { place: (index, id), before, again });
             }
         }
     }
@@ -114,14 +120,19 @@ fn stops_in(block: &Block) -> bool {
     ends || block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
 }
 
-/// Puts what ends something before the stops of a block.
-fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>) {
-    let more = before.values().map(Vec::len).sum::<usize>() + before.len();
+/// Puts what ends something before the stops of a block, and after them what is started again.
+fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>, again: &[(usize, Op)]) {
+    let more = before.values().map(Vec::len).sum::<usize>() + before.len() + again.len();
     let mut out = Vec::with_capacity(block.stmts.len() + more);
     for (at, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
+        let (span, skip) = (stmt.site.span, stmt.site.skip);
         match before.remove(&at) {
             Some(before) => ended(before, stmt, &mut out),
             None => out.push(stmt),
+        }
+        for (_, op) in again.iter().filter(|(stop, _)| *stop == at) {
+            let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(*op)] });
+            out.push(Stmt { kind, site: SourceInfo { span, skip, ..SourceInfo::default() } });
         }
     }
     let span = block.term.site.span;
@@ -193,6 +204,14 @@ fn restarts(kind: &StmtKind, running: Running) -> bool {
     matches!(kind, StmtKind::Nc(nc) if nc.has(Op::ToolChange) && starts(running).iter().any(|op| nc.has(*op)))
 }
 
+/// The kind of stop that is written for one: a message is a program stop on a control that has none.
+fn written(pause: Pause, target: &Control) -> Pause {
+    match pause {
+        Pause::Message if target.system_runs(Sys::StopMessage).next().is_none() => Pause::Stop,
+        pause => pause,
+    }
+}
+
 /// A place in a program.
 struct Place<'p> {
     index: usize,
@@ -207,6 +226,8 @@ struct Place<'p> {
     /// True if some program of the library holds the spindle at an angle.
     holds: bool,
     after: &'p After<'p>,
+    /// What the target ends at the stop and the source does not: it is started again after it.
+    again: Vec<(usize, Op)>,
 }
 
 impl Place<'_> {
@@ -261,7 +282,8 @@ impl Place<'_> {
             if !self.may_run(running) || self.restarted[running as usize] {
                 continue;
             }
-            let (here, there) = (context.source.ends(pause, running), context.target.ends(pause, running));
+            let here = context.source.ends(pause, running);
+            let there = context.target.ends(written(pause, context.target), running);
             let matters = self.after.matters(self.index, self.id, number, running);
             if matters && !here.known {
                 context.rests_on_source(self.index, span, here.question);
@@ -286,8 +308,14 @@ impl Place<'_> {
                     self.tell(pause, there, span, context);
                 }
             }
-            if here.answer == Some(false) && there.answer != Some(false) && matters {
-                self.tell(pause, there, span, context);
+            let sure = pause == Pause::Message && there.known && there.answer == Some(true);
+            let again = self.state.op(ends(running).0).filter(|op| starts(running).contains(op));
+            match again.filter(|_| sure && here.answer != Some(true)) {
+                Some(op) if matters => self.again.push((number - 1, op)),
+                None if here.answer == Some(false) && there.answer != Some(false) && matters => {
+                    self.tell(pause, there, span, context);
+                }
+                _ => {}
             }
             // A stop that is passed over ends nothing.
             if here.answer == Some(true) && !optional && !self.skipped {

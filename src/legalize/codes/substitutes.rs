@@ -16,6 +16,16 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
     (Op::Mist, Some(Op::Flood), "the target has no mist coolant: flood coolant is switched on instead"),
     (Op::Flood, Some(Op::Mist), "the target has no flood coolant: mist coolant is switched on instead"),
     (
+        Op::ExactStop,
+        None,
+        "exact stop is dropped: the target has no such code, and rounds corners or stops at them as it is set",
+    ),
+    (
+        Op::CuttingMode,
+        None,
+        "the end of exact stop is dropped: the target has no such code, and rounds corners or stops at them as it is set",
+    ),
+    (
         Op::RampsOff,
         None,
         "acceleration ramps off is dropped: the target has no such code, and rounds corners or stops at \

@@ -8,4 +8,5 @@ pub(in crate::legalize) mod rapid_once;
 pub(in crate::legalize) mod reference;
 pub(in crate::legalize) mod shaped;
 pub(in crate::legalize) mod shift;
+pub(in crate::legalize) mod unit_checks;
 pub(in crate::legalize) mod units;

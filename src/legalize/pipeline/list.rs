@@ -13,7 +13,7 @@ use crate::legalize::expressions::{conditions, constants, functions, operands, s
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{blanks, program_numbers, sequence_numbers};
 use crate::legalize::moves::{
-    bare_arcs, increments, lathe, polar, rapid_once, reference, shaped, shift, units,
+    bare_arcs, increments, lathe, polar, rapid_once, reference, shaped, shift, unit_checks, units,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, length_radius, offset_rows, position_length, set_position,
@@ -165,6 +165,9 @@ const MOVES: &[Pass] = &[
     Pass::edits("units", "programs that name no unit get one", units::run)
         .when(units::concerns)
         .needs(&["increments", "modal-calls"]),
+    Pass::rewrites("unit-checks", "a unit that the target cannot select is checked", unit_checks::run)
+        .when(unit_checks::concerns)
+        .needs(&["units"]),
     Pass::rewrites(
         "rapid-once",
         "the interpolation is written again after a rapid move that keeps it",

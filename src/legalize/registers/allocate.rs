@@ -7,8 +7,8 @@
 
 use super::clear;
 use super::locked::{self, Locked};
-use super::map::{Register, Registers, is_own};
-use super::names::{class_of, keeps_number, name_of, reached};
+use super::map::{Register, Registers};
+use super::names::{class_of, keeps_number, name_of, numbers_alike, reached};
 use super::needs::class_of_colour;
 use super::pool::Pool;
 use super::runs::{banks, point, run_of};
@@ -57,7 +57,8 @@ fn allocate(
     let kept: BTreeSet<Var> = users.keys().copied().filter(|var| keeps_number(*var, context)).collect();
     let effective = locked::settle(module, locked, &kept, &banked, context);
     let mut pool = Pool::new(context, &effective, locked);
-    let mut registers = Registers { freed: effective.freed.clone(), ..Registers::default() };
+    let mut registers =
+        Registers { freed: effective.freed.clone(), alike: numbers_alike(context), ..Registers::default() };
     registers.reached = context.reached.sure.clone();
     registers.reached.join(&context.reached.everything(context.source, context.target));
     for var in kept {
@@ -90,7 +91,7 @@ fn allocate(
         registers.of.insert(var, Register { name: place, number });
     }
     locked::check(module, &effective.variables, &registers, context);
-    let moved = registers.of.iter().filter(|(var, register)| !is_own(var, register));
+    let moved = registers.of.iter().filter(|(var, register)| !registers.is_own(var, register));
     let named = moved.filter_map(|(var, _)| Some((*var, name_of(*var, module, context.source)?)));
     registers.names = named.collect();
     point(module, &runs);

@@ -28,6 +28,8 @@ pub struct Registers {
     pub freed: BTreeSet<String>,
     /// Numbers that programs reach by computing them, or may.
     pub reached: Numbers,
+    /// True if a variable of the source may have its own name on the target.
+    pub alike: bool,
     /// The names on the source of variables that have another number now.
     pub names: BTreeMap<Var, String>,
 }
@@ -35,12 +37,16 @@ pub struct Registers {
 impl Registers {
     /// The registers that hold something else than the variable of their number.
     pub fn taken(&self) -> impl Iterator<Item = u32> + '_ {
-        self.of.iter().filter(|(var, register)| !is_own(var, register)).map(|(_, register)| register.number)
+        self.of
+            .iter()
+            .filter(|(var, register)| !self.is_own(var, register))
+            .map(|(_, register)| register.number)
     }
 
     /// The registers that hold the variable of their number, locals aside.
     pub fn own(&self) -> impl Iterator<Item = u32> + '_ {
-        let own = self.of.iter().filter(|(var, register)| is_own(var, register) && var.class != Class::Local);
+        let own =
+            self.of.iter().filter(|(var, register)| self.is_own(var, register) && var.class != Class::Local);
         own.map(|(_, register)| register.number)
     }
 
@@ -49,9 +55,9 @@ impl Registers {
         let named = self.of.iter().filter(|(var, _)| !matches!(var.class, Class::Temp | Class::Static));
         named.map(|(_, register)| register.number)
     }
-}
 
-/// True where a variable is in the register of its own number.
-pub(super) fn is_own(var: &Var, register: &Register) -> bool {
-    var.class.nullable() && var.number == register.number
+    /// True where a variable is in the register of its own name.
+    pub(super) fn is_own(&self, var: &Var, register: &Register) -> bool {
+        self.alike && var.class.nullable() && var.number == register.number
+    }
 }

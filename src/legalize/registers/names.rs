@@ -1,6 +1,6 @@
 //! What variables, and the spaces that they are in, are called.
 
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{Bank, Class, Module, Var};
 use crate::legalize::Context;
 
@@ -58,12 +58,20 @@ pub(in crate::legalize) fn name_of(var: Var, module: &Module, source: &Control) 
     Some(format!("{name}{}", var.number))
 }
 
+/// True if variables that may be vacant have the same numbers on both controls: where there are such, they have.
+pub(super) fn numbers_alike(context: &Context<'_>) -> bool {
+    context.target.is(Question::Vacancy)
+}
+
 /// True for a variable whose number the target has too.
 pub(super) fn keeps_number(var: Var, context: &Context<'_>) -> bool {
     let name = pool_name(context.target);
     let there = context.target.variable_class(&name, var.number);
     let same_kind = there.is_some_and(|row| (row.class == "local") == (var.class == Class::Local));
-    var.class.nullable() && same_kind && !context.target.is_reserved(&name, var.number)
+    var.class.nullable()
+        && numbers_alike(context)
+        && same_kind
+        && !context.target.is_reserved(&name, var.number)
 }
 
 /// The name that the target's registers have before their number.

@@ -14,9 +14,10 @@ mod marks;
 mod write;
 
 use crate::dialect::Question;
-use crate::ir::Module;
+use crate::ir::{Module, flag_of};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::registers::names::name_of;
 use marks::Marks;
 
 /// Words of a block that may be vacant, at the most: each doubles the blocks.
@@ -34,16 +35,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let summaries = context.summaries(module);
     let marks = Marks::of(module, &summaries);
     marks.refuse(module, context);
-    name(module, &marks);
+    name(module, &marks, context);
     for index in 0..module.programs.len() {
         write::program(index, &mut module.programs[index], &marks);
     }
 }
 
 /// People and the lock know a flag by the name of its variable.
-fn name(module: &mut Module, marks: &Marks) {
+fn name(module: &mut Module, marks: &Marks, context: &Context<'_>) {
     for var in marks.shared() {
-        let name = module.names.get(&var).cloned().unwrap_or_else(|| var.to_string());
-        module.names.insert(var.flag(), format!("flag of {name}"));
+        if let Some(name) = name_of(var, module, context.source) {
+            module.names.insert(var.flag(), flag_of(&name));
+        }
     }
 }

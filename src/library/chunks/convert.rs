@@ -325,6 +325,7 @@ mod tests {
             .iter()
             .filter(|entry| entry.emit.is_some())
             .filter_map(|entry| Control::plain(entry.name))
+            .filter(|control| control.is(Question::Vacancy))
             .collect();
         let input = Input { path: "a.nc".into(), name: "a.nc".into(), bytes: program(2_000).into_bytes() };
         let inputs = [input];
@@ -351,6 +352,7 @@ mod tests {
             .iter()
             .filter(|entry| entry.emit.is_some())
             .filter_map(|entry| Control::plain(entry.name))
+            .filter(|control| control.is(Question::Vacancy))
             .collect();
         let bytes = program(600).replace("(ONLY WORDS)", "M38").replace("M8\n", "M8 (\u{dc})\n").into_bytes();
         let many = String::from_utf8_lossy(&bytes).matches("M38").count();
@@ -382,6 +384,7 @@ mod tests {
                 .iter()
                 .filter(|entry| entry.emit.is_some())
                 .filter_map(|entry| Control::plain(entry.name))
+                .filter(|control| control.is(Question::Vacancy))
                 .collect();
             let lock = Lock::new(controls[0].name(), controls[1].name());
             let sizes = Sizes { long: 0, piece: 10 };

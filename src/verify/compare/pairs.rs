@@ -9,6 +9,7 @@ use super::loose::{Found, farthest};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn};
+use super::shown::{as_messages, lacks_messages};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
 };
@@ -31,7 +32,10 @@ pub fn compare<'r>(
 ) -> Comparison<'r> {
     let cut = is_cut(source.1) || is_cut(target.1);
     let mut found = farthest([source.1, target.1], |[ours, theirs]| {
-        let (ours, theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
+        let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
+        if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
+            (ours, theirs) = (as_messages(ours), as_messages(theirs));
+        }
         let found = Comparison::default();
         let mut pairs = Pairs {
             target: target.0,

@@ -36,12 +36,13 @@ pub(super) fn variables_differ<'r>(
         let is_nullable = class.nullable;
         let may_be_there = || class_of(target.0.control, &there).is_some_and(|class| class.nullable);
         let (a, b) = (value(source.1, name, &|| is_nullable), value(target.1, &there, &may_be_there));
-        // What a control without vacancy never wrote is vacant on one that has it, and reads as 0 there.
+        // What a control without vacancy never wrote is vacant on one that has it, and reads as 0 there; what is vacant
+        // on the source is 0 on a target without vacancy.
         let never = |a: Option<f64>, b: Option<f64>| b.is_none() && a == Some(0.0);
         let same = match (a, b) {
             (Some(a), Some(b)) => (a - b).abs() <= HAIR * a.abs().max(b.abs()).max(1.0),
             (None, None) => true,
-            _ => !is_nullable && never(a, b),
+            _ => !is_nullable && never(a, b) || !may_be_there() && never(b, a),
         };
         if same {
             continue;
@@ -72,11 +73,12 @@ pub fn writes_elsewhere(
     }
     let all: BTreeSet<&String> = run.variables.keys().chain(began.keys()).collect();
     let (from, to) = (source.control, target.control);
+    // A register that the control itself writes, such as the one of an arc's radius, holds nothing of anybody's.
     let is_scratch = |name: &str| {
         let prefixes = to.classes().iter().map(|row| row.name.as_str());
         prefixes.into_iter().any(|prefix| {
             let number = name.strip_prefix(prefix).and_then(|number| number.parse::<u32>().ok());
-            number.is_some_and(|number| names.scratch.contains(&number))
+            number.is_some_and(|number| names.scratch.contains(&number) || to.is_in_use(prefix, number))
         })
     };
     let found = all.into_iter().find(|name| {

@@ -4,6 +4,7 @@ use super::verifier::Verifier;
 use crate::canon::Op;
 use crate::control::{ProgramRef, Scenario};
 use crate::verify::certificate::Why;
+use crate::verify::compare::lacks;
 use crate::verify::entry::given;
 use crate::verify::explore::unit;
 use crate::verify::sides::{EntryState, Job};
@@ -20,7 +21,8 @@ impl Verifier<'_, '_> {
         } else if self.witness.is_some() {
             self.each_as_called(own, there);
         }
-        for inch in self.given.both_units().filter(|inch| *inch != own).collect::<Vec<_>>() {
+        let selects = !lacks(self.job.target, Op::Inch);
+        for inch in self.given.both_units().filter(|inch| selects && *inch != own).collect::<Vec<_>>() {
             if self.witness.is_none() {
                 let other = self.begun_as(self.given.in_unit(inch), there);
                 (self.witness, self.shown) = (other.witness, other.shown);

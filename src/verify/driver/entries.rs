@@ -7,11 +7,12 @@
 
 use super::verifier::{Pair, Verifier};
 use crate::assume::Predicate;
+use crate::canon::Op;
 use crate::control::trace::Event;
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::dialect::Units;
 use crate::verify::certificate::Why;
-use crate::verify::compare::{Difference, compare, is_cut};
+use crate::verify::compare::{Difference, compare, is_cut, lacks};
 use crate::verify::entry::{Start, UNIT, starts};
 use crate::verify::sides::{Side, SymbolMap};
 use std::collections::BTreeSet;
@@ -191,6 +192,8 @@ impl Verifier<'_, '_> {
         let other = !inch.or(stated[0]).unwrap_or(false);
         match stated {
             _ if self.is_assumed(&UNIT) => Some([other; 2]),
+            // A program that selects its unit checks it on such a target, and stops where it is not so.
+            _ if lacks(self.job.target, Op::Inch) => None,
             [Some(_), Some(_)] => None,
             [Some(_), None] if self.returns => None,
             [None, _] if self.returns => Some([other; 2]),

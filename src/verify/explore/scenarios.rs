@@ -7,6 +7,7 @@ use crate::control::scenario::{Axes, Probe, StateValue, Tool};
 use crate::control::trace::EventKind;
 use crate::control::{Run, Scenario};
 use crate::dialect::{Control, Units};
+use crate::ir::flag_of;
 use crate::verify::sides::{Effort, Side, SymbolMap, class_of};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -352,6 +353,10 @@ pub fn on_target(
         }
         if let Some(name) = names.variable(name, source.control, target.control) {
             out.variables.insert(name, *value);
+        }
+        // Whoever gives a variable a value on a target without vacancy says so in its flag.
+        if let Some(flag) = names.variable(&flag_of(name), source.control, target.control) {
+            out.variables.insert(flag, 1.0);
         }
     }
     // What a program that is called finds its callers have seen to, whether it is known to read it or not.

@@ -24,8 +24,10 @@ pub fn inputs_of_both(
     let (ours, theirs) = (labels(source, program), labels(target, there));
     let one_sided = theirs.difference(&ours).chain(ours.difference(&theirs));
     let order: Vec<u32> = one_sided.chain(ours.intersection(&theirs)).copied().take(LABELS).collect();
-    let mut found = inputs_by(source, program, &order);
-    let other = inputs_by(target, there, &order);
+    // A target without locals gets what it is called with in registers: nothing can give those to a program by itself.
+    let locals = target.control.classes().iter().any(|row| row.class == "local");
+    let mut found = inputs_by(source, program, locals, &order);
+    let other = inputs_by(target, there, true, &order);
     let mut places = Vec::new();
     for input in other.variables {
         places.push(add(&mut found, input, (source, target), names, called));

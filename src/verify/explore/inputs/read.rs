@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 /// Reads a program.
 pub fn inputs(side: &Side<'_>, program: ProgramRef) -> Inputs {
-    inputs_by(side, program, &labels(side, program).into_iter().take(LABELS).collect::<Vec<_>>())
+    inputs_by(side, program, true, &labels(side, program).into_iter().take(LABELS).collect::<Vec<_>>())
 }
 
 /// Labels that a computed jump is sent to, at the most, where one side is looked at.
@@ -25,11 +25,11 @@ pub fn labels(side: &Side<'_>, program: ProgramRef) -> BTreeSet<u32> {
     items.filter_map(number).collect()
 }
 
-/// Reads a program whose computed jumps are sent to these labels.
-pub fn inputs_by(side: &Side<'_>, program: ProgramRef, order: &[u32]) -> Inputs {
+/// Reads a program whose computed jumps are sent to these labels; `locals` if it may be given some.
+pub fn inputs_by(side: &Side<'_>, program: ProgramRef, locals: bool, order: &[u32]) -> Inputs {
     let mut reader = Reader::new(side.control);
     for (at, one) in side.links().called_from(program, |_| true).into_iter().enumerate() {
-        reader.own = at == 0;
+        reader.own = at == 0 && locals;
         reader.labels =
             if at == 0 { order.to_vec() } else { labels(side, one).into_iter().take(LABELS).collect() };
         side.text(one).iter().for_each(|block| reader.items(&block.items, at == 0));

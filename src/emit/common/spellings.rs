@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use std::collections::BTreeMap;
 
 /// A code as it is written.
-pub(super) struct Code<'c> {
+pub(in crate::emit) struct Code<'c> {
     /// The code with the constant words that select it: `G1`, `G10 L2`.
     pub text: String,
     /// What the table says of it.
@@ -20,7 +20,7 @@ pub(super) struct Code<'c> {
 
 /// A binary operator as it is written.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Operator<'c> {
+pub(in crate::emit) struct Operator<'c> {
     /// Its spelling; empty where the control lacks it.
     pub text: &'c str,
     /// Its rank from 1; 0 if nobody says for sure how tight it binds.
@@ -28,7 +28,7 @@ pub(super) struct Operator<'c> {
 }
 
 /// The spellings of a control.
-pub(super) struct Spellings<'c> {
+pub(in crate::emit) struct Spellings<'c> {
     control: &'c Control,
     codes: Vec<Code<'c>>,
     /// For each operation: the codes that do it.
@@ -68,7 +68,7 @@ struct Letter {
 
 /// What is known of an operand when the code is chosen.
 #[derive(Clone, Copy)]
-pub(super) enum Operand {
+pub(in crate::emit) enum Operand {
     /// No word has the role.
     None,
     /// It is this number.

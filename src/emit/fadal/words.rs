@@ -1,0 +1,159 @@
+//! Blocks of words.
+//!
+//! A word takes a number or one R variable with a sign; a number that is no whole word has a point. R itself is written
+//! `R0` and a sign, as the control wants it (seed 000:19 to 31; facts/fadal-target.md 2).
+
+use super::Emitter;
+use super::lines::Kind;
+use crate::canon::{Op, Role};
+use crate::emit::common::spellings::{Code, Operand};
+use crate::ir::{Expr, Nc, NcItem, SourceInfo};
+use smallvec::SmallVec;
+
+impl<'p> Emitter<'p> {
+    /// Writes a block of words. G53 stands with no other G code, so those beside it go before it (facts/fadal-target.md 5).
+    pub(super) fn block_of_words(&mut self, site: &'p SourceInfo, nc: &Nc) {
+        let is_g = |op| self.spellings.bare_code(op).is_some_and(|code| !code.is_m());
+        let before = |item: &NcItem| matches!(item, NcItem::Op(op) if *op != Op::MachineOnce && is_g(*op));
+        if nc.has(Op::MachineOnce) && nc.items.iter().any(before) {
+            let (first, rest): (Vec<_>, Vec<_>) = nc.items.iter().cloned().partition(before);
+            for items in [first, rest] {
+                self.block_of_words(site, &Nc { items });
+            }
+            return;
+        }
+        self.begin(site, Kind::Words);
+        self.words(nc);
+        self.finish();
+    }
+
+    /// Writes the words of a block, in the order they were written in.
+    fn words(&mut self, nc: &Nc) {
+        let codes = self.codes(nc);
+        let known: SmallVec<[&Code; 8]> = codes.iter().flatten().copied().collect();
+        self.check_m_codes(&known);
+        let mut used: SmallVec<[char; 12]> = SmallVec::new();
+        let mut codes = codes.iter();
+        for item in &nc.items {
+            match item {
+                NcItem::Op(_) => {
+                    if let Some(Some(code)) = codes.next() {
+                        self.word(&code.text);
+                    }
+                }
+                NcItem::Word(role, value) => self.role_word(*role, value, &known, &mut used),
+                NcItem::Code(letter, _) => self.out.unmapped(format_args!("a computed {letter} code")),
+            }
+        }
+    }
+
+    /// The code of each operation; none for one that a word beside it does by itself.
+    fn codes(&mut self, nc: &Nc) -> SmallVec<[Option<&'p Code<'p>>; 8]> {
+        let (spellings, control) = (self.spellings, self.control);
+        let mut codes = SmallVec::new();
+        for op in nc.ops() {
+            let code = spellings.code(op, |role| match nc.word(role).map(Expr::constant) {
+                None => Operand::None,
+                Some(Some(number)) => Operand::Constant(number),
+                Some(None) => Operand::Computed(0.0),
+            });
+            let by_word = || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some());
+            if op.is_flow() || (code.is_none() && !by_word()) {
+                self.out.unmapped(format_args!("the operation '{op}' with these words"));
+            }
+            codes.push(code.filter(|_| !by_word()));
+        }
+        codes
+    }
+
+    /// No more M codes than the control takes, and none of more than two digits (facts/fadal-target.md 5).
+    fn check_m_codes(&mut self, codes: &[&Code]) {
+        let most = self.spellings.m_codes;
+        if codes.iter().filter(|code| code.is_m()).count() > most {
+            self.out.unmapped(format_args!("more than {most} M codes in one block"));
+        }
+    }
+
+    /// Writes a word, unless the code beside it says the same.
+    fn role_word(&mut self, role: Role, value: &Expr, codes: &[&Code], used: &mut SmallVec<[char; 12]>) {
+        if codes.iter().any(|code| code.row.fixed.contains_key(&role)) {
+            return;
+        }
+        let spellings = self.spellings;
+        let Some(((letter, false), code)) = spellings.letter(role, codes) else {
+            let meaning = role.meaning().trim().trim_end_matches('.');
+            return self
+                .out
+                .unmapped(format_args!("the word '{role}' ({meaning}) here: no letter has this meaning"));
+        };
+        let misread = codes
+            .iter()
+            .any(|code| code.words.iter().any(|((other, _), meaning)| *other == letter && *meaning != role));
+        if misread || used.contains(&letter) {
+            return self.out.unmapped(format_args!("the word '{role}' here: {letter} means something else"));
+        }
+        used.push(letter);
+        self.space();
+        self.out.push(letter);
+        if letter == 'R' {
+            self.out.push('0');
+        }
+        let value = match value.constant() {
+            Some(number) if spellings.is_shifted(role, code) => {
+                match self.control.written(code.map(|code| code.row), role, number) {
+                    Some(written) => &Expr::Number(written),
+                    None => return self.out.unmapped(format_args!("{number} as the word '{role}'")),
+                }
+            }
+            None if spellings.is_shifted(role, code) => {
+                return self.out.unmapped(format_args!("a computed value of the word '{role}'"));
+            }
+            _ => value,
+        };
+        self.word_value(role, value, letter == 'R');
+    }
+
+    /// Writes the value of a word: `10.`, `+R9`, `-R9`; `signed` where a sign must stand.
+    pub(super) fn word_value(&mut self, role: Role, value: &Expr, signed: bool) {
+        let negated = match value {
+            Expr::Negate(inner) => Some(&**inner),
+            _ => None,
+        };
+        match (value.constant(), value, negated) {
+            (Some(number), ..) => {
+                if signed && !number.is_sign_negative() {
+                    self.out.push('+');
+                }
+                self.literal(role, number);
+            }
+            (_, Expr::Var(var), _) => {
+                self.out.push('+');
+                self.parametric(*var);
+            }
+            (.., Some(Expr::Var(var))) => {
+                self.out.push('-');
+                self.parametric(*var);
+            }
+            _ => self.out.unmapped(format_args!("a computed value of the word '{role}'")),
+        }
+    }
+
+    /// A word takes R alone.
+    fn parametric(&mut self, var: crate::ir::Var) {
+        let register = self.names.variable(var);
+        if register.is_some_and(|register| &*register.name == "R") {
+            self.variable(var);
+        } else {
+            self.out.unmapped("a variable in a word that is no R");
+        }
+    }
+
+    fn literal(&mut self, role: Role, value: f64) {
+        let whole = role.is_integer() || matches!(role, Role::DwellMs | Role::CycleDwell);
+        match whole {
+            false => self.out.number(value, true),
+            true if value.fract() == 0.0 => self.out.number(value, false),
+            true => self.out.unmapped(format_args!("a fraction in the word '{role}'")),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Stops with a message and alarms, where the target has neither: it shows a text and then stops, or halts.
+//!
+//! An operator sees the same: the text, and a machine that stands. So a text that is shown right before a stop is read as
+//! the message of that stop, on both sides, and `ALARM 1 TEXT` before a halt of the control as the program's own alarm.
+
+use super::observe::Act;
+use crate::canon::Sys;
+use crate::control::Stop;
+use crate::control::trace::EventKind;
+use crate::dialect::Control;
+use std::borrow::Cow;
+
+/// True if the control has no stop with a message and no alarm of the program's own, but shows texts.
+pub fn lacks_messages(control: &Control) -> bool {
+    control.statement("print").is_some() && control.system_runs(Sys::StopMessage).next().is_none()
+}
+
+/// Reads texts before stops as messages.
+pub fn as_messages(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+    let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
+    for act in acts {
+        let shown = match out.last().map(|last| &*last.what) {
+            Some(EventKind::Output { text }) => message(text, &act.what),
+            _ => None,
+        };
+        match shown {
+            Some(what) => {
+                out.pop();
+                out.push(Act { what: Cow::Owned(what), ..act });
+            }
+            None => out.push(act),
+        }
+    }
+    out
+}
+
+/// What a text and the act after it are together.
+fn message(text: &str, next: &EventKind) -> Option<EventKind> {
+    match next {
+        EventKind::Stop => Some(EventKind::Message { text: text.to_owned() }),
+        EventKind::Alarm(stop) if stop.program_number.is_none() => {
+            let (number, text) = text.strip_prefix("ALARM ")?.split_once(' ').unwrap_or_default();
+            let stop =
+                Stop { program_number: Some(number.parse().ok()?), text: text.to_owned(), ..stop.clone() };
+            Some(EventKind::Alarm(stop))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_a_message_only_right_before_a_stop() {
+        let stop = Stop::alarm("", "root of a negative number");
+        let said = |text: &str| match message(text, &EventKind::Alarm(stop.clone())) {
+            Some(EventKind::Alarm(stop)) => Some((stop.program_number, stop.text)),
+            _ => None,
+        };
+        assert_eq!(said("ALARM 12 TOO DEEP"), Some((Some(12.0), "TOO DEEP".into())));
+        assert_eq!(said("ALARM X TOO DEEP"), None);
+        assert_eq!(said("TOO DEEP"), None);
+        let text = || "TURN THE PART".to_owned();
+        assert_eq!(message(&text(), &EventKind::Stop), Some(EventKind::Message { text: text() }));
+        assert_eq!(message(&text(), &EventKind::OptionalStop), None);
+    }
+}
