@@ -27,8 +27,12 @@ pub fn machine(dialect: &str, metric: bool) -> &'static Control {
     MACHINES[usize::from(metric)].iter().find(named).expect("a dialect")
 }
 
+/// Targets that are not finished: all that is written for them is for review.
+const UNFINISHED: &[&str] = &["fadal"];
+
 /// Machines that conversions are written for, but for one dialect.
 pub fn targets(from: &str, metric: bool) -> impl Iterator<Item = &'static Control> {
     let of = &MACHINES[usize::from(metric)];
-    of.iter().filter(move |target| target.name() != from && target.entry().emit.is_some())
+    let written = |target: &&Control| target.entry().emit.is_some() && !UNFINISHED.contains(&target.name());
+    of.iter().filter(move |target| target.name() != from && written(target))
 }
