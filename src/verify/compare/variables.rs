@@ -75,10 +75,13 @@ pub fn writes_elsewhere(
     let (from, to) = (source.control, target.control);
     // A register that the control itself writes, such as the one of an arc's radius, holds nothing of anybody's.
     let is_scratch = |name: &str| {
+        let of_words = class_of(to, name).is_some_and(|class| class.class == "parametric");
         let prefixes = to.classes().iter().map(|row| row.name.as_str());
         prefixes.into_iter().any(|prefix| {
             let number = name.strip_prefix(prefix).and_then(|number| number.parse::<u32>().ok());
-            number.is_some_and(|number| names.scratch.contains(&number) || to.is_in_use(prefix, number))
+            number.is_some_and(|number| {
+                names.scratch.contains(&number) || (of_words && to.is_in_use(prefix, number))
+            })
         })
     };
     let found = all.into_iter().find(|name| {
