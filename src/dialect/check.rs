@@ -86,6 +86,7 @@ pub const STATEMENTS: &[&str] = &[
     "step",
     "timer",
     "table.transfer",
+    "test.unit",
     "assign.sign",
     "call.macro",
     "call.modal",

@@ -103,7 +103,7 @@ static ENTRIES: [Entry; 4] = [
         syntax::cc100::parse_line,
         lower::cc100::lower,
         |_, _| Vec::new(),
-        None,
+        Some(emit::cc100::emit),
         Some(control::cc100::execute),
         false
     ),

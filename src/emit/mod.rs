@@ -10,6 +10,7 @@
 //! Each dialect has one submodule; what a family of them shares is a module as well: [`macro_b`], and so is what all targets
 //! share: `common`.
 
+pub mod cc100;
 mod common;
 pub mod fadal;
 pub mod fanuc;

@@ -45,6 +45,8 @@ pub struct Context<'a> {
     pub locked: Locked<'a>,
     /// The temporaries and statics that are needed after calls, from the pass `temporaries` on.
     pub(super) over_calls: BTreeSet<Var>,
+    /// What programs hold copies of, from the pass `merged` on.
+    pub copied: Vec<Copied>,
     /// The register of each variable, from the pass `registers` on.
     pub registers: Registers,
     /// The number of each program, from the pass `program-numbers` on.
@@ -58,6 +60,19 @@ pub struct Context<'a> {
     rested: HashSet<(usize, Side, Question)>,
     /// What is said of those that nothing confirms.
     facts: HashMap<(Side, Question), Diagnostic>,
+}
+
+/// A program whose blocks another one holds a copy of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Copied {
+    /// Who holds it, by program of the source.
+    pub caller: usize,
+    /// What it is a copy of.
+    pub callee: usize,
+    /// Where the call stands.
+    pub span: Span,
+    /// What the copied program is called on the source.
+    pub name: String,
 }
 
 #[derive(Debug, Default)]
@@ -111,6 +126,7 @@ impl<'a> Context<'a> {
             level: Level::default(),
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
+            copied: Vec::new(),
             registers: Registers::default(),
             numbers: ProgramNumbers::default(),
             m_codes: OnceCell::new(),

@@ -28,7 +28,7 @@ mod rewrite;
 mod variables;
 
 pub use crate::ir::analysis::{Modal, ModalFacts, Setting, calls_of, reachable, replace_statements, span_of};
-pub use context::Context;
+pub use context::{Context, Copied};
 pub use expressions::split::shares_line;
 pub use layout::program_numbers::ProgramNumbers;
 pub use registers::locked::Locked;

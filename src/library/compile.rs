@@ -41,6 +41,7 @@ pub(super) fn make(
     let registers = std::mem::take(&mut context.registers);
     let numbers = std::mem::take(&mut context.numbers);
     let origins = std::mem::take(&mut context.origins);
+    let copied = std::mem::take(&mut context.copied);
     let legal = context.into_findings();
     lock.take(&registers, numbers.chosen);
     let taken = Numbers::of(registers.taken().map(|number| (number, number)));
@@ -66,7 +67,8 @@ pub(super) fn make(
         }
     }
     let write = target.entry().emit.map(|emit| emit(&naming, target));
-    let links = refused_calls::links(&module, &origins);
+    let mut links = refused_calls::links(&module, &origins);
+    links.extend(copied.into_iter().map(Link::of_copy));
     // Each program is checked when it is at hand, and dropped when it is written.
     let programs = std::mem::take(&mut module.programs);
     let emitted = programs.into_par_iter().enumerate().map(|(at, program)| {

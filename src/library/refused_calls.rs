@@ -6,7 +6,7 @@
 
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::ir::{Callee, Module, TermKind};
-use crate::legalize::{calls_of, span_of};
+use crate::legalize::{Copied, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,6 +37,13 @@ pub enum Linked {
     },
     /// The program with a number that is known only when the program runs.
     Computed,
+}
+
+impl Link {
+    /// The call of a program that the caller holds a copy of.
+    pub(super) fn of_copy(Copied { caller, callee, span, name }: Copied) -> Self {
+        Self { caller, callee: Linked::Program { at: callee, name, made: true }, span }
+    }
 }
 
 /// The calls of a library; `origins` says of which program of the source each of its programs is a part.

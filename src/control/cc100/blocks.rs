@@ -29,7 +29,12 @@ impl<'r> Interpreter<'r, '_> {
                     self.last.insert(word.letter, value);
                     words.push(Spoken { letter: word.letter, value, computed });
                 }
+                ItemKind::Label(_)
+                | ItemKind::Comment(_)
+                | ItemKind::Sequence { .. }
+                | ItemKind::EndOfBlock => {}
                 other => {
+                    self.stood = None;
                     if let ItemKind::Assign { target, .. } = other {
                         set.extend(Cell::of(target));
                     }
@@ -66,6 +71,14 @@ impl<'r> Interpreter<'r, '_> {
         if message.is_some() {
             command.ops.retain(|op| *op != Op::Stop);
         }
+        let only_stop =
+            command.words.is_empty() && (message.is_some() || command.ops.as_slice() == [Op::Stop]);
+        let only_jump = command.ops.is_empty() && read.flow.as_slice() == [Op::Jump];
+        if only_stop && self.stood == Some(self.at) {
+            // A stop that leads to itself: whatever an operator does, nothing more comes of it.
+            return Err(Halt::Steps);
+        }
+        self.stood = if only_stop { Some(self.at) } else { self.stood.filter(|_| only_jump) };
         let session = &mut self.session;
         if !command.is_empty() {
             session.machine.run(command, &mut session.trace)?;
@@ -125,7 +138,8 @@ impl<'r> Interpreter<'r, '_> {
         if self.depth > 0 {
             return Ok(Next::Back);
         }
-        if of_cycle && self.session.scenario.called {
+        // The end of a cycle, or of a part that stands in a file of its own, as it is pasted into its callers.
+        if self.session.scenario.called {
             return Err(Halt::Ended(Op::Return));
         }
         if !of_cycle {

@@ -51,6 +51,7 @@ fn run<'r>(
         at: At { section: 0, index: 0 },
         depth: 0,
         lasting,
+        stood: None,
     };
     let halt = interpreter.main(main);
     let variables = interpreter.store.all();
@@ -89,6 +90,8 @@ struct Interpreter<'r, 'f> {
     /// How many calls are open.
     depth: u32,
     lasting: Lasting<'r>,
+    /// The block after the last stop, while nothing but jumps came after it.
+    stood: Option<At>,
 }
 
 impl Interpreter<'_, '_> {

@@ -242,6 +242,7 @@ impl<'c> Found<'c> {
                     let number = nc.word(Role::WorkOffset).and_then(Expr::constant);
                     let operands = number.map(|number| (Role::WorkOffset, number)).into_iter().collect();
                     nc.ops().for_each(|op| self.code(op, &operands, span));
+                    self.tool_word(nc, span);
                     self.words(nc, span);
                 }
                 StmtKind::Output(_) => self.statement("output.formatted", span),
@@ -274,6 +275,16 @@ impl<'c> Found<'c> {
         }
     }
 
+    /// What a tool word does, where one is written for a change or a length.
+    fn tool_word(&mut self, nc: &Nc, span: Span) {
+        if nc.has(Op::LengthOff) && self.control.is(Question::ToolWordSelectsLength) {
+            self.behaviour(Question::ToolWordSelectsLength, span);
+        }
+        if nc.has(Op::ToolChange) && self.control.word_for(Op::ToolChange).is_some() {
+            self.behaviour(Question::ToolChangeWord, span);
+        }
+    }
+
     /// The letters of words that no code beside them explains, and what the words rest on.
     fn words(&mut self, nc: &Nc, span: Span) {
         let rows: Vec<&CodeMeaning> =
@@ -292,6 +303,10 @@ impl<'c> Found<'c> {
             match (role, value.constant()) {
                 (Role::ArcI | Role::ArcJ | Role::ArcK, _) => self.behaviour(Question::ArcCentre, span),
                 (Role::ArcRadius, radius) => {
+                    // As the control has it written.
+                    let row = self.control.behaviour(Question::ArcRadiusNegative);
+                    let turned = row.is_some_and(|row| row.value == "short");
+                    let radius = radius.map(|radius| if turned { -radius } else { radius });
                     if radius.is_none_or(|radius| radius >= 0.0) {
                         self.behaviour(Question::ArcRadiusPositive, span);
                     }

@@ -3,6 +3,7 @@
 pub(in crate::legalize) mod carried;
 pub(in crate::legalize) mod chain;
 pub(in crate::legalize) mod link;
+pub(in crate::legalize) mod merged;
 pub(in crate::legalize) mod modal_calls;
 pub(in crate::legalize) mod modal_off;
 pub(in crate::legalize) mod nesting;

@@ -5,7 +5,7 @@
 
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::ir::{Program, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
@@ -19,7 +19,14 @@ fn had<'c>(context: &'c Context<'_>) -> &'c BTreeSet<Op> {
 fn has(control: &Control) -> BTreeSet<Op> {
     let dialect = control.dialect();
     let codes = dialect.codes.iter().filter(|row| row.preferred).map(|row| row.op);
-    codes.chain(dialect.words.iter().filter_map(|row| row.op)).collect()
+    let mut had: BTreeSet<Op> = codes.chain(dialect.words.iter().filter_map(|row| row.op)).collect();
+    if control.statement("test.unit").is_some() {
+        had.extend([Op::CheckInch, Op::CheckMetric]);
+    }
+    if control.is(Question::ToolWordSelectsLength) {
+        had.insert(Op::LengthOff);
+    }
+    had
 }
 
 /// True where an operation stands that the target has not.

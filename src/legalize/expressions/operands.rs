@@ -10,6 +10,7 @@
 //!
 //! Counter-example: `X[ROUND[#1]]` rounds to the increment of X, and `#2=ROUND[#1]` to a whole number.
 
+use crate::canon::Role;
 use crate::dialect::{Compares, Control, Form, Operand, OperandPlace, Question};
 use crate::ir::{
     BinOp, Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
@@ -127,7 +128,8 @@ impl Taker<'_> {
         }
     }
 
-    /// Constants go to temporaries in a block that has variables, where the target does not mix them.
+    /// Constants of a move go to temporaries in a block that has variables, where the target does not mix them. What stays
+    /// in force, like a feed, goes to a block of its own before, which the writer does.
     fn unmix(&mut self, items: &mut [NcItem]) {
         let mixed = self.target.form(OperandPlace::Word).is_none_or(|form| form.mixed);
         let computed = |item: &NcItem| match item {
@@ -138,7 +140,8 @@ impl Taker<'_> {
             return;
         }
         for item in items {
-            if let NcItem::Word(_, value) = item
+            if let NcItem::Word(role, value) = item
+                && acts_with_move(*role)
                 && is_literal(value)
                 && self.is_movable(value, true)
             {
@@ -267,6 +270,11 @@ fn is_literal(e: &Expr) -> bool {
         Expr::Negate(inner) => matches!(**inner, Expr::Number(_) | Expr::Increments(_)),
         _ => false,
     }
+}
+
+/// True for a word that means something beside its move only: others stay in force from a block before it.
+fn acts_with_move(role: Role) -> bool {
+    role.is_axis() || matches!(role, Role::ArcRadius | Role::ArcI | Role::ArcJ | Role::ArcK)
 }
 
 /// The name of a class of variables in the tables.

@@ -1,6 +1,6 @@
 //! Units that the target cannot select.
 //!
-//! Law: where the operator sets the unit and a code can only check it, a program that selects one unit does what one does
+//! Law: where the operator sets the unit and a code, or a test before a stop, can only check it, a program that selects one unit does what one does
 //! that checks it: on a machine that is set so both go on, and on another one the check stops before anything moves. Side
 //! condition: the program selects no other unit; one that uses both keeps its codes and is refused. Where programs of the
 //! library differ, the machine must be set anew between them, which they say.
@@ -16,7 +16,8 @@ use std::collections::BTreeMap;
 /// True if the target checks units and does not select them, and the library selects one.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let has = |op| context.target.code_for(op, &BTreeMap::new()).is_some();
-    let checked = |(unit, check)| features.op(unit) && !has(unit) && has(check);
+    let tests = context.target.statement("test.unit").is_some();
+    let checked = |(unit, check)| features.op(unit) && !has(unit) && (tests || has(check));
     checked(INCH) || checked(METRIC)
 }
 

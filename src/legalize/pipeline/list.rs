@@ -1,5 +1,6 @@
 //! The passes, in the order they run in.
 
+use super::late::{LAYOUT, OPERATOR, REGISTERS};
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
@@ -11,18 +12,18 @@ use crate::legalize::codes::{
 use crate::legalize::cycles::{cycle_here, cycle_words, dwell, tapping};
 use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth};
 use crate::legalize::features::Feature;
-use crate::legalize::layout::{blanks, program_numbers, sequence_numbers};
+use crate::legalize::layout::blanks;
 use crate::legalize::moves::{
-    bare_arcs, increments, lathe, polar, rapid_once, reference, shaped, shift, unit_checks, units,
+    bare_arcs, increments, lathe, machine_moves, polar, rapid_once, reference, shaped, shift, unit_checks,
+    units,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, length_radius, offset_rows, position_length, set_position,
     tool_word,
 };
-use crate::legalize::operator::{alarms, letters, messages, ports, questions};
-use crate::legalize::registers::{allocate, clear, frames, temporaries};
+use crate::legalize::operator::{alarms, ports, questions};
 use crate::legalize::variables::{
-    banks, computed_numbers, probe_points, retention, state, vacancy, vacancy_flags, vacant_writes,
+    banks, computed_numbers, probe_points, state, vacancy, vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -196,6 +197,13 @@ const MOVES: &[Pass] = &[
     )
     .when(|c, _| c.op(Op::ShiftCancel))
     .needs(&["modal-calls"]),
+    Pass::rewrites(
+        "machine-moves",
+        "moves in machine coordinates cancel the zero shifts, and select them again",
+        machine_moves::run,
+    )
+    .when(|c, context| c.op(Op::MachineOnce) && machine_moves::concerns(context.target))
+    .needs(&["shift", "kept-length"]),
 ];
 
 const VARIABLES: &[Pass] = &[
@@ -319,74 +327,3 @@ const ENTRY: &[Pass] = &[
 
 /// Only passes that keep a module such as the target can say it.
 const TIDY_LEGAL: &[Pass] = &[FOLD, RETARGET, BRANCHES, UNREACHABLE, DEAD_STORES];
-
-// What these put in, they put in for something that stood there before.
-const REGISTERS: &[Pass] = &[
-    Pass::rewrites("frames", "locals get registers of their level, on a target without locals", frames::run)
-        .when(frames::concerns)
-        .needs(&["computed-numbers"])
-        .changes_flow(),
-    Pass::rewrites("temporaries", "temporaries that are never alive together share one", temporaries::run)
-        .when(|c, context| c.has(Feature::Temp) || frames::concerns(c, context))
-        .needs(&["frames"])
-        .brings_nothing(),
-    Pass::rewrites("registers", "every variable gets its register", allocate::run)
-        .needs(&["temporaries", "computed-numbers"])
-        .brings_nothing(),
-    Pass::reports(
-        "reached",
-        "reports computed numbers that reach a register of another variable",
-        computed_numbers::report,
-    )
-    .needs(&["registers"]),
-    Pass::rewrites("clear", "clearing of a class becomes zeros and loops", clear::run)
-        .when(clear::concerns)
-        .needs(&["registers"])
-        .brings_nothing()
-        .changes_flow(),
-    Pass::reports("retention", "reports variables that one control keeps over power-off", retention::run)
-        .needs(&["registers"]),
-];
-
-const OPERATOR: &[Pass] = &[
-    Pass::rewrites(
-        "letters",
-        "letters that the target may not show become what looks like them",
-        letters::run,
-    )
-    .brings_nothing(),
-    // A question names its register, and takes up the print before it.
-    Pass::rewrites(
-        "questions",
-        "questions become stops at which the operator sets the register",
-        questions::questions,
-    )
-    .when(|c, _| c.has(Feature::Input))
-    .needs(&["registers", "letters"])
-    .brings_nothing(),
-    Pass::rewrites("prints", "prints become formatted output", questions::prints)
-        .when(|c, _| c.has(Feature::Print))
-        .needs(&["questions", "letters"])
-        .brings_nothing(),
-    Pass::rewrites("messages", "messages are cut to what the target shows", messages::run)
-        .when(|c, _| c.has(Feature::Message) || c.has(Feature::Input))
-        .needs(&["questions"])
-        .brings_nothing(),
-];
-
-const LAYOUT: &[Pass] = &[
-    Pass::rewrites(
-        "sequence-numbers",
-        "sequence numbers stand at the head of what became of their blocks",
-        sequence_numbers::run,
-    )
-    .brings_nothing(),
-    Pass::reports(
-        "target-facts",
-        "reports unconfirmed facts of the target that programs depend on",
-        facts::of_target,
-    )
-    .needs(&["missing", "split-expressions", "registers", "prints", "messages"]),
-    Pass::reports("program-numbers", "every program gets a number of the target", program_numbers::run)
-        .needs(&["outline", "chain"]),
-];

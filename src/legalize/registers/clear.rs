@@ -29,17 +29,19 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Expands the clearing of a class; needs the registers, so it runs after their allocation.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let registers = &context.registers;
+    // A loop counts through numbers, which must find registers.
+    let row = if context.target.numbered().is_some() { ROW } else { usize::MAX };
     for program in &mut module.programs {
         rebuild(program, &mut |builder, part| match part {
             Part::Stmt(Stmt { kind: StmtKind::ClearAll(class), site }) => {
-                clear(class, registers, site, builder);
+                clear(class, registers, row, site, builder);
             }
             other => other.keep(builder),
         });
     }
 }
 
-fn clear(class: Class, registers: &Registers, site: SourceInfo, builder: &mut Builder) {
+fn clear(class: Class, registers: &Registers, row: usize, site: SourceInfo, builder: &mut Builder) {
     let mut all: Vec<(&Register, Var)> =
         registers.of.iter().filter(|(var, _)| var.class == class).map(|(var, r)| (r, *var)).collect();
     all.sort();
@@ -55,7 +57,7 @@ fn clear(class: Class, registers: &Registers, site: SourceInfo, builder: &mut Bu
     }
     for run in all.chunk_by(follows) {
         match run {
-            [(first, _), .., (last, _)] if run.len() >= ROW => {
+            [(first, _), .., (last, _)] if run.len() >= row => {
                 sweep(first.number, last.number, &mut next_site, builder);
             }
             _ => run.iter().for_each(|(_, var)| builder.push(zero(*var), next_site())),

@@ -12,7 +12,7 @@
 
 mod calls;
 mod levels;
-mod repeats;
+pub(in crate::legalize) mod repeats;
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
@@ -37,7 +37,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Turns all locals into statics.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     refuse_computed(module, context);
-    module.programs.iter_mut().for_each(repeats::loops);
+    module.programs.iter_mut().for_each(|program| repeats::loops(program, |call| call.level));
     let levels = Levels::of(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         rename(index, program, &levels);

@@ -125,7 +125,7 @@ impl Verifier<'_, '_> {
         if let Some([_, theirs]) = units {
             circumstances.inch = Some(theirs);
         }
-        let other = (target.execute)(&target.library, there, target.control, &circumstances);
+        let other = target.run(there, &circumstances);
         if is_cut(&run) || is_cut(&other) || stopped(&run) {
             return Found::Nothing;
         }
@@ -171,7 +171,7 @@ impl Verifier<'_, '_> {
     fn target_rests(&self, scenario: &Scenario, begun: &Run, there: ProgramRef) -> bool {
         let target = self.job.target;
         let plain = self.circumstances(scenario, &self.run_source(scenario));
-        let plain = (target.execute)(&target.library, there, target.control, &plain);
+        let plain = target.run(there, &plain);
         self.apart(target, begun, &plain).is_some()
     }
 

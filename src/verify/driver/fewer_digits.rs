@@ -11,7 +11,7 @@ impl Verifier<'_, '_> {
     fn nudged(&self, (there, circumstances): (ProgramRef, &Scenario), last_digits: Option<u64>) -> Run {
         let target = self.job.target;
         let nudged = Scenario { digits: Some(FEWER_DIGITS), last_digits, ..circumstances.clone() };
-        (target.execute)(&target.library, there, target.control, &nudged)
+        target.run(there, &nudged)
     }
 
     /// True where the target does something else with fewer digits: rounded, and off by errors that are drawn, and their

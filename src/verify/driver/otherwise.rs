@@ -40,7 +40,7 @@ impl Verifier<'_, '_> {
         let target = self.job.target;
         let run = self.run_source(scenario);
         let circumstances = self.circumstances(scenario, &run);
-        let other = (target.execute)(&target.library, there, target.control, &circumstances);
+        let other = target.run(there, &circumstances);
         if is_cut(&run) || is_cut(&other) {
             return;
         }

@@ -13,7 +13,7 @@ impl Verifier<'_, '_> {
     pub(super) fn compare(&mut self, scenario: &Scenario, run: &Run, there: ProgramRef) -> bool {
         let Job { source, target, names, .. } = self.job;
         let circumstances = self.circumstances(scenario, run);
-        let other = (target.execute)(&target.library, there, target.control, &circumstances);
+        let other = target.run(there, &circumstances);
         self.entered.extend(source.links().entered(run));
         let assumed = facts(self.job, run);
         let new_there = self.target_coverage.add(&other);

@@ -11,6 +11,7 @@ mod links;
 mod names;
 mod program_texts;
 mod side;
+mod stands;
 mod symbol_map;
 
 pub use clock::{Clock, Spent};

@@ -5,7 +5,8 @@ use super::entry_state::EntryState;
 use super::hash::sha256;
 use super::links::Links;
 use super::program_texts::ProgramTexts;
-use crate::control::{Execute, Library, LoadedFile, ProgramRef};
+use super::stands::stands;
+use crate::control::{Execute, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::dialect::Control;
 use crate::syntax::{Block, ProgramName};
 use crate::text::LineIndex;
@@ -61,6 +62,11 @@ impl<'a> Side<'a> {
             reported,
             edited: None,
         }
+    }
+
+    /// Runs a program of a conversion: a stop that stands for an alarm is read as one.
+    pub(in crate::verify) fn run(&self, program: ProgramRef, scenario: &Scenario) -> Run {
+        stands(self.control, (self.execute)(&self.library, program, self.control, scenario))
     }
 
     /// The same side with another text of one program. How the programs stand to each other is worked out anew only where

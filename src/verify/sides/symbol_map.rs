@@ -100,7 +100,7 @@ impl SymbolMap {
             (None, name) => name.clone(),
         };
         let found = here(Some(&wanted)).first().copied().or_else(|| target.called(&wanted));
-        // A program whose number both sides leave out of the file is alone in it.
-        found.or_else(|| here(None).first().copied())
+        // A program whose number the target leaves out of the file is alone in it: the first one of the source's file.
+        found.or_else(|| here(None).first().copied().filter(|_| of.program == 0))
     }
 }

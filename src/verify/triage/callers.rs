@@ -109,7 +109,7 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
             found.entered = true;
             let circumstances =
                 on_target(&scenario, job.names, (job.source, job.target), (false, &BTreeMap::new()));
-            let other = (job.target.execute)(&job.target.library, there, job.target.control, &circumstances);
+            let other = job.target.run(there, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
             let cut = is_cut(&run) || is_cut(&other);
             match compared.difference.or(compared.hair) {

@@ -20,7 +20,7 @@ pub fn hangs_on_rounding(
     let rounded = Scenario { rounds_words: true, ..scenario.clone() };
     let again = (source.execute)(&source.library, program, source.control, &rounded);
     let rounded = Scenario { rounds_words: true, ..circumstances.clone() };
-    let there = (target.execute)(&target.library, there, target.control, &rounded);
+    let there = target.run(there, &rounded);
     let changed = again.events != run.events || there.events != other.events;
     let compared = compare((source, &again), (target, &there), job.names, tolerance);
     changed && compared.difference.is_none() && compared.hair.is_none()

@@ -4,13 +4,15 @@
 //! calls once and counts n down. A count below 1 runs nothing here, and what it does on the source no maker's text says.
 //! Counter-example: `G65 P9010 L2 A1.`, where O9010 does `#1=#1+1`.
 
-use crate::ir::{BinOp, Class, Cond, Expr, Place, Program, Relation, SourceInfo, StmtKind, TermKind, Var};
+use crate::ir::{
+    BinOp, Call, Class, Cond, Expr, Place, Program, Relation, SourceInfo, StmtKind, TermKind, Var,
+};
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
 
-/// Makes loops of the repeated calls that open a level.
-pub(super) fn loops(program: &mut Program) {
-    let repeated =
-        |kind: &TermKind| matches!(kind, TermKind::Call { call, .. } if call.level && call.count.is_some());
+/// Makes loops of the repeated calls that are `wanted`.
+pub fn loops(program: &mut Program, wanted: impl Fn(&Call) -> bool) {
+    let wanted = |call: &Call| call.count.is_some() && wanted(call);
+    let repeated = |kind: &TermKind| matches!(kind, TermKind::Call { call, .. } if wanted(call));
     if !program.blocks.iter().any(|block| repeated(&block.term.kind)) {
         return;
     }
@@ -18,7 +20,7 @@ pub(super) fn loops(program: &mut Program) {
     rebuild(program, &mut |builder, part| {
         let Part::Term(mut term) = part else { return part.keep(builder) };
         let (mut call, next) = match term.kind {
-            TermKind::Call { call, next } if call.level && call.count.is_some() => (call, next),
+            TermKind::Call { call, next } if wanted(&call) => (call, next),
             kind => {
                 term.kind = kind;
                 return Part::Term(term).keep(builder);

@@ -1,0 +1,121 @@
+//! Statements, and the ends of blocks that are no jumps.
+
+use super::Emitter;
+use super::lines::plain;
+use crate::canon::Op;
+use crate::ir::{Block, Call, Callee, Expr, Stmt, StmtKind, TermKind};
+
+impl<'p> Emitter<'p> {
+    /// Writes a statement on lines of its own.
+    pub(super) fn statement(&mut self, stmt: &'p Stmt) {
+        let site = &stmt.site;
+        match &stmt.kind {
+            StmtKind::Comment => {
+                self.out.span = site.span;
+                self.carry(site);
+                self.flush_comments();
+            }
+            StmtKind::Nc(nc) if nc.has(Op::Stop) => self.stop(stmt, ""),
+            StmtKind::Nc(nc) => self.block_of_words(site, nc),
+            StmtKind::Alarm { number, text } => self.alarm(stmt, number, text),
+            StmtKind::StopMessage { text, .. } => self.stop(stmt, text),
+            StmtKind::Assign { target, value } => {
+                self.begin(site);
+                self.assign(target, value);
+                self.finish();
+            }
+            // What is read after moves is read when they are done, as far as any source says.
+            StmtKind::Sync => self.begin(site),
+            kind => {
+                self.begin(site);
+                self.out.unmapped(lacks(kind));
+            }
+        }
+    }
+
+    /// `M0`, and after it what the operator reads.
+    fn stop(&mut self, stmt: &'p Stmt, text: &str) {
+        self.begin(&stmt.site);
+        match &stmt.kind {
+            StmtKind::Nc(nc) => self.words(nc),
+            _ => self.code(Op::Stop),
+        }
+        self.finish_stop(text);
+    }
+
+    /// A jump to a stop that nothing gets past (seed 004:1568).
+    fn alarm(&mut self, stmt: &'p Stmt, number: &Expr, text: &str) {
+        self.begin(&stmt.site);
+        let Some(number) = number.constant() else {
+            return self.out.unmapped("an alarm whose number is computed");
+        };
+        let label = self.stop_of(plain(&format!("ALARM {number} {text}")));
+        label.into_iter().for_each(|label| self.go_to(label));
+    }
+
+    /// The label of the stop that shows this; one serves all that show the same.
+    pub(super) fn stop_of(&mut self, text: String) -> Option<u32> {
+        let known = self.alarms.iter().find(|(_, other)| *other == text).map(|(label, _)| *label);
+        if known.is_some() {
+            return known;
+        }
+        let label = self.labels.of_stop()?;
+        self.alarms.push((label, text));
+        Some(label)
+    }
+
+    /// Writes the end of a block that leaves it.
+    pub(super) fn leave(&mut self, block: &'p Block) {
+        self.begin(&block.term.site);
+        match &block.term.kind {
+            TermKind::Call { call, .. } => self.call(call),
+            TermKind::Return { to: None } => self.code(Op::Return),
+            TermKind::Return { .. } => self.out.unmapped("a return to a sequence number of the caller"),
+            TermKind::End { .. } => self.code(Op::EndRewind),
+            TermKind::Chain(_) => self.out.unmapped("the start of another program"),
+            TermKind::Computed { .. } => self.out.unmapped("a computed jump"),
+            TermKind::Jump(_) | TermKind::Branch { .. } | TermKind::Stray => {}
+        }
+        self.finish();
+    }
+
+    /// `G22 P1`.
+    fn call(&mut self, call: &Call) {
+        if call.level || !call.arguments.is_empty() {
+            return self.out.unmapped("a call that opens a level of locals");
+        }
+        if call.count.as_ref().is_some_and(|count| count.constant() != Some(1.0)) {
+            return self.out.unmapped("a call that repeats");
+        }
+        let label = match &call.callee {
+            Callee::Block(entry) => self.labels.of(entry.index()),
+            _ => return self.out.unmapped("a call of another program"),
+        };
+        self.code(Op::CallLocal);
+        label.into_iter().for_each(|label| {
+            self.word("P");
+            self.out.integer(label);
+        });
+    }
+
+    /// Writes the code of an operation that has no words.
+    pub(super) fn code(&mut self, op: Op) {
+        match self.spellings.bare_code(op) {
+            Some(code) => self.word(&code.text),
+            None => self.out.unmapped(format_args!("the operation '{op}'")),
+        }
+    }
+}
+
+/// What the control has nothing for.
+fn lacks(kind: &StmtKind) -> &'static str {
+    match kind {
+        StmtKind::Output(_) | StmtKind::OpenPort | StmtKind::ClosePort => "output to a port",
+        StmtKind::Print { .. } => "a print",
+        StmtKind::Input { .. } => "a question to the operator",
+        StmtKind::ClearAll(_) => "the clearing of all variables",
+        StmtKind::LimitLookahead(_) => "a limit on reading ahead",
+        StmtKind::SetNames { .. } => "names of variables",
+        _ => "a modal call",
+    }
+}

@@ -1,0 +1,89 @@
+//! The passes from registers on, in the order they run in.
+
+use super::Pass;
+use crate::legalize::assumptions::facts;
+use crate::legalize::calls::merged;
+use crate::legalize::features::Feature;
+use crate::legalize::layout::{program_numbers, sequence_numbers};
+use crate::legalize::operator::{letters, messages, questions};
+use crate::legalize::registers::{allocate, clear, frames, temporaries};
+use crate::legalize::variables::{computed_numbers, retention};
+
+// What these put in, they put in for something that stood there before.
+pub(super) const REGISTERS: &[Pass] = &[
+    Pass::rewrites("frames", "locals get registers of their level, on a target without locals", frames::run)
+        .when(frames::concerns)
+        .needs(&["computed-numbers"])
+        .changes_flow(),
+    Pass::rewrites(
+        "merged",
+        "what a program calls becomes a part of it, where calls reach no farther",
+        merged::run,
+    )
+    .when(|_, context| merged::concerns(context.target))
+    .needs(&["frames", "outline"])
+    .adds_programs(),
+    Pass::rewrites("temporaries", "temporaries that are never alive together share one", temporaries::run)
+        .when(|c, context| c.has(Feature::Temp) || frames::concerns(c, context))
+        .needs(&["frames"])
+        .brings_nothing(),
+    Pass::rewrites("registers", "every variable gets its register", allocate::run)
+        .needs(&["temporaries", "computed-numbers"])
+        .brings_nothing(),
+    Pass::reports(
+        "reached",
+        "reports computed numbers that reach a register of another variable",
+        computed_numbers::report,
+    )
+    .needs(&["registers"]),
+    Pass::rewrites("clear", "clearing of a class becomes zeros and loops", clear::run)
+        .when(clear::concerns)
+        .needs(&["registers"])
+        .brings_nothing()
+        .changes_flow(),
+    Pass::reports("retention", "reports variables that one control keeps over power-off", retention::run)
+        .needs(&["registers"]),
+];
+
+pub(super) const OPERATOR: &[Pass] = &[
+    Pass::rewrites(
+        "letters",
+        "letters that the target may not show become what looks like them",
+        letters::run,
+    )
+    .brings_nothing(),
+    // A question names its register, and takes up the print before it.
+    Pass::rewrites(
+        "questions",
+        "questions become stops at which the operator sets the register",
+        questions::questions,
+    )
+    .when(|c, _| c.has(Feature::Input))
+    .needs(&["registers", "letters"])
+    .brings_nothing(),
+    Pass::rewrites("prints", "prints become formatted output", questions::prints)
+        .when(|c, _| c.has(Feature::Print))
+        .needs(&["questions", "letters"])
+        .brings_nothing(),
+    Pass::rewrites("messages", "messages are cut to what the target shows", messages::run)
+        .when(|c, _| c.has(Feature::Message) || c.has(Feature::Input))
+        .needs(&["questions"])
+        .brings_nothing(),
+];
+
+pub(super) const LAYOUT: &[Pass] = &[
+    Pass::rewrites(
+        "sequence-numbers",
+        "sequence numbers stand at the head of what became of their blocks",
+        sequence_numbers::run,
+    )
+    .brings_nothing(),
+    Pass::reports(
+        "target-facts",
+        "reports unconfirmed facts of the target that programs depend on",
+        facts::of_target,
+    )
+    .needs(&["missing", "split-expressions", "registers", "prints", "messages"]),
+    Pass::reports("program-numbers", "every program gets a number of the target", program_numbers::run)
+        .needs(&["outline", "chain"]),
+];
