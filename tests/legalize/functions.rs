@@ -126,7 +126,7 @@ fn sign() {
 
 #[test]
 fn fup() {
-    for name in ["haas", "fadal"] {
+    for name in ["haas", "fadal", "cc100"] {
         let (module, found) = emulated("fup(local.1)", &control("fanuc"), &control(name));
         assert_eq!(codes(&found), []);
         one(&module, &operands(), Bound::Exact, |a| Some(if a < 0.0 { a.floor() } else { a.ceil() }));
@@ -135,29 +135,45 @@ fn fup() {
 
 #[test]
 fn round() {
-    let (module, found) = emulated("round(local.1)", &control("fanuc"), &control("fadal"));
-    assert_eq!(codes(&found), []);
     let mut operands = operands();
     // The greatest number below a half: adding a half to it gives 1.
     operands
         .extend([0.49999999999999994, -0.49999999999999994, 4_503_599_627_370_497.5, -2.5, -3.5].map(Some));
-    one(&module, &operands, Bound::Exact, |a| Some(a.round()));
+    for name in ["fadal", "cc100"] {
+        let (module, found) = emulated("round(local.1)", &control("fanuc"), &control(name));
+        assert_eq!(codes(&found), []);
+        one(&module, &operands, Bound::Exact, |a| Some(a.round()));
+    }
 }
 
+/// The CC100 drops fractions by INC and DEC, of which nothing says what they do below zero (seed 004:1643).
 #[test]
-fn what_no_arithmetic_gives_is_refused() {
-    // The CC100 drops fractions by no function (seed 004): nothing that needs one can be had.
-    for expr in [
-        "round(local.1)",
-        "fix(local.1)",
-        "fup(local.1)",
-        "bcd(local.1)",
-        "bin(local.1)",
-        "local.1 mod local.2",
-    ] {
-        let (_, found) = emulated(expr, &control("fanuc"), &control("cc100"));
-        assert!(codes(&found).contains(&Code::NoEquivalent), "{expr}: {found:?}");
+fn whole_parts_by_magnitude() {
+    for (expr, wanted) in [("fix(local.1)", f64::trunc as fn(f64) -> f64), ("abs(local.1)", f64::abs)] {
+        let (module, found) = emulated(expr, &control("fanuc"), &control("cc100"));
+        assert_eq!(codes(&found), []);
+        one(&module, &operands(), Bound::Exact, |a| Some(wanted(a)));
+        let below = |e: &&Expr| matches!(e, Expr::Call(macroglot::canon::Func::Abs, _));
+        assert_eq!(expressions(&module).iter().filter(|e| below(e)).count(), 0, "{module}");
     }
+}
+
+/// SIN and COS take -360 to 360 there: whole turns go (seed 004:1640).
+#[test]
+fn angles_within_a_turn() {
+    let target = control("cc100");
+    for (expr, wanted) in [("sin(local.1)", f64::sin as fn(f64) -> f64), ("cos(local.1)", f64::cos)] {
+        let (module, found) = emulated(expr, &control("fanuc"), &target);
+        assert_eq!(codes(&found), []);
+        let angles = (-4000..=4000).map(|n| Some(f64::from(n) / 4.0)).chain(operands());
+        for angle in angles {
+            let got = result(&module, &[angle]).unwrap();
+            let wanted = wanted((angle.unwrap_or(0.0) % 360.0).to_radians());
+            assert!((got - wanted).abs() <= 1e-9, "{angle:?}: {got}, not {wanted}\n{module}");
+        }
+    }
+    let (module, _) = emulated("sin(750)", &control("fanuc"), &target);
+    assert!(expressions(&module).contains(&&Expr::Number(30.0)), "{module}");
 }
 
 #[test]
@@ -348,7 +364,7 @@ fn pow() {
 
 #[test]
 fn remainder_by_division() {
-    for name in ["fadal", "haas"] {
+    for name in ["fadal", "haas", "cc100"] {
         let (module, found) = emulated("local.1 mod local.2", &control("fanuc"), &control(name));
         assert_eq!(codes(&found), []);
         two(&module, &operands(), Bound::Exact, |a, b| {

@@ -2,8 +2,8 @@
 
 use super::Emitter;
 use super::lines::plain;
-use crate::canon::Op;
-use crate::ir::{Block, Call, Callee, Expr, Stmt, StmtKind, TermKind};
+use crate::canon::{Func, Op};
+use crate::ir::{Block, Call, Callee, Expr, Place, SourceInfo, Stmt, StmtKind, TermKind, Var};
 
 impl<'p> Emitter<'p> {
     /// Writes a statement on lines of its own.
@@ -19,6 +19,9 @@ impl<'p> Emitter<'p> {
             StmtKind::Nc(nc) => self.block_of_words(site, nc),
             StmtKind::Alarm { number, text } => self.alarm(stmt, number, text),
             StmtKind::StopMessage { text, .. } => self.stop(stmt, text),
+            StmtKind::Assign { target: Place::Var(to), value: Expr::Call(Func::Fix, of) } => {
+                self.whole_part(site, *to, of);
+            }
             StmtKind::Assign { target, value } => {
                 self.begin(site);
                 self.assign(target, value);
@@ -30,6 +33,30 @@ impl<'p> Emitter<'p> {
                 self.begin(site);
                 self.out.unmapped(lacks(kind));
             }
+        }
+    }
+
+    /// `V31=V30`, `INC V31`, `DEC V31`: a step throws the fraction away (seed 004:1643).
+    fn whole_part(&mut self, site: &'p SourceInfo, to: Var, of: &[Expr]) {
+        let [Expr::Var(from)] = of else {
+            self.begin(site);
+            return self.out.unmapped("the whole part of this");
+        };
+        if !self.out.has_statement("step") {
+            return;
+        }
+        self.begin(site);
+        if self.names.variable(to).is_none() || self.names.variable(to) != self.names.variable(*from) {
+            self.variable(to);
+            self.out.push('=');
+            self.variable(*from);
+        }
+        self.finish();
+        for step in ["INC ", "DEC "] {
+            self.open();
+            self.out.push_str(step);
+            self.variable(to);
+            self.finish();
         }
     }
 

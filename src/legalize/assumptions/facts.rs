@@ -12,6 +12,7 @@ use crate::dialect::{CodeMeaning, Control, Question, Row, Side};
 use crate::ir::analysis::Vacancy;
 use crate::ir::{BinOp, Block, Cond, Expr, Module, Nc, NcItem, Program, StmtKind, TermKind};
 use crate::legalize::Context;
+use crate::legalize::expressions::functions::of_magnitudes_only;
 use crate::legalize::features::Feature;
 use crate::text::Span;
 use foldhash::{HashMap, HashMapExt};
@@ -346,6 +347,7 @@ impl<'c> Found<'c> {
                 match function {
                     Func::Round => self.expects(Question::RoundHalfAway, "true", span),
                     Func::RoundIncrement => self.behaviour(Question::RoundInAddress, span),
+                    Func::Fix if of_magnitudes_only(self.control) => {}
                     Func::Fix => self.expects(Question::FixTowardZero, "true", span),
                     Func::Asin => self.behaviour(Question::AsinRange, span),
                     Func::Acos => self.behaviour(Question::AcosRange, span),

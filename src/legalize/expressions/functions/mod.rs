@@ -4,12 +4,14 @@
 //! A function without an emulation is an error; one whose emulation is off by
 //! more than the last digit of binary64 brings a review diagnostic with its bound.
 
+mod angles;
 mod decimal;
 mod emulated;
 mod exponential;
 mod modulo;
 mod rounding;
 mod trigonometry;
+mod whole;
 
 use crate::assume::Predicate;
 use crate::canon::Func;
@@ -19,6 +21,7 @@ use crate::ir::{BinOp, Expr, Program};
 use crate::legalize::{Context, Rewriter, rewrite_program};
 use emulated::{Emulated, missing};
 use thin_vec::ThinVec;
+pub use whole::of_magnitudes_only;
 
 /// Replaces the functions that the target lacks.
 pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
@@ -58,6 +61,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             }
         }
     });
+    // Emulations bring in angles, and both bring in whole parts.
+    let turned = angles::run(program, target);
+    let changed = whole::run(program, target) || turned || changed;
     for (code, span, message, inside) in &found {
         let finding = Diagnostic::new(*code, *span, message.clone());
         let finding = match *inside {
@@ -109,6 +115,7 @@ fn call(
             missing(function.name(), target)
         }
         (Func::Round, None) => Emulated::Exact(rounding::nearest(first, rewriter, target)),
+        (Func::Abs, None) => Emulated::Exact(whole::magnitude(first, rewriter)),
         (Func::Tan, None) => trigonometry::tan(first, rewriter),
         (Func::Sign, None) => rounding::sign(first, rewriter),
         (Func::Fup, None) => rounding::fup(first, rewriter),
