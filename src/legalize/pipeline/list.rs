@@ -14,12 +14,12 @@ use crate::legalize::expressions::{conditions, constants, functions, operands, s
 use crate::legalize::features::Feature;
 use crate::legalize::layout::blanks;
 use crate::legalize::moves::{
-    bare_arcs, increments, lathe, machine_moves, polar, rapid_once, reference, shaped, shift, unit_checks,
-    units,
+    bare_arcs, home, increments, lathe, machine_moves, polar, rapid_once, reference, shaped, shift,
+    unit_checks, units,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, length_radius, offset_rows, position_length, set_position,
-    tool_word,
+    tool_lengths, tool_word,
 };
 use crate::legalize::operator::{alarms, ports, questions};
 use crate::legalize::variables::{
@@ -198,12 +198,27 @@ const MOVES: &[Pass] = &[
     .when(|c, _| c.op(Op::ShiftCancel))
     .needs(&["modal-calls"]),
     Pass::rewrites(
+        "home",
+        "returns to the reference position become moves in machine coordinates",
+        home::run,
+    )
+    .when(|c, context| c.op(Op::ReferenceReturn) && home::concerns(context.target))
+    .needs(&["reference", "kept-length"]),
+    Pass::rewrites(
         "machine-moves",
         "moves in machine coordinates cancel the zero shifts, and select them again",
         machine_moves::run,
     )
     .when(|c, context| c.op(Op::MachineOnce) && machine_moves::concerns(context.target))
-    .needs(&["shift", "kept-length"]),
+    .needs(&["home", "shift", "kept-length"]),
+    Pass::rewrites(
+        "tool-lengths",
+        "lengths come with the tools, where the tool word brings them",
+        tool_lengths::run,
+    )
+    .when(|_, context| tool_lengths::concerns(context.target))
+    .changes_flow()
+    .needs(&["machine-moves"]),
 ];
 
 const VARIABLES: &[Pass] = &[

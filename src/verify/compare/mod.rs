@@ -4,6 +4,7 @@ mod differ;
 mod exit_state;
 mod found;
 mod kinds;
+mod lengths;
 mod letters;
 mod loose;
 mod observe;

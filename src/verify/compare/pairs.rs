@@ -4,6 +4,7 @@ use super::differ::{ANOTHER_FEED, differ};
 use super::exit_state::left_differs;
 use super::found::{Comparison, Difference};
 use super::kinds::{is_cut, setting};
+use super::lengths::{brought, shown_by_moves};
 use super::letters;
 use super::loose::{Found, farthest};
 use super::observe::{Act, observe};
@@ -36,9 +37,13 @@ pub fn compare<'r>(
         if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
             (ours, theirs) = (as_messages(ours), as_messages(theirs));
         }
+        if brought(source.0.control, target.0.control) {
+            (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
+        }
         let found = Comparison::default();
         let mut pairs = Pairs {
             target: target.0,
+            brings_lengths: brought(source.0.control, target.0.control),
             one_side: std::ptr::eq(source.0, target.0),
             tolerance,
             found,
@@ -88,6 +93,8 @@ struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
     /// True for two runs of one side, of which all that differs is told.
     one_side: bool,
+    /// True where the target's tool word brings a length that the source takes up without one.
+    brings_lengths: bool,
     tolerance: Tolerance,
     found: Comparison<'r>,
     /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
@@ -218,6 +225,14 @@ impl<'r> Pairs<'_, 'r> {
                 self.moved(side, act);
             }
             return passes;
+        }
+        if side == 1 && self.brings_lengths && self.at.iter().all(Option::is_none) {
+            if let EventKind::ToolChange { tool } = what {
+                let text = format!("tool {tool} is changed to before the first move, to bring its length");
+                self.found.substituted.insert(text);
+                self.moved(side, act);
+                return true;
+            }
         }
         if side == 1 {
             return is_idle(what) || (self.uncancelled && matches!(what, EventKind::WorkOffset { .. }));
