@@ -226,13 +226,15 @@ impl<'r> Pairs<'_, 'r> {
             }
             return passes;
         }
-        if side == 1 && self.brings_lengths && self.at.iter().all(Option::is_none) {
-            if let EventKind::ToolChange { tool } = what {
-                let text = format!("tool {tool} is changed to before the first move, to bring its length");
-                self.found.substituted.insert(text);
-                self.moved(side, act);
-                return true;
-            }
+        if side == 1
+            && self.brings_lengths
+            && self.at.iter().all(Option::is_none)
+            && let EventKind::ToolChange { tool } = what
+        {
+            let text = format!("tool {tool} is changed to before the first move, to bring its length");
+            self.found.substituted.insert(text);
+            self.moved(side, act);
+            return true;
         }
         if side == 1 {
             return is_idle(what) || (self.uncancelled && matches!(what, EventKind::WorkOffset { .. }));
