@@ -1,16 +1,18 @@
 //! What may be one of a few values.
 
 use super::Lattice;
+use thin_vec::ThinVec;
 
 /// How many values are told apart; more count as any.
 const MOST: usize = 8;
 
 /// The values that something may have at a place.
+///
+/// One word: a state has many of them, and a program a state at each place that is jumped to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneOf<T> {
-    /// In order.
-    list: Vec<T>,
-    any: bool,
+    /// In order; none for any.
+    list: Option<ThinVec<T>>,
 }
 
 impl<T> Default for OneOf<T> {
@@ -21,39 +23,39 @@ impl<T> Default for OneOf<T> {
 
 impl<T> OneOf<T> {
     /// No value: nothing was set, or no way leads here.
-    pub const NONE: Self = Self { list: Vec::new(), any: false };
+    pub const NONE: Self = Self { list: Some(ThinVec::new()) };
 
     /// Any value at all.
     pub fn any() -> Self {
-        Self { list: Vec::new(), any: true }
+        Self { list: None }
     }
 
     /// This value only.
     pub fn one(value: T) -> Self {
-        Self { list: vec![value], any: false }
+        Self { list: Some(ThinVec::from([value])) }
     }
 
     /// True where nothing is known.
     pub fn is_any(&self) -> bool {
-        self.any
+        self.list.is_none()
     }
 
     /// The values, in order; none if nothing is known.
     pub fn list(&self) -> &[T] {
-        &self.list
+        self.list.as_deref().unwrap_or_default()
     }
 
     /// The value, where there is but one.
     pub fn only(&self) -> Option<&T> {
-        if let [value] = self.list.as_slice() { Some(value) } else { None }
+        if let [value] = self.list() { Some(value) } else { None }
     }
 }
 
 impl<T: Copy + Ord> OneOf<T> {
     /// What each of the values becomes.
     pub fn map(&self, f: impl Fn(T) -> T) -> Self {
-        let mut mapped = Self { list: Vec::new(), any: self.any };
-        for value in &self.list {
+        let mut mapped = if self.is_any() { Self::any() } else { Self::NONE };
+        for value in self.list() {
             mapped.join(&Self::one(f(*value)));
         }
         mapped
@@ -62,19 +64,19 @@ impl<T: Copy + Ord> OneOf<T> {
 
 impl<T: Copy + Ord> Lattice for OneOf<T> {
     fn join(&mut self, other: &Self) -> bool {
-        if self.any {
-            return false;
-        }
-        let before = self.list.len();
-        for value in &other.list {
-            if let Err(at) = self.list.binary_search(value) {
-                self.list.insert(at, *value);
+        let Some(mine) = &mut self.list else { return false };
+        let before = mine.len();
+        for value in other.list() {
+            if let Err(at) = mine.binary_search(value) {
+                mine.insert(at, *value);
             }
         }
-        if other.any || self.list.len() > MOST {
+        let changed = mine.len() != before;
+        if other.is_any() || mine.len() > MOST {
             *self = Self::any();
+            return true;
         }
-        self.any || self.list.len() != before
+        changed
     }
 }
 

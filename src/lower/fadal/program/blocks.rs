@@ -29,6 +29,7 @@ pub fn lower(
         let state = std::mem::take(&mut lowering.state);
         lowering.state = flow.behind(at, block, state);
     }
+    drop(flow);
     lowering.finish();
     let program = lowering.builder.finish(text.name.cloned(), file, head);
     (program, lowering.findings.take_list())
