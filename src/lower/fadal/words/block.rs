@@ -58,6 +58,7 @@ impl<'b> Lowering<'b> {
             self.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] }));
         }
         if !words.is_empty() {
+            words.shrink_to_fit();
             self.push(StmtKind::Nc(Nc { items: words }));
         }
         if codes.has(Op::RotateOn) && self.in_cycle() && self.control.is(Question::RotationRunsCycle) {
