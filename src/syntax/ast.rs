@@ -10,6 +10,7 @@ use super::{BinaryOp, Expr, VarRef, Word};
 use crate::diag::Diagnostic;
 use crate::text::Span;
 use std::borrow::Cow;
+use thin_vec::ThinVec;
 
 /// One block (what the control executes at once), with everything on it.
 ///
@@ -25,7 +26,7 @@ pub struct Block {
     pub items: Vec<Item>,
     /// What is wrong with the block. A block that the grammar cannot read at
     /// all holds one [`ItemKind::Unparsed`] and its error here.
-    pub errors: Vec<SyntaxError>,
+    pub errors: ThinVec<SyntaxError>,
 }
 
 /// A lexeme of a block.

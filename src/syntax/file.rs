@@ -115,7 +115,7 @@ pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
 /// blocks without fault.
 pub fn parse_faults(source: &[u8], parser: Parser) -> Vec<SyntaxError> {
     let add = |faults: &mut Vec<SyntaxError>, _, blocks: &mut [Block]| {
-        blocks.iter_mut().for_each(|block| faults.append(&mut block.errors));
+        blocks.iter_mut().for_each(|block| faults.extend(block.errors.drain(..)));
     };
     let join = |mut a: Vec<SyntaxError>, mut b| {
         a.append(&mut b);

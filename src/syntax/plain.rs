@@ -8,6 +8,7 @@
 use super::support::number;
 use super::{Block, Expr, ExprKind, Item, ItemKind, Token, TokenKind, Word};
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 /// The block of a line that holds nothing but a block number and words with numbers.
 pub(super) fn plain_block(source: &[u8], line: Span) -> Option<Block> {
@@ -16,7 +17,8 @@ pub(super) fn plain_block(source: &[u8], line: Span) -> Option<Block> {
         start: line.start,
         at: 0,
         tokens: Vec::with_capacity(12),
-        items: Vec::with_capacity(5),
+        // Each begins with a letter; files of such blocks are kept whole, so that room to spare would be most of them.
+        items: Vec::with_capacity(line.of(source).iter().filter(|byte| byte.is_ascii_alphabetic()).count()),
     };
     scan.blanks();
     if matches!(scan.byte(), Some(b'N' | b'n')) {
@@ -32,7 +34,7 @@ pub(super) fn plain_block(source: &[u8], line: Span) -> Option<Block> {
         }
     }
     let Scan { tokens, items, .. } = scan;
-    Some(Block { span: line, tokens, items, errors: Vec::new() })
+    Some(Block { span: line, tokens, items, errors: ThinVec::new() })
 }
 
 struct Scan<'s> {

@@ -63,7 +63,7 @@ pub(super) fn unparsed(line: Span, error: SyntaxError) -> Block {
         span: line,
         tokens: vec![Token { kind: TokenKind::Other, span: line }],
         items: vec![Item { kind: ItemKind::Unparsed, span: line }],
-        errors: vec![error],
+        errors: thin_vec::thin_vec![error],
     }
 }
 

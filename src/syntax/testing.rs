@@ -298,7 +298,10 @@ fn show_expr(expr: &Expr) -> String {
         ExprKind::Negate(inner) => format!("-{}", show_expr(inner)),
         ExprKind::Plus(inner) => format!("+{}", show_expr(inner)),
         ExprKind::Not(inner) => format!("(Not {})", show_expr(inner)),
-        ExprKind::Binary(op, a, b) => format!("({op:?} {} {})", show_expr(a), show_expr(b)),
+        ExprKind::Binary(op, operands) => {
+            let [a, b] = &**operands;
+            format!("({op:?} {} {})", show_expr(a), show_expr(b))
+        }
         ExprKind::Call { function, arguments, .. } => {
             let arguments = arguments.iter().map(show_expr).collect::<Vec<_>>().join(" ");
             format!("{function:?}({arguments})")

@@ -3,6 +3,7 @@
 use crate::canon::Func;
 use crate::text::Span;
 use std::borrow::Cow;
+use thin_vec::ThinVec;
 
 /// A word: an address letter and its value.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,13 +52,13 @@ pub enum ExprKind {
     /// `NOT a`.
     Not(Box<Expr>),
     /// `a + b`.
-    Binary(BinaryOp, Box<Expr>, Box<Expr>),
+    Binary(BinaryOp, Box<[Expr; 2]>),
     /// `SIN[a]`, `SQR V2`, `ATAN[a]/[b]`.
     Call {
         /// The function.
         function: Func,
         /// Its arguments, without the brackets that hold them.
-        arguments: Vec<Expr>,
+        arguments: ThinVec<Expr>,
         /// How two arguments are written.
         form: CallForm,
     },

@@ -72,10 +72,7 @@ fn expr<'a>(e: &'a Expr, visit: &mut dyn FnMut(&'a Expr)) {
         ExprKind::Number(_) => {}
         ExprKind::Variable(v) => variable(v, visit),
         ExprKind::Negate(a) | ExprKind::Plus(a) | ExprKind::Not(a) | ExprKind::Group(a) => expr(a, visit),
-        ExprKind::Binary(_, a, b) => {
-            expr(a, visit);
-            expr(b, visit);
-        }
+        ExprKind::Binary(_, operands) => operands.iter().for_each(|a| expr(a, visit)),
         ExprKind::Call { arguments, .. } => arguments.iter().for_each(|a| expr(a, visit)),
     }
 }

@@ -12,7 +12,8 @@ impl Interpreter<'_, '_> {
     /// The value of a constant, a variable, a step of arithmetic or a function.
     pub(super) fn value(&mut self, expr: &Expr) -> Flow<f64> {
         let value = match &expr.kind {
-            ExprKind::Binary(op, a, b) => {
+            ExprKind::Binary(op, operands) => {
+                let [a, b] = &**operands;
                 let (a, b) = (self.operand(a)?, self.operand(b)?);
                 self.step_of(*op, a, b)?
             }

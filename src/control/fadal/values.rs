@@ -30,14 +30,17 @@ impl Interpreter<'_, '_> {
             ExprKind::Group(inner) | ExprKind::Plus(inner) => return self.nested(inner, depth),
             ExprKind::Negate(inner) => return Ok(-self.nested(inner, depth)?),
             ExprKind::Not(inner) => f64::from(u8::from(!self.truth(inner, depth)?)),
-            ExprKind::Binary(op, a, b) => match op {
-                BinaryOp::And | BinaryOp::Or => {
-                    // Both sides are worked out; neither has an effect.
-                    let (a, b) = (self.truth(a, depth)?, self.truth(b, depth)?);
-                    f64::from(u8::from(if *op == BinaryOp::And { a && b } else { a || b }))
+            ExprKind::Binary(op, operands) => {
+                let [a, b] = &**operands;
+                match op {
+                    BinaryOp::And | BinaryOp::Or => {
+                        // Both sides are worked out; neither has an effect.
+                        let (a, b) = (self.truth(a, depth)?, self.truth(b, depth)?);
+                        f64::from(u8::from(if *op == BinaryOp::And { a && b } else { a || b }))
+                    }
+                    _ => self.binary(*op, a, b, depth)?,
                 }
-                _ => self.binary(*op, a, b, depth)?,
-            },
+            }
             ExprKind::Call { function, arguments, .. } => {
                 let Some(argument) = arguments.first() else {
                     return Err(Stop::unnamed("a function without its argument").into());

@@ -55,7 +55,8 @@ impl<'c, 'f> Expressions<'c, 'f> {
                 let zero = Box::new(Ex::Number(0.0));
                 Ex::Binary(BinaryOp::Equal, Box::new(self.expr(inner)), zero)
             }
-            ExprKind::Binary(op, a, b) => {
+            ExprKind::Binary(op, operands) => {
+                let [a, b] = &**operands;
                 if is_relation(*op) && !self.in_condition {
                     self.behaviour(Question::ComparisonIsValue);
                 }
@@ -208,7 +209,9 @@ fn is_relation(op: BinaryOp) -> bool {
 fn compares(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Group(inner) | ExprKind::Not(inner) => compares(inner),
-        ExprKind::Binary(BinaryOp::And | BinaryOp::Or | BinaryOp::Xor, a, b) => compares(a) && compares(b),
+        ExprKind::Binary(BinaryOp::And | BinaryOp::Or | BinaryOp::Xor, operands) => {
+            operands.iter().all(compares)
+        }
         ExprKind::Binary(op, ..) => is_relation(*op),
         _ => false,
     }

@@ -45,7 +45,8 @@ impl Lowering<'_> {
                 Some((self.active(variable)?, self.load))
             }
             ExprKind::Variable(_) | ExprKind::Number(_) => Some((self.operand(written)?, self.load)),
-            ExprKind::Binary(op, a, b) => {
+            ExprKind::Binary(op, operands) => {
+                let [a, b] = &**operands;
                 let (op, name) = match op {
                     BinaryOp::Add => (BinOp::Add, "add"),
                     BinaryOp::Subtract => (BinOp::Sub, "subtract"),

@@ -7,6 +7,7 @@ use crate::syntax::support::{fault, number};
 use crate::syntax::*;
 use crate::text::Span;
 use pest::iterators::{Pair, Pairs};
+use thin_vec::ThinVec;
 
 /// Addresses whose active value can be read (seed 004, line 1633).
 const READABLE: &str = "XYZEIJKADFRST";
@@ -142,22 +143,22 @@ impl Build {
                 let function = function(parts.next()?.as_str())?;
                 let argument = parts.next()?;
                 self.want_variable(&argument, "the argument of a function");
-                let arguments = vec![self.operand(argument)?];
+                let arguments = ThinVec::from([self.operand(argument)?]);
                 Some(Expr { kind: ExprKind::Call { function, arguments, form: CallForm::Plain }, span })
             }
             Rule::operation => {
                 let mut parts = pair.into_inner();
                 let left = parts.next()?;
                 self.want_variable(&left, "the first operand");
-                let left = Box::new(self.operand(left)?);
+                let left = self.operand(left)?;
                 let op = match parts.next()?.as_rule() {
                     Rule::add => BinaryOp::Add,
                     Rule::subtract => BinaryOp::Subtract,
                     Rule::multiply => BinaryOp::Multiply,
                     _ => BinaryOp::Divide,
                 };
-                let right = Box::new(self.operand(parts.next()?)?);
-                Some(Expr { kind: ExprKind::Binary(op, left, right), span })
+                let right = self.operand(parts.next()?)?;
+                Some(Expr { kind: ExprKind::Binary(op, Box::new([left, right])), span })
             }
             Rule::read => {
                 let name = pair.as_str().to_ascii_uppercase();

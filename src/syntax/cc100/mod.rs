@@ -38,7 +38,7 @@ fn by_grammar(source: &[u8], line: Span, out: &mut Vec<Block>) {
             let tokens = tile(source, line, lexemes);
             let (items, mut errors) = build::items(line, pairs);
             errors.extend(check::mixture(&items));
-            out.push(Block { span: line, tokens, items, errors });
+            out.push(Block { span: line, tokens, items, errors: errors.into() });
         }
         Err(error) => out.push(unparsed(line, diagnose::diagnose(&text, line, &error))),
     }

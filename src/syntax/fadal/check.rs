@@ -8,13 +8,11 @@ use crate::syntax::{BinaryOp, Expr, ExprKind, Index, SyntaxError, VarRef};
 pub(super) fn condition(expr: &Expr, errors: &mut Vec<SyntaxError>) {
     match &expr.kind {
         ExprKind::Group(inner) | ExprKind::Not(inner) => condition(inner, errors),
-        ExprKind::Binary(BinaryOp::And | BinaryOp::Or, a, b) => {
-            condition(a, errors);
-            condition(b, errors);
+        ExprKind::Binary(BinaryOp::And | BinaryOp::Or, operands) => {
+            operands.iter().for_each(|operand| condition(operand, errors));
         }
-        ExprKind::Binary(op, a, b) if is_relation(*op) => {
-            value(a, errors);
-            value(b, errors);
+        ExprKind::Binary(op, operands) if is_relation(*op) => {
+            operands.iter().for_each(|operand| value(operand, errors));
         }
         _ => {
             let message = "this is a value; a comparison such as `V1<>0` is expected";
@@ -31,9 +29,10 @@ pub(super) fn value(expr: &Expr, errors: &mut Vec<SyntaxError>) {
         ExprKind::Variable(variable) => subscript(variable, errors),
         ExprKind::Negate(inner) | ExprKind::Plus(inner) | ExprKind::Group(inner) => value(inner, errors),
         ExprKind::Call { arguments, .. } => arguments.iter().for_each(|argument| value(argument, errors)),
-        ExprKind::Binary(op, a, b) if !is_relation(*op) && !matches!(op, BinaryOp::And | BinaryOp::Or) => {
-            value(a, errors);
-            value(b, errors);
+        ExprKind::Binary(op, operands)
+            if !is_relation(*op) && !matches!(op, BinaryOp::And | BinaryOp::Or) =>
+        {
+            operands.iter().for_each(|operand| value(operand, errors));
         }
         ExprKind::Not(_) | ExprKind::Binary(..) => {
             let message = "this is true or false; a value is expected";

@@ -10,6 +10,7 @@ use crate::text::Span;
 use pest::iterators::{Pair, Pairs};
 use std::borrow::Cow;
 use std::iter::Peekable;
+use thin_vec::ThinVec;
 
 type Operands<'p> = Peekable<Pairs<'p, Rule>>;
 
@@ -53,7 +54,7 @@ impl Build<'_> {
             row.next();
             let right = self.ranked(row, rank + 1, whole);
             let span = left.span.to(right.span);
-            left = Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span };
+            left = Expr { kind: ExprKind::Binary(op, Box::new([left, right])), span };
         }
         left
     }
@@ -97,7 +98,7 @@ impl Build<'_> {
             _ => return self.hole(span),
         };
         let Some(argument) = parts.nth(1) else { return self.hole(span) };
-        let arguments = vec![self.expr(argument)];
+        let arguments = ThinVec::from([self.expr(argument)]);
         Expr { kind: ExprKind::Call { function, arguments, form: CallForm::Plain }, span }
     }
 

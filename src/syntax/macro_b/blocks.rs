@@ -9,6 +9,7 @@ use super::{checks, reader};
 use crate::syntax::support::{readable, too_long};
 use crate::syntax::{Block, Comment, Fence, Item, ItemKind, SyntaxError, Token, TokenKind};
 use crate::text::Span;
+use thin_vec::{ThinVec, thin_vec};
 
 /// What is kept of a block beside what it says.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -100,7 +101,8 @@ fn grammar_block(rules: &Rules, source: &[u8], span: Span, line_start: u32, shap
     };
     match tree {
         Ok(tree) => {
-            let mut block = Block { span, tokens: tokens(&row), items: tree.items, errors: tree.errors };
+            let mut block =
+                Block { span, tokens: tokens(&row), items: tree.items, errors: tree.errors.into() };
             checks::check_items(rules, source, &block.items, &mut block.errors);
             checks::check_shape(rules, source, &mut block, line_start, shape);
             block
@@ -122,7 +124,7 @@ fn unread(span: Span, end: Option<Span>, fault: SyntaxError) -> Block {
             tokens.push(Token { kind: TokenKind::Space, span: Span::new(sign.end, end.end) });
         }
     }
-    Block { span, tokens, items, errors: vec![fault] }
+    Block { span, tokens, items, errors: thin_vec![fault] }
 }
 
 /// The `;` that ends a block and the blanks after it.
@@ -159,6 +161,6 @@ fn outside_block(line: Span) -> Block {
             kind: ItemKind::Comment(Comment { text: line, fence: Fence::Outside }),
             span: line,
         }],
-        errors: Vec::new(),
+        errors: ThinVec::new(),
     }
 }

@@ -9,9 +9,10 @@ use crate::syntax::{
     VarRef, Word, for_each_expr,
 };
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 /// The list that faults are added to.
-struct Faults<'a>(&'a mut Vec<SyntaxError>);
+struct Faults<'a>(&'a mut ThinVec<SyntaxError>);
 
 impl Faults<'_> {
     fn add(&mut self, code: Code, span: Span, message: impl Into<String>) {
@@ -39,13 +40,13 @@ pub fn check_shape(rules: &Rules, source: &[u8], block: &mut Block, line_start: 
 }
 
 /// Checks what the items say.
-pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Vec<SyntaxError>) {
+pub fn check_items(rules: &Rules, source: &[u8], items: &[Item], errors: &mut ThinVec<SyntaxError>) {
     check_each(rules, source, items, errors);
     check_expressions(rules, source, items, &mut Faults(errors));
 }
 
 /// Checks all but what expressions compute, also after a condition.
-fn check_each(rules: &Rules, source: &[u8], items: &[Item], errors: &mut Vec<SyntaxError>) {
+fn check_each(rules: &Rules, source: &[u8], items: &[Item], errors: &mut ThinVec<SyntaxError>) {
     let mut faults = Faults(errors);
     let may_call = may_call_macro(items);
     for item in items {
@@ -167,13 +168,14 @@ fn check_expression(
     faults: &mut Faults<'_>,
 ) {
     match &expr.kind {
-        ExprKind::Binary(BinaryOp::Divide, left, right) => {
+        ExprKind::Binary(BinaryOp::Divide, operands) => {
+            let [left, right] = &**operands;
             check_divisor(right, instead, faults);
             if rules.atan_slash_needs_bracket {
                 check_atan(source, left, right, faults);
             }
         }
-        ExprKind::Binary(BinaryOp::Modulo, _, right) => check_divisor(right, instead, faults),
+        ExprKind::Binary(BinaryOp::Modulo, operands) => check_divisor(&operands[1], instead, faults),
         ExprKind::Call { function, arguments, .. } => check_domain(*function, arguments, instead, faults),
         _ => {}
     }
@@ -210,7 +212,7 @@ fn check_domain(function: Func, arguments: &[Expr], instead: Option<Code>, fault
 /// The operand just before the end of an expression.
 fn rightmost(expr: &Expr) -> &Expr {
     match &expr.kind {
-        ExprKind::Binary(_, _, right) => rightmost(right),
+        ExprKind::Binary(_, operands) => rightmost(&operands[1]),
         ExprKind::Negate(inner) | ExprKind::Plus(inner) => rightmost(inner),
         _ => expr,
     }

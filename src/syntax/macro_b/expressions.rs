@@ -5,6 +5,7 @@ use super::tree::{Builder, MOST_OPERATORS};
 use crate::canon::Func;
 use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, SyntaxError, VarRef};
 use crate::text::Span;
+use thin_vec::ThinVec;
 
 impl Builder<'_> {
     /// `#1+#2*3`
@@ -100,7 +101,7 @@ impl Builder<'_> {
         let function = function(word.of(self.source)).ok_or_else(|| self.misfit())?;
         self.need(Lex::Open)?;
         self.pass_space();
-        let mut arguments = vec![self.expression()?];
+        let mut arguments = ThinVec::from([self.expression()?]);
         let mut form = CallForm::Plain;
         if self.meets(Lex::Comma) {
             self.take();
@@ -163,7 +164,7 @@ impl Builder<'_> {
 
 fn binary(op: BinaryOp, left: Expr, right: Expr) -> Expr {
     let span = left.span.to(right.span);
-    Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span }
+    Expr { kind: ExprKind::Binary(op, Box::new([left, right])), span }
 }
 
 /// How close an operator binds where AND is a product and OR and XOR are sums.

@@ -103,7 +103,8 @@ impl Reader<'_> {
 
     /// Takes in that the jump on a condition was not taken.
     fn went_on(&mut self, condition: &Expr) {
-        let ExprKind::Binary(op, a, b) = &bare(condition).kind else { return };
+        let ExprKind::Binary(op, operands) = &bare(condition).kind else { return };
+        let [a, b] = &**operands;
         let ExprKind::Variable(variable) = &bare(a).kind else { return };
         let (Some(name), Some(holds)) = (self.name(variable), opposite(*op)) else { return };
         match self.value(b) {
@@ -167,8 +168,12 @@ impl Reader<'_> {
                     None => self.known.get(&self.name(variable)?).cloned(),
                 }
             }
-            ExprKind::Binary(BinaryOp::Add, a, b) => Some(Known::Number(number(a).plus(&number(b)))),
-            ExprKind::Binary(BinaryOp::Subtract, a, b) => {
+            ExprKind::Binary(BinaryOp::Add, operands) => {
+                let [a, b] = &**operands;
+                Some(Known::Number(number(a).plus(&number(b))))
+            }
+            ExprKind::Binary(BinaryOp::Subtract, operands) => {
+                let [a, b] = &**operands;
                 Some(Known::Number(number(a).plus(&number(b).negated())))
             }
             ExprKind::Call { function: Func::Fix, arguments, .. } => {
@@ -187,9 +192,9 @@ impl Reader<'_> {
     /// Whether a condition holds, where that is known.
     fn holds(&self, e: &Expr) -> Option<bool> {
         use BinaryOp::*;
-        let (op, left, right) = match &e.kind {
+        let (op, [left, right]) = match &e.kind {
             ExprKind::Group(inner) => return self.holds(inner),
-            ExprKind::Binary(op, a, b) => (*op, a, b),
+            ExprKind::Binary(op, operands) => (*op, &**operands),
             _ => return None,
         };
         let (a, b) = (self.value(left)?, self.value(right)?);

@@ -27,7 +27,8 @@ impl<'b> Lowering<'b> {
                 }
                 Some(Cond::Not(Box::new(self.nested_condition(inner, depth + 1)?)))
             }
-            ExprKind::Binary(op @ (BinaryOp::And | BinaryOp::Or), a, b) => {
+            ExprKind::Binary(op @ (BinaryOp::And | BinaryOp::Or), operands) => {
+                let [a, b] = &**operands;
                 let bare = [a, b].into_iter().any(|side| {
                     !matches!(&side.kind, ExprKind::Group(_))
                         && !matches!(&side.kind, ExprKind::Binary(inner, ..) if inner == op)
@@ -39,7 +40,8 @@ impl<'b> Lowering<'b> {
                 let b = self.nested_condition(b, depth + 1)?;
                 Some(join(*op, a, b))
             }
-            ExprKind::Binary(op, a, b) => {
+            ExprKind::Binary(op, operands) => {
+                let [a, b] = &**operands;
                 let Some(relation) = relation(*op) else { return self.number(e) };
                 if matches!(relation, Relation::Equal | Relation::NotEqual) {
                     self.suppose(Question::EqualTolerance, "0", e.span);

@@ -34,7 +34,8 @@ impl<'b> Lowering<'b> {
             ExprKind::Not(_) => {
                 return self.refuse(e.span, "NOT gives no value: it stands in conditions only");
             }
-            ExprKind::Binary(op, a, b) => {
+            ExprKind::Binary(op, operands) => {
+                let [a, b] = &**operands;
                 let Some(op) = arithmetic(*op) else {
                     let _ = self.rely(Question::ComparisonIsValue, e.span);
                     return self.refuse(e.span, "a comparison gives no value here: it stands in IF only");
@@ -186,7 +187,8 @@ fn whole(e: &syntax::Expr, depth: u32) -> Option<f64> {
         ExprKind::Number(number) if !number.point => Some(number.value),
         ExprKind::Plus(inner) | ExprKind::Group(inner) => whole(inner, depth + 1),
         ExprKind::Negate(inner) => whole(inner, depth + 1).map(|value| -value),
-        ExprKind::Binary(op, a, b) => {
+        ExprKind::Binary(op, operands) => {
+            let [a, b] = &**operands;
             let (a, b) = (whole(a, depth + 1)?, whole(b, depth + 1)?);
             match op {
                 BinaryOp::Add => Some(a + b),

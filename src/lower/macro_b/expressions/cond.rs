@@ -16,9 +16,10 @@ pub fn is_condition(expr: &syntax::Expr) -> bool {
         match &at.kind {
             ExprKind::Group(inner) => at = inner,
             ExprKind::Not(_) => return true,
-            ExprKind::Binary(op, _, _) if relation(*op).is_some() => return true,
+            ExprKind::Binary(op, _) if relation(*op).is_some() => return true,
             // A chain of joined conditions leans to the left; its right ends decide too.
-            ExprKind::Binary(BinaryOp::And | BinaryOp::Or | BinaryOp::Xor, a, b) => {
+            ExprKind::Binary(BinaryOp::And | BinaryOp::Or | BinaryOp::Xor, operands) => {
+                let [a, b] = &**operands;
                 if !compares(b) {
                     return false;
                 }
@@ -36,8 +37,10 @@ fn compares(expr: &syntax::Expr) -> bool {
         match &at.kind {
             ExprKind::Group(inner) => rest.push(inner),
             ExprKind::Not(_) => {}
-            ExprKind::Binary(op, _, _) if relation(*op).is_some() => {}
-            ExprKind::Binary(BinaryOp::And | BinaryOp::Or | BinaryOp::Xor, a, b) => rest.extend([&**a, &**b]),
+            ExprKind::Binary(op, _) if relation(*op).is_some() => {}
+            ExprKind::Binary(BinaryOp::And | BinaryOp::Or | BinaryOp::Xor, operands) => {
+                rest.extend(&**operands)
+            }
             _ => return false,
         }
     }
@@ -59,27 +62,38 @@ impl<'a> Lowering<'a> {
         match &expr.kind {
             ExprKind::Group(inner) => self.cond_at(inner, depth),
             ExprKind::Not(inner) => Cond::Not(Box::new(self.cond_at(inner, depth))),
-            ExprKind::Binary(op, a, b) => match (relation(*op), op) {
-                (Some(relation), _) => {
-                    self.ranks(*op, a, b, false);
-                    let (a, b) = (self.expr_at(a, At::Value, depth), self.expr_at(b, At::Value, depth));
-                    Cond::Compare(relation, a, b)
-                }
-                (None, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor) if is_condition(expr) => {
-                    match self.findings.behaviour(Question::ConditionAndOr, expr.span) {
-                        Some("true") => {}
-                        Some(_) => self
-                            .findings
-                            .not_understood(expr.span, "this control does not join conditions by AND or OR"),
-                        None => self.unknown_behaviour(Question::ConditionAndOr, expr.span),
-                    }
-                    self.ranks(*op, a, b, true);
-                    let (a, b) = (self.cond_at(a, depth), self.cond_at(b, depth));
-                    join(*op, a, b)
-                }
-                _ => self.bare(expr, depth),
-            },
+            ExprKind::Binary(op, operands) => self.binary_cond(*op, operands, expr, depth),
             _ => self.bare(expr, depth),
+        }
+    }
+
+    /// A comparison, or conditions that are joined.
+    fn binary_cond(
+        &mut self,
+        op: BinaryOp,
+        [a, b]: &'a [syntax::Expr; 2],
+        whole: &'a syntax::Expr,
+        depth: u32,
+    ) -> Cond {
+        match (relation(op), op) {
+            (Some(relation), _) => {
+                self.ranks(op, a, b, false);
+                let (a, b) = (self.expr_at(a, At::Value, depth), self.expr_at(b, At::Value, depth));
+                Cond::Compare(relation, a, b)
+            }
+            (None, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor) if is_condition(whole) => {
+                match self.findings.behaviour(Question::ConditionAndOr, whole.span) {
+                    Some("true") => {}
+                    Some(_) => self
+                        .findings
+                        .not_understood(whole.span, "this control does not join conditions by AND or OR"),
+                    None => self.unknown_behaviour(Question::ConditionAndOr, whole.span),
+                }
+                self.ranks(op, a, b, true);
+                let (a, b) = (self.cond_at(a, depth), self.cond_at(b, depth));
+                join(op, a, b)
+            }
+            _ => self.bare(whole, depth),
         }
     }
 

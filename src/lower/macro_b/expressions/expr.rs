@@ -36,7 +36,7 @@ impl<'a> Lowering<'a> {
             // Brackets and a plus sign are no arithmetic: what is vacant stays so.
             ExprKind::Plus(inner) | ExprKind::Group(inner) => self.expr_at(inner, at, depth),
             ExprKind::Not(_) => self.truth(expr, depth),
-            ExprKind::Binary(op, a, b) => self.binary(*op, a, b, expr, at, depth),
+            ExprKind::Binary(op, operands) => self.binary(*op, operands, expr, at, depth),
             ExprKind::Call { function, arguments, .. } => {
                 self.call_function(*function, arguments, expr.span, at, depth)
             }
@@ -46,8 +46,7 @@ impl<'a> Lowering<'a> {
     fn binary(
         &mut self,
         op: BinaryOp,
-        a: &'a syntax::Expr,
-        b: &'a syntax::Expr,
+        [a, b]: &'a [syntax::Expr; 2],
         whole: &'a syntax::Expr,
         at: At,
         depth: u32,

@@ -7,6 +7,7 @@ use super::cursor::Reader;
 use crate::canon::Func;
 use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, TokenKind, VarRef};
 use crate::text::Span;
+use thin_vec::{ThinVec, thin_vec};
 
 /// What operators stand between.
 #[derive(Clone, Copy)]
@@ -52,7 +53,7 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
             self.take(TokenKind::Operator, length);
             let right = self.joined(rank + 1, between)?;
             let span = left.span.to(right.span);
-            left = Expr { kind: ExprKind::Binary(op, Box::new(left), Box::new(right)), span };
+            left = Expr { kind: ExprKind::Binary(op, Box::new([left, right])), span };
         }
         Some(left)
     }
@@ -145,12 +146,12 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
         Some(Expr { kind: ExprKind::Call { function, arguments, form }, span })
     }
 
-    fn arguments(&mut self) -> Option<(Vec<Expr>, CallForm)> {
+    fn arguments(&mut self) -> Option<(ThinVec<Expr>, CallForm)> {
         let first = self.expression()?;
         if self.take_sign(b',', TokenKind::Operator).is_none() {
-            return Some((vec![first], CallForm::Plain));
+            return Some((thin_vec![first], CallForm::Plain));
         }
-        Some((vec![first, self.expression()?], CallForm::Comma))
+        Some((thin_vec![first, self.expression()?], CallForm::Comma))
     }
 
     /// A slash divides unless a bracket comes after it.

@@ -14,6 +14,7 @@ use crate::syntax::{Block, Item, Token};
 use crate::text::Span;
 use cursor::{Reader, taken};
 use std::cell::RefCell;
+use thin_vec::ThinVec;
 
 thread_local! {
     /// Room for the items and tokens of a block, which the next block uses again.
@@ -34,7 +35,7 @@ pub fn read<const TOKENS: bool>(
         let mut reader = Reader::<true, TOKENS>::new(rules, source, rest, items, tokens)?;
         reader.block()?;
         let (end, in_doubt) = (reader.at as u32, reader.in_doubt);
-        let mut errors = Vec::new();
+        let mut errors = ThinVec::new();
         if in_doubt {
             checks::check_items(rules, source, items, &mut errors);
         }

@@ -77,7 +77,10 @@ fn expr(e: &Expr) -> String {
         ExprKind::Plus(a) => format!("pos({})", expr(a)),
         ExprKind::Not(a) => format!("not({})", expr(a)),
         ExprKind::Group(a) => format!("[{}]", expr(a)),
-        ExprKind::Binary(op, a, b) => format!("{op:?}({},{})", expr(a), expr(b)),
+        ExprKind::Binary(op, operands) => {
+            let [a, b] = &**operands;
+            format!("{op:?}({},{})", expr(a), expr(b))
+        }
         ExprKind::Call { function, arguments, form } => {
             let arguments: Vec<String> = arguments.iter().map(expr).collect();
             format!("{function:?}{form:?}({})", arguments.join(","))

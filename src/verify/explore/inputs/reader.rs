@@ -183,10 +183,11 @@ impl<'c> Reader<'c> {
     fn condition(&mut self, condition: &Expr) {
         walk(condition, &mut |e| {
             self.read_in(e);
-            let ExprKind::Binary(op, left, right) = &e.kind else { return };
+            let ExprKind::Binary(op, operands) = &e.kind else { return };
             if !is_relation(*op) {
                 return;
             }
+            let [left, right] = &**operands;
             let (mut constants, mut variables) = (vec![0.0], Vec::new());
             for side in [left, right] {
                 walk(side, &mut |e| match &e.kind {
@@ -288,9 +289,10 @@ impl<'c> Reader<'c> {
 
 /// By how much a variable goes on each time, and twice that: a way of so few steps comes to its end.
 fn step(target: &VarRef, value: &Expr) -> Vec<f64> {
-    let ExprKind::Binary(BinaryOp::Add | BinaryOp::Subtract, left, right) = &value.kind else {
+    let ExprKind::Binary(BinaryOp::Add | BinaryOp::Subtract, operands) = &value.kind else {
         return Vec::new();
     };
+    let [left, right] = &**operands;
     match (&left.kind, &right.kind) {
         (ExprKind::Variable(variable), ExprKind::Number(by)) if name_of(variable) == name_of(target) => {
             vec![by.value, by.value * 2.0]
@@ -315,10 +317,7 @@ fn walk<'e>(e: &'e Expr, visit: &mut dyn FnMut(&'e Expr)) {
             }
         }
         ExprKind::Negate(a) | ExprKind::Plus(a) | ExprKind::Not(a) | ExprKind::Group(a) => walk(a, visit),
-        ExprKind::Binary(_, a, b) => {
-            walk(a, visit);
-            walk(b, visit);
-        }
+        ExprKind::Binary(_, operands) => operands.iter().for_each(|a| walk(a, visit)),
         ExprKind::Call { arguments, .. } => arguments.iter().for_each(|a| walk(a, visit)),
     }
 }

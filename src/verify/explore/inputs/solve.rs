@@ -18,17 +18,20 @@ pub fn solve(e: &Expr, wanted: f64) -> Option<(&VarRef, f64)> {
             (function, [inner]) => solve(inner, argument(*function, wanted)?),
             _ => None,
         },
-        ExprKind::Binary(op, a, b) => match (op, constant(a), constant(b)) {
-            (Add, None, Some(c)) => solve(a, wanted - c),
-            (Add, Some(c), None) => solve(b, wanted - c),
-            (Subtract, None, Some(c)) => solve(a, wanted + c),
-            (Subtract, Some(c), None) => solve(b, c - wanted),
-            (Multiply, None, Some(c)) if c != 0.0 => solve(a, wanted / c),
-            (Multiply, Some(c), None) if c != 0.0 => solve(b, wanted / c),
-            (Divide, None, Some(c)) => solve(a, wanted * c),
-            (Divide, Some(c), None) if wanted != 0.0 => solve(b, c / wanted),
-            _ => None,
-        },
+        ExprKind::Binary(op, operands) => {
+            let [a, b] = &**operands;
+            match (op, constant(a), constant(b)) {
+                (Add, None, Some(c)) => solve(a, wanted - c),
+                (Add, Some(c), None) => solve(b, wanted - c),
+                (Subtract, None, Some(c)) => solve(a, wanted + c),
+                (Subtract, Some(c), None) => solve(b, c - wanted),
+                (Multiply, None, Some(c)) if c != 0.0 => solve(a, wanted / c),
+                (Multiply, Some(c), None) if c != 0.0 => solve(b, wanted / c),
+                (Divide, None, Some(c)) => solve(a, wanted * c),
+                (Divide, Some(c), None) if wanted != 0.0 => solve(b, c / wanted),
+                _ => None,
+            }
+        }
         _ => None,
     }
 }
@@ -54,7 +57,8 @@ pub fn constant(e: &Expr) -> Option<f64> {
         ExprKind::Number(number) => Some(number.value),
         ExprKind::Group(inner) | ExprKind::Plus(inner) => constant(inner),
         ExprKind::Negate(inner) => constant(inner).map(|value| -value),
-        ExprKind::Binary(op, a, b) => {
+        ExprKind::Binary(op, operands) => {
+            let [a, b] = &**operands;
             let (a, b) = (constant(a)?, constant(b)?);
             match op {
                 Add => Some(a + b),
