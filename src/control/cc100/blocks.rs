@@ -84,9 +84,22 @@ impl<'r> Interpreter<'r, '_> {
             session.machine.run(command, &mut session.trace)?;
         }
         if let Some(text) = message {
-            session.pause(Pause::Stop, EventKind::Message { text });
+            session.pause(Pause::Stop, EventKind::Message { text: text.clone() });
+            self.answer_in(&text);
         }
         self.flow(&read, words)
+    }
+
+    /// An operator who reads the name of a variable at the start of a message enters the next answer into it.
+    fn answer_in(&mut self, text: &str) {
+        let name = text.strip_prefix("SET ").unwrap_or(text);
+        let digits = name.strip_prefix('V').and_then(|rest| rest.split(' ').next());
+        let cell = digits.and_then(|digits| digits.parse().ok()).and_then(Cell::numbered);
+        if let Some(cell) = cell.filter(|_| self.session.has_answer()) {
+            let answer = self.session.answer();
+            self.store.set(cell, answer);
+            self.stood = None;
+        }
     }
 
     /// The variables that a drilling cycle takes its planes from, where its block sets them.

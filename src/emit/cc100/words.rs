@@ -128,6 +128,11 @@ impl<'p> Emitter<'p> {
         if misread || used.contains(&letter) {
             return self.out.unmapped(format_args!("the word '{role}' here: {letter} means something else"));
         }
+        let beside = codes.iter().any(|code| code.words.iter().any(|(_, meaning)| *meaning == role));
+        if letter == 'T' && role != Role::Tool && !beside {
+            // By itself it would change the tool.
+            return self.out.unmapped(format_args!("the word '{role}' in a block without G41 or G42"));
+        }
         if matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK) {
             return self.out.unmapped("the centre of an arc: no source says from where it counts here");
         }

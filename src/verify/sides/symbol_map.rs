@@ -3,7 +3,7 @@
 use super::names::{class_of, numbered};
 use super::side::Side;
 use crate::control::ProgramRef;
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,7 +41,9 @@ impl SymbolMap {
         }
         let (from, to) = (class_of(source, name)?, class_of(target, name)?);
         let taken = numbered(name, prefix).is_some_and(|own| self.holds(own) || self.scratch.contains(&own));
-        ((from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
+        // Where nothing is vacant, numbers are not kept from another control.
+        let kept = target.is(Question::Vacancy) || source.name() == target.name();
+        (kept && (from.class == "local") == (to.class == "local") && !taken).then(|| name.to_owned())
     }
 
     /// The variable of the source that a register of the target holds; none if it holds none.
