@@ -15,8 +15,10 @@ const COMMENT: usize = 60;
 /// The line that is being written, and what waits for the next one.
 #[derive(Default)]
 pub(super) struct Page<'p> {
+    /// True where blocks have no numbers, because there are more blocks than numbers.
+    bare: bool,
     /// The number of the last block.
-    last: u32,
+    pub last: u32,
     /// Where the line's own text starts.
     start: usize,
     waiting: Vec<&'p Comment>,
@@ -25,6 +27,13 @@ pub(super) struct Page<'p> {
     stopped: bool,
     /// True if a variable is none of those for programs.
     pub crowded: bool,
+}
+
+impl Page<'_> {
+    /// A page whose blocks have numbers, unless it is `bare`.
+    pub fn new(bare: bool) -> Self {
+        Self { bare, ..Self::default() }
+    }
 }
 
 impl<'p> Emitter<'p> {
@@ -130,9 +139,11 @@ impl<'p> Emitter<'p> {
         let start = self.out.text.len();
         self.page.stopped = false;
         self.page.last += 1;
-        self.out.push(self.out.forms.sequence);
-        write_integer(&mut self.out.text, u64::from(self.page.last));
-        self.out.push(' ');
+        if !self.page.bare {
+            self.out.push(self.out.forms.sequence);
+            write_integer(&mut self.out.text, u64::from(self.page.last));
+            self.out.push(' ');
+        }
         start
     }
 

@@ -1,8 +1,8 @@
 //! The text of a Bosch CC 100: plain blocks of words, and parametric blocks of one step each.
 //!
 //! Every block has a number, counted from 1, and nothing goes to it by that number: jumps and calls go to `$n` on blocks
-//! of their own. The main part comes first and `M30` ends it; what it calls, and the stops that stand for alarms, come
-//! after it (seed 004:218 to 241, 464, 1568).
+//! of their own. A program of more blocks than there are numbers has none. The main part comes first and `M30` ends it;
+//! what it calls, and the stops that stand for alarms, come after it (seed 004:218 to 241, 464, 1568).
 
 mod expressions;
 mod labels;
@@ -26,18 +26,24 @@ const FORMS: Forms = Forms { sequence: 'N', program: 'O', program_digits: 4 };
 pub fn emit<'a>(names: &'a Naming, control: &'a Control) -> Writer<'a> {
     let spellings = Spellings::of(control);
     Box::new(move |valid| {
-        let mut emitter = Emitter {
-            program: valid.program(),
-            names,
-            control,
-            spellings: &spellings,
-            out: Sheet::new(control, FORMS),
-            page: Page::default(),
-            labels: Labels::default(),
-            alarms: Vec::new(),
+        let write = |bare: bool| {
+            let mut emitter = Emitter {
+                program: valid.program(),
+                names,
+                control,
+                spellings: &spellings,
+                out: Sheet::new(control, FORMS),
+                page: Page::new(bare),
+                labels: Labels::default(),
+                alarms: Vec::new(),
+            };
+            emitter.program();
+            (emitter.page.last > control.text().sequence_max, emitter.out.end())
         };
-        emitter.program();
-        emitter.out.end()
+        match write(false) {
+            (true, _) => write(true).1,
+            (false, made) => made,
+        }
     })
 }
 
