@@ -4,7 +4,7 @@
 //! of each dialect and policy. A program that shows a fault is made smaller, then printed with its seed.
 //! `MACROGLOT_KINDS="fadal DeepDo"` tries that kind alone, `MACROGLOT_KINDS=fadal` those of one dialect.
 //! `MACROGLOT_SMALLER=0` prints programs with faults as they were drawn.
-//! `MACROGLOT_REASONS=1` prints why each conversion is undecided.
+//! `MACROGLOT_REASONS=1` prints why each conversion is undecided, and why programs are refused.
 
 #[path = "support/generate/mod.rs"]
 mod generate;
@@ -29,6 +29,8 @@ const SHOWN: usize = 24;
 const SMALLER: u64 = 400;
 /// Reasons of undecided conversions that are printed.
 const REASONS: usize = 25;
+/// Reasons of refusals that are printed, if they are asked for.
+const REFUSALS: usize = 80;
 /// The time that a program may take: more is a fault of its own. Small programs take milliseconds.
 const BUDGET: Duration = Duration::from_secs(20);
 
@@ -42,13 +44,8 @@ fn drawn(dialect: &'static str, policy: Policy, seed: u64) -> Program {
 
 /// Tries a program; a panic is a fault like others.
 fn tried(program: &Program) -> Trial {
-    catch_unwind(|| trial::run(program)).unwrap_or_else(|_| Trial {
-        useful: false,
-        judged: Vec::new(),
-        faults: vec!["panicked".into()],
-        reasons: Vec::new(),
-        took: Duration::ZERO,
-    })
+    catch_unwind(|| trial::run(program))
+        .unwrap_or_else(|_| Trial { faults: vec!["panicked".into()], ..Trial::default() })
 }
 
 /// The programs that are being tried, by seed, and since when.
@@ -140,7 +137,8 @@ fn search(running: &Running, programs: u64, seed: u64) {
         DIALECTS.iter().flat_map(|dialect| Policy::ALL.map(|policy| (*dialect, policy))).collect();
     let mut table = String::new();
     let (mut all, mut useful) = (0, 0);
-    let mut judgements: BTreeMap<Judgement, usize> = BTreeMap::new();
+    let mut judgements: BTreeMap<(&str, Judgement), usize> = BTreeMap::new();
+    let mut refusals: BTreeMap<(&str, String), usize> = BTreeMap::new();
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
     let mut longest = (Duration::ZERO, 0);
     let mut faulty: Vec<(&str, Policy, u64, String)> = Vec::new();
@@ -160,12 +158,14 @@ fn search(running: &Running, programs: u64, seed: u64) {
             .collect();
         let share = trials.iter().filter(|(_, trial)| trial.useful).count();
         let mut verdicts: BTreeMap<Judgement, usize> = BTreeMap::new();
-        for (_, judgement) in trials.iter().flat_map(|(_, trial)| &trial.judged) {
+        for (target, judgement) in trials.iter().flat_map(|(_, trial)| &trial.judged) {
             *verdicts.entry(*judgement).or_default() += 1;
-            *judgements.entry(*judgement).or_default() += 1;
+            *judgements.entry((target, *judgement)).or_default() += 1;
         }
         for (seed, trial) in &trials {
             longest = longest.max((trial.took, *seed));
+            let sorts: BTreeSet<_> = trial.refusals.iter().cloned().collect();
+            sorts.into_iter().for_each(|sort| *refusals.entry(sort).or_default() += 1);
             if verbose {
                 let told = trial.reasons.iter().map(|reason| format!("{:?}: {}", reason.why, reason.text));
                 told.for_each(|reason| eprintln!("{dialect} {policy:?} seed {seed} undecided: {reason}"));
@@ -190,6 +190,11 @@ fn search(running: &Running, programs: u64, seed: u64) {
     reasons.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
     for (reason, times) in reasons.iter().take(REASONS) {
         println!("{times:7} programs undecided: {reason}");
+    }
+    let mut refusals: Vec<_> = refusals.into_iter().collect();
+    refusals.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
+    for ((target, why), times) in refusals.iter().take(if verbose { REFUSALS } else { 0 }) {
+        println!("{times:7} programs refused for {target}: {why}");
     }
     let mut shown = String::new();
     let mut seen: BTreeMap<(&str, String, String), usize> = BTreeMap::new();

@@ -104,6 +104,7 @@ fn names(home: &Home, from: &Control, to: &Control) -> Result<SymbolMap, u8> {
     Ok(SymbolMap {
         variables: lock.variables,
         scratch: lock.scratch.into_iter().collect(),
+        of_words: lock.of_words.into_iter().collect(),
         programs: lock.programs,
     })
 }

@@ -25,7 +25,10 @@ pub struct Entry {
     /// True if a move in machine coordinates may have cancelled it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub length_moved: bool,
-    /// True if neither went along its axis.
+    /// True if a tool change may have cancelled it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub length_changed: bool,
+    /// True if none went along its axis.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub length_across: bool,
     /// The offset of the cutter radius that is compensated to the left.
@@ -63,9 +66,11 @@ impl Entry {
         if (self.length, self.length_minus) != (other.length, other.length_minus) {
             (self.length, self.length_minus) = (None, false);
         }
-        let lost = |entry: &Self| (entry.length_lost, entry.length_moved, entry.length_across);
+        let lost =
+            |entry: &Self| [entry.length_lost, entry.length_moved, entry.length_changed, entry.length_across];
         if self.length.is_none() || lost(self) != lost(other) {
-            (self.length_lost, self.length_moved, self.length_across) = (false, false, false);
+            (self.length_lost, self.length_moved) = (false, false);
+            (self.length_changed, self.length_across) = (false, false);
         }
         if (self.cutter, self.cutter_right) != (other.cutter, other.cutter_right) {
             (self.cutter, self.cutter_right) = (None, false);

@@ -252,6 +252,7 @@ questions! {
     RepeatMoves "repeat.moves" YES, "a repeat word on a move runs the block so many times", if "role:repeat";
     ReferenceLength "reference.length" OneOf(&["kept", "cancelled", "cancelled.along", "unknown"]), "whether a return to the reference position keeps the tool length, cancels it until it is named again, or does so only where the axis of the length moves", if "op:reference.return";
     MachineMoveLength "machine.move.length" OneOf(&["kept", "cancelled.along", "unknown"]), "whether the tool length is back after a move in machine coordinates, or is cancelled until it is named again where its axis moved", if "op:wcs.machine.once";
+    ChangeLength "change.length" OneOf(&["kept", "cancelled", "unknown"]), "whether a tool change keeps the tool length in force, or cancels it until it is named again", if "op:tool.change";
     PositionLength "position.length" OneOf(&["added", "left.out", "unknown"]), "whether the present position and the touched one, read in the program's coordinates, hold the tool length too: the place of the spindle, or of the tip";
     CycleRWord "cycle.r.word" YES, "a word R beside a drilling cycle is the retract plane, as R0 is";
     MirrorAbout "mirror.about" OneOf(&["word", "zero", "unknown"]), "the point about which an axis is mirrored: the \

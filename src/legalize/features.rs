@@ -22,6 +22,8 @@ pub enum Feature {
     Chain,
     /// A return to a sequence number.
     ReturnTo,
+    /// A jump to a computed label.
+    ComputedJump,
     /// A wait for the moves before it, or a limit on reading ahead.
     Wait,
     /// A print.
@@ -157,6 +159,7 @@ impl Features {
             TermKind::Call { call, .. } => self.callee(&call.callee),
             TermKind::Chain(_) => self.add(Feature::Chain),
             TermKind::Return { to: Some(_) } => self.add(Feature::ReturnTo),
+            TermKind::Computed { .. } => self.add(Feature::ComputedJump),
             TermKind::Branch { cond: Cond::And(_) | Cond::Or(_) | Cond::Not(_), .. } => {
                 self.add(Feature::Compound);
             }

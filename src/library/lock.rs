@@ -21,6 +21,9 @@ pub struct Lock {
     /// Registers of the target for values in between: no program may rely on what they hold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scratch: Vec<u32>,
+    /// Registers of the target that words take, for values in between, by name.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub of_words: Vec<String>,
     /// Those of them whose values must outlive calls: no program that is converted by itself may use them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub over_calls: Vec<u32>,
@@ -72,10 +75,11 @@ const UNNAMED: &str = "programs that were converted before";
 
 const HEAD: &str = "\
 # Which register of the target holds which variable of the source, which hold
-# values in between (scratch; over_calls: those that outlive calls), and which
-# number each program got that had none there. Nothing goes to the numbers in own
-# and reached: the programs of the files use them themselves. Written by macroglot,
-# honoured by its next run; keep it with the converted programs.
+# values in between (scratch, and of_words on a target whose words take registers
+# of their own; over_calls: those that outlive calls), and which number each program
+# got that had none there. Nothing goes to the numbers in own and reached: the
+# programs of the files use them themselves. Written by macroglot, honoured by its
+# next run; keep it with the converted programs.
 
 ";
 
@@ -116,6 +120,8 @@ impl Lock {
         let held: BTreeSet<u32> = registers.held().filter(|_| self.others.is_empty()).collect();
         let scratch: BTreeSet<u32> = registers.scratch.iter().chain(&self.scratch).copied().collect();
         self.scratch = scratch.difference(&held).copied().collect();
+        let words: BTreeSet<String> = registers.of_words.iter().chain(&self.of_words).cloned().collect();
+        self.of_words = words.into_iter().collect();
         let over: BTreeSet<u32> = registers.over_calls.iter().chain(&self.over_calls).copied().collect();
         self.over_calls = over.into_iter().collect();
         let own: BTreeSet<u32> = self.own.iter().copied().chain(registers.own()).collect();

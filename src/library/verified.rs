@@ -64,6 +64,7 @@ pub fn judge(
     let names = SymbolMap {
         variables: lock.variables.clone(),
         scratch: lock.scratch.iter().copied().collect(),
+        of_words: lock.of_words.iter().cloned().collect(),
         programs: lock.programs.clone(),
     };
     let all = from.programs();

@@ -3,12 +3,14 @@
 use super::calls::Local;
 use super::registers::Register;
 use super::{Interpreter, Next};
-use crate::canon::{Op, Role};
+use crate::canon::{Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
+use crate::control::trace::EventKind;
 use crate::control::words::{self, Read, Spoken};
 use crate::dialect::Question;
 use crate::syntax::{Block, Expr, ExprKind, Index, ItemKind};
+use crate::text::{Span, decode};
 use smallvec::SmallVec;
 
 /// The variable that cycles take their retract plane from, and arcs their radius.
@@ -19,6 +21,8 @@ const PLANE: Register = Register::R(0);
 struct Line {
     words: SmallVec<[Spoken; 12]>,
     set: SmallVec<[Register; 4]>,
+    /// The comment, which a stop shows.
+    comment: Option<Span>,
 }
 
 /// What an L without a code of its own asks for.
@@ -60,6 +64,7 @@ impl<'r> Interpreter<'r, '_> {
                         line.set.push(register);
                     }
                 }
+                ItemKind::Comment(comment) => line.comment = Some(comment.text),
                 other => self.statement(other)?,
             }
         }
@@ -89,7 +94,14 @@ impl<'r> Interpreter<'r, '_> {
         let mut read = words::read(session, &line.words, &mut self.lasting)?;
         self.plane(&mut read, &line);
         self.before(&read, &line, asked)?;
+        let shown = if read.command.has(Op::Stop) { self.shown(&line) } else { None };
+        if shown.is_some() {
+            read.command.ops.retain(|op| *op != Op::Stop);
+        }
         self.tell(&mut read, asked)?;
+        if let Some(text) = shown {
+            self.session.pause(Pause::Stop, EventKind::Message { text });
+        }
         if let Asked::Call(call) = asked
             && !read.flows(Op::CallModal)
         {
@@ -99,6 +111,14 @@ impl<'r> Interpreter<'r, '_> {
             self.call_local(call)?;
         }
         self.after(&read)
+    }
+
+    /// The text that a stop shows: the comment in its block.
+    fn shown(&mut self, line: &Line) -> Option<String> {
+        let comment = line.comment.filter(|_| self.session.control.is(Question::MessageShowsComment))?;
+        let text = self.session.source(self.at.section).get(comment.start as usize..comment.end as usize)?;
+        let text = decode(text).trim().to_owned();
+        (!text.is_empty()).then_some(text)
     }
 
     /// Takes an L that calls or repeats out of the words; beside a code that reads L it stays.

@@ -54,6 +54,12 @@ impl Interpreter<'_, '_> {
     }
 
     fn call(&mut self, to: At, level: Level, count: u32) -> Flow<()> {
+        if let Some(row) = self.session.control.limit_row("call.all")
+            && let Some(most) = row.max.filter(|most| self.depth >= *most)
+        {
+            self.session.trace.rest_on(row);
+            return Err(Stop::too_deep("", "call.all", most).into());
+        }
         if self.depth >= DEEPEST {
             self.session.trace.doubt("limit:call.all");
             return Err(Stop::unnamed("calls are nested too deep").into());

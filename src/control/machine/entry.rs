@@ -45,7 +45,11 @@ impl Machine {
             self.length_op = if entry.length_minus { Op::LengthMinus } else { Op::LengthPlus };
             self.length_offset = number;
             self.frame.length = self.length_value();
-            let lost = [(entry.length_lost, LostBy::Reference), (entry.length_moved, LostBy::MachineMove)];
+            let lost = [
+                (entry.length_lost, LostBy::Reference),
+                (entry.length_moved, LostBy::MachineMove),
+                (entry.length_changed, LostBy::Change),
+            ];
             for (_, by) in lost.into_iter().filter(|(is_so, _)| *is_so) {
                 self.may_lose_length(by, !entry.length_across);
             }
@@ -100,7 +104,7 @@ impl Machine {
         let runs = |running: Running| self.is_running(running) && !open[running as usize];
         let turns = runs(Running::Spindle) && !self.surface_speed;
         let coolant = runs(Running::Coolant);
-        let lost = |by| self.length_lost.is_some_and(|lost| lost.by == by || lost.by_both);
+        let lost = |by| self.length_lost.is_some_and(|lost| lost.may_be(by));
         let has_length = self.length_op != Op::LengthOff;
         Entry {
             work: self.has_no_offset().then_some(0),
@@ -108,6 +112,7 @@ impl Machine {
             length_minus: self.length_op == Op::LengthMinus,
             length_lost: lost(LostBy::Reference),
             length_moved: lost(LostBy::MachineMove),
+            length_changed: lost(LostBy::Change),
             length_across: self.length_lost.is_some_and(|lost| !lost.along),
             cutter: (self.side != Side::Off).then_some(self.radius_offset),
             cutter_right: self.side == Side::Right,

@@ -116,6 +116,7 @@ pub struct Rules {
     pub reference_takes_all: Fact<bool>,
     pub length_after_reference: Fact<LengthAfter>,
     pub length_after_machine_move: Fact<LengthAfter>,
+    pub length_after_change: Fact<LengthAfter>,
     pub mirrors_about_word: Fact<bool>,
     pub positions_hold_length: Fact<bool>,
     /// What codes of the frame do under a rotation, a scale or a mirror is nowhere another answer.
@@ -206,6 +207,8 @@ impl Rules {
                 length_after,
                 LengthAfter::Kept,
             ),
+            length_after_change: fact(control, Question::ChangeLength, length_after, LengthAfter::Kept)
+                .or_silent(control, Question::ChangeLength),
             positions_hold_length: fact(control, Question::PositionLength, word("added", "left.out"), false),
             mirrors_about_word: fact(control, Question::MirrorAbout, word("word", "zero"), true),
             frame_codes_when_shaped: fact(control, Question::ShapeFrameCodes, only("kept"), ()),

@@ -48,6 +48,7 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
 pub(super) fn change(machine: &mut Machine, trace: &mut Trace) {
     machine.tool = machine.tool_ready;
     machine.pause(Pause::Change, EventKind::ToolChange { tool: machine.tool }, trace);
+    machine.may_lose_length(LostBy::Change, true);
 }
 
 fn length(machine: &mut Machine, command: &Command, trace: &mut Trace) {
@@ -76,6 +77,8 @@ pub enum LostBy {
     Reference,
     /// A move in machine coordinates.
     MachineMove,
+    /// A tool change.
+    Change,
 }
 
 /// A length that may be cancelled since the program named it.
@@ -83,12 +86,19 @@ pub enum LostBy {
 pub struct Lost {
     /// What may have done it last.
     pub by: LostBy,
-    /// True if the other one may have done it before.
-    pub by_both: bool,
+    /// What may have done it before.
+    pub before: [bool; 3],
     /// True if it did.
     pub gone: bool,
     /// True if the length's own axis was moved.
     pub along: bool,
+}
+
+impl Lost {
+    /// True if this may have done it.
+    pub fn may_be(&self, by: LostBy) -> bool {
+        self.by == by || self.before[by as usize]
+    }
 }
 
 fn apply_length(machine: &mut Machine, trace: &mut Trace) {
@@ -131,7 +141,7 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
 }
 
 impl Machine {
-    /// What a return or a move in machine coordinates does to the tool length; `along` where it moved its axis.
+    /// What a return, a move in machine coordinates or a tool change does to the tool length; `along` where it moved its axis.
     pub(super) fn may_lose_length(&mut self, by: LostBy, along: bool) {
         if self.length_op == Op::LengthOff {
             return;
@@ -139,13 +149,18 @@ impl Machine {
         let after = match by {
             LostBy::Reference => self.rules.length_after_reference.peek(),
             LostBy::MachineMove => self.rules.length_after_machine_move.peek(),
+            LostBy::Change => self.rules.length_after_change.peek(),
         };
         let gone = after == LengthAfter::Cancelled || (after == LengthAfter::CancelledAlong && along);
         let before = self.length_lost.take();
         let was = |what: fn(&Lost) -> bool| before.as_ref().is_some_and(what);
-        let by_both = before.is_some_and(|before| before.by_both || before.by != by);
         let (gone, along) = (gone || was(|lost| lost.gone), along || was(|lost| lost.along));
-        self.length_lost = Some(Lost { by, by_both, gone, along });
+        let before = before.map_or([false; 3], |lost| {
+            let mut before = lost.before;
+            before[lost.by as usize] = true;
+            before
+        });
+        self.length_lost = Some(Lost { by, before, gone, along });
         if gone {
             self.frame.length = 0.0;
         }
@@ -157,6 +172,7 @@ impl Machine {
         match lost.by {
             LostBy::Reference => self.rules.length_after_reference.ask(trace),
             LostBy::MachineMove => self.rules.length_after_machine_move.ask(trace),
+            LostBy::Change => self.rules.length_after_change.ask(trace),
         };
         if lost.gone {
             self.length_op = Op::LengthOff;

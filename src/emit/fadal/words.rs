@@ -6,6 +6,7 @@
 use super::Emitter;
 use super::lines::Kind;
 use crate::canon::{Op, Role};
+use crate::dialect::Question;
 use crate::emit::common::spellings::{Code, Operand};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo};
 use smallvec::SmallVec;
@@ -32,6 +33,8 @@ impl<'p> Emitter<'p> {
         let codes = self.codes(nc);
         let known: SmallVec<[&Code; 8]> = codes.iter().flatten().copied().collect();
         self.check_m_codes(&known);
+        self.check_plane(nc, &known);
+        self.check_position(nc);
         let mut used: SmallVec<[char; 12]> = SmallVec::new();
         let mut codes = codes.iter();
         for item in &nc.items {
@@ -64,6 +67,28 @@ impl<'p> Emitter<'p> {
             codes.push(code.filter(|_| !by_word()));
         }
         codes
+    }
+
+    /// A cycle or a table that is not told its R0 takes what R0 holds, which is something else here.
+    fn check_plane(&mut self, nc: &Nc, codes: &[&Code]) {
+        for role in codes.iter().filter_map(|code| code.row.words.get("R0")) {
+            if *role != Role::ArcRadius && nc.word(*role).is_none() {
+                let meaning = role.meaning().trim().trim_end_matches('.');
+                self.out.unmapped(format_args!(
+                    "this block without '{role}' ({meaning}): it would take what R0 holds"
+                ));
+            }
+        }
+    }
+
+    /// Nobody says whether a cycle without a position drills where the tool stands.
+    fn check_position(&mut self, nc: &Nc) {
+        let runs = self.control.behaviour(Question::CycleRunsWithoutAxes);
+        let known = runs.is_some_and(|row| row.value == "true");
+        let placed = nc.word(Role::X).is_some() || nc.word(Role::Y).is_some();
+        if nc.ops().any(Op::is_cycle) && !placed && nc.word(Role::Repeat).is_none() && !known {
+            self.out.unmapped("a cycle without X and Y: nobody says whether it drills where the tool stands");
+        }
     }
 
     /// No more M codes than the control takes, and none of more than two digits (facts/fadal-target.md 5).

@@ -47,6 +47,8 @@ pub struct LengthLost {
     pub by_other_axes: Ways,
     /// A move in machine coordinates along the axis of the length.
     pub by_machine_move: Ways,
+    /// A tool change.
+    pub by_change: Ways,
 }
 
 /// On which of the ways to a place something happens.
@@ -69,6 +71,7 @@ impl LengthLost {
             by_reference: join(self.by_reference, other.by_reference),
             by_other_axes: join(self.by_other_axes, other.by_other_axes),
             by_machine_move: join(self.by_machine_move, other.by_machine_move),
+            by_change: join(self.by_change, other.by_change),
         };
         std::mem::replace(self, joined) != joined
     }
@@ -234,6 +237,9 @@ impl Modal {
             // None is in force that the program knows of.
             _ => return,
         };
+        if nc.has(Op::ToolChange) {
+            self.length_lost.by_change = ways;
+        }
         let depth = nc.word(Role::Z);
         let along = depth.is_some();
         let returns = nc.ops().any(|op| matches!(op, Op::ReferenceReturn | Op::Reference2));

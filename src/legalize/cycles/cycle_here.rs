@@ -20,18 +20,19 @@ use std::collections::BTreeMap;
 
 /// Replaces the code that runs a cycle where the tool stands.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    if context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some() {
-        return;
-    }
+    let native = context.target.code_for(Op::CycleHere, &BTreeMap::new()).is_some();
     let facts = context.modal_facts(module);
     // What a bare definition does differs only where the two controls do not agree on it.
     let runs = |control: &crate::dialect::Control| {
         control.behaviour(Question::CycleRunsWithoutAxes).map(|b| b.value.clone())
     };
     let agree = runs(context.target) == runs(context.source);
+    if native && agree {
+        return;
+    }
     let drills = runs(context.source).as_deref() == Some("true");
-    let has_end = context.target.system_runs(Sys::EndPosition).next().is_some();
-    let stands = if has_end { Sys::EndPosition } else { Sys::WorkPosition };
+    let has = |state| context.target.system_runs(state).next().is_some();
+    let stands = [Sys::EndPosition, Sys::WorkPosition].into_iter().find(|state| has(*state));
     let summaries = context.summaries(module);
     let other_planes = module
         .programs
@@ -48,12 +49,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 state.step(stmt);
                 named.iter_mut().for_each(|named| named.step(stmt, &state, &summaries));
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere));
-                nc.items.retain(|item| *item != NcItem::Op(Op::CycleHere));
+                let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere) && !native);
+                nc.items.retain(|item| native || *item != NcItem::Op(Op::CycleHere));
                 let across = across(state.op(Group::Plane));
                 let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
                 let span = stmt.site.span;
-                let bare = defines && !here && !placed && nc.word(Role::Repeat).is_none();
+                let bare =
+                    defines && !nc.has(Op::CycleHere) && !here && !placed && nc.word(Role::Repeat).is_none();
                 let asked = here || bare && !agree;
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
                     let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
@@ -92,7 +94,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         }
                     }
                 } else if here && !placed {
-                    place(nc, across, state.op(Group::Distance), stands).err().or((!defines)
+                    let words = named.as_ref().and_then(Programmed::words).filter(|_| across[0].0 == Role::X);
+                    if stands.is_none() && words.is_none() && state.op(Group::Distance) == Some(Op::Absolute)
+                    {
+                        let what = "the cycle runs where the tool stands, which is not known here: write X and Y \
+                                    into the block of the cycle";
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                        continue;
+                    }
+                    place(nc, across, state.op(Group::Distance), (stands, words)).err().or((!defines)
                         .then_some("the cycle runs where the tool stands: the block names that position"))
                 } else {
                     None
@@ -121,11 +131,17 @@ fn place(
     nc: &mut Nc,
     across: [(Role, f64); 2],
     distance: Option<Op>,
-    stands: Sys,
+    (stands, named): (Option<Sys>, Option<[Expr; 2]>),
 ) -> Result<(), &'static str> {
     let words = match distance {
         Some(Op::Absolute) => {
-            across.map(|(role, axis)| NcItem::Word(role, Expr::System(stands, [Expr::Number(axis)].into())))
+            let [(a, x), (b, y)] = across;
+            let [first, second] = match (stands, named) {
+                (Some(state), _) => [x, y].map(|axis| Expr::System(state, [Expr::Number(axis)].into())),
+                (None, Some(words)) => words,
+                (None, None) => return Err("the cycle runs where the tool stands, which is not known here"),
+            };
+            [NcItem::Word(a, first), NcItem::Word(b, second)]
         }
         Some(Op::Incremental) => across.map(|(role, _)| NcItem::Word(role, Expr::Number(0.0))),
         _ => {

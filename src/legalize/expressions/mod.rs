@@ -7,3 +7,4 @@ pub(in crate::legalize) mod functions;
 pub(in crate::legalize) mod operands;
 pub(in crate::legalize) mod split;
 pub(in crate::legalize) mod truth;
+pub(in crate::legalize) mod whole_words;

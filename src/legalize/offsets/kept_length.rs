@@ -1,4 +1,4 @@
-//! The tool length after a return to the reference position or a move in machine coordinates.
+//! The tool length after a return to the reference position, a move in machine coordinates or a tool change.
 //!
 //! Laws: a length that the source cancelled there is ended by the next block that places something along its axis; one
 //! that the source kept is named again in that block. Both say outright what is in force, so that the target's own
@@ -22,6 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const RETURN: Question = Question::ReferenceLength;
 const MOVE: Question = Question::MachineMoveLength;
+const CHANGE: Question = Question::ChangeLength;
 const Z: f64 = 3.0;
 
 /// A question that the length in force hangs on, and the ways here that ask it.
@@ -48,10 +49,10 @@ impl Asked {
     }
 }
 
-/// Says which length is in force where a return or a move in machine coordinates may have cancelled it.
+/// Says which length is in force where a return, a move in machine coordinates or a tool change may have cancelled it.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let alike = |question| context.source.behaviour(question) == context.target.behaviour(question);
-    if context.source.name() == context.target.name() && alike(RETURN) && alike(MOVE) {
+    if context.source.name() == context.target.name() && [RETURN, MOVE, CHANGE].into_iter().all(alike) {
         return;
     }
     let facts = context.modal_facts(module);
@@ -132,6 +133,7 @@ fn questions(state: &Modal) -> Vec<Asked> {
         (RETURN, true, lost.by_reference),
         (RETURN, false, lost.by_other_axes),
         (MOVE, true, lost.by_machine_move),
+        (CHANGE, true, lost.by_change),
     ];
     let all = all.into_iter().map(|(question, along, ways)| Asked { question, along, ways });
     all.filter(|asked| asked.ways != Ways::None).collect()
@@ -241,9 +243,18 @@ fn told(state: &Modal, index: usize, span: Span, context: &mut Context<'_>) {
     rests(&questions, Side::Target, index, span, context);
     let cancels = |asked: &Asked, control: &Control| asked.cancels(control).unwrap_or(false);
     if questions.iter().any(|asked| cancels(asked, context.source) != cancels(asked, context.target)) {
-        let what = "the tool length matters here: the return to the reference position or the move in \
-                    machine coordinates before it cancels the length on one control and not on the other";
-        let help = "after that move, name the length again (G43 with H) or end it (G49)";
+        let changed = questions.iter().any(|asked| asked.question == CHANGE);
+        let what = match changed {
+            true => {
+                "the tool length matters here: the tool change before it cancels the length on one control and \
+                     not on the other"
+            }
+            false => {
+                "the tool length matters here: the return to the reference position or the move in machine \
+                      coordinates before it cancels the length on one control and not on the other"
+            }
+        };
+        let help = "after it, name the length again (G43 with H) or end it (G49)";
         context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
     }
 }

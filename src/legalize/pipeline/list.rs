@@ -5,12 +5,12 @@ use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
 use crate::legalize::assumptions::{facts, runtime};
-use crate::legalize::calls::{chain, link, modal_calls, modal_off, nesting, outline, repeats};
+use crate::legalize::calls::{chain, jump_chains, link, modal_calls, modal_off, nesting, outline, repeats};
 use crate::legalize::codes::{
     beside_moves, by_number, lookahead, machine_codes, missing, pauses, substitutes,
 };
-use crate::legalize::cycles::{cycle_here, cycle_words, dwell, tapping};
-use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth};
+use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_words, dwell, tapping};
+use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
 use crate::legalize::features::Feature;
 use crate::legalize::layout::blanks;
 use crate::legalize::moves::{
@@ -139,6 +139,10 @@ const CALLS: &[Pass] = &[
     .when(|c, _| c.has(Feature::ReturnTo))
     .needs(&["modal-calls"])
     .changes_flow(),
+    Pass::rewrites("jump-chains", "computed jumps become comparisons with each label", jump_chains::run)
+        .when(jump_chains::concerns)
+        .needs(&["return-to"])
+        .changes_flow(),
     Pass::reports("nesting", "reports calls that nest deeper than the target takes", nesting::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::LocalCall))
         .needs(&["outline", "chain", "modal-calls"]),
@@ -187,7 +191,9 @@ const MOVES: &[Pass] = &[
     Pass::rewrites("kept-length", "the tool length after a return is written out", kept_length::run)
         .when(|c, _| {
             c.role(Role::LengthOffset)
-                && c.any_op(|op| matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce))
+                && c.any_op(|op| {
+                    matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce | Op::ToolChange)
+                })
         })
         .needs(&["reference", "increments"]),
     Pass::rewrites(
@@ -270,6 +276,13 @@ const CYCLES: &[Pass] = &[
         .when(|c, _| c.has(Feature::Wait) || c.has(Feature::Emptied)),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
         .when(|c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere)),
+    Pass::rewrites(
+        "cycle-ends",
+        "cycles that motion does not end there are ended before it",
+        cycle_ends::run,
+    )
+    .when(cycle_ends::concerns)
+    .needs(&["cycle-here"]),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
         .when(|c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)))
         .needs(&["dwell", "cycle-here"]),
@@ -304,6 +317,9 @@ const EXPRESSIONS: &[Pass] = &[
     )
     .when(vacancy_flags::concerns)
     .changes_flow(),
+    Pass::edits("whole-words", "words that are whole numbers are rounded before them", whole_words::run)
+        .when(whole_words::concerns)
+        .needs(&["vacancy-flags"]),
     Pass::each("functions", "functions and operators become those of the target", functions::run)
         .when(|c, _| c.has(Feature::Function))
         .changes_flow(),

@@ -83,7 +83,11 @@ fn allocate(
             continue;
         };
         if matches!(var.class, Class::Temp | Class::Static) {
-            registers.scratch.extend(Some(number).filter(|_| place == pool.name));
+            if place == pool.name {
+                registers.scratch.insert(number);
+            } else {
+                registers.of_words.insert(format!("{place}{number}"));
+            }
             registers.over_calls.extend(Some(number).filter(|_| over && place == pool.name));
         } else if let Some(name) = name {
             registers.chosen.insert(name, number);

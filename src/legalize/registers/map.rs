@@ -22,6 +22,8 @@ pub struct Registers {
     pub chosen: BTreeMap<String, u32>,
     /// The registers of temporaries.
     pub scratch: BTreeSet<u32>,
+    /// Those of classes that words alone take, by name.
+    pub of_words: BTreeSet<String>,
     /// Those of them whose values outlive calls.
     pub over_calls: BTreeSet<u32>,
     /// Variables that lose the register of an earlier run, by name.

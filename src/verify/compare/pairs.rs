@@ -9,7 +9,7 @@ use super::letters;
 use super::loose::{Found, farthest};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
-use super::pauses::{Runs, ends_cycle, may_do_so, may_turn};
+use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
 use super::shown::{as_messages, lacks_messages};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
@@ -156,6 +156,8 @@ impl<'r> Pairs<'_, 'r> {
                 j += 1;
                 continue;
             }
+            // A target that shows texts and stops has no message that would leave them on.
+            let stops_alone = lacks_messages(self.target.control);
             let runs = |side: usize, acts: &[Act<'r>], others: &[Act<'r>], runs: &[Runs; 2]| {
                 acts.first().is_some_and(|act| {
                     may_do_so(act, others, side == 1)
@@ -163,6 +165,7 @@ impl<'r> Pairs<'_, 'r> {
                         || runs[side].lets_go(acts)
                         || runs[side].stays_open(act)
                         || runs[side].is_idle_speed(acts)
+                        || (side == 1 && stops_alone && starts_again(runs, act))
                 })
             };
             if runs(0, here, there, &self.runs) {

@@ -17,6 +17,8 @@ pub struct Runs {
     coolant: EventKind,
     /// For each of [`Running`], true if nobody knows whether it runs.
     open: [bool; 2],
+    /// For each of [`Running`], true if a stop ended it last.
+    by_stop: [bool; 2],
 }
 
 impl Runs {
@@ -28,6 +30,7 @@ impl Runs {
             spindle,
             coolant: EventKind::Coolant { state: Op::CoolantOff },
             open: [false; 2],
+            by_stop: [false; 2],
         }
     }
 
@@ -45,7 +48,10 @@ impl Runs {
         }
         // Another act of the block may stand before what the block says of it.
         match runs(&act.what) {
-            Some(running) => self.open[running as usize] = act.event.open[running as usize],
+            Some(running) => {
+                self.open[running as usize] = act.event.open[running as usize];
+                self.by_stop[running as usize] = act.told == Told::Implied;
+            }
             None if is_pause(&act.what) => self.open = act.event.open,
             None => {}
         }
@@ -139,6 +145,18 @@ impl Runs {
         };
         there.contains(&&*act.what) && self.open[running as usize] && !other.open[running as usize]
     }
+}
+
+/// True if the target starts again what its stop ended, and what ran on the source before a stop of which nobody knows
+/// what it ended there.
+pub fn starts_again([source, target]: &[Runs; 2], act: &Act<'_>) -> bool {
+    let Some(running) = runs(&act.what) else { return false };
+    let ran = match running {
+        Running::Spindle => &source.spindle,
+        Running::Coolant => &source.coolant,
+    };
+    let open = |side: &Runs| side.open[running as usize];
+    ran == &*act.what && target.by_stop[running as usize] && open(source) && !open(target)
 }
 
 /// True for the same new speed on both sides, if nobody knows whether one of the spindles turns, and the other stands

@@ -4,9 +4,9 @@
 //! the message of that stop, on both sides, and `ALARM 1 TEXT` before a halt of the control as the program's own alarm.
 
 use super::observe::Act;
-use crate::canon::Sys;
+use crate::canon::{Op, Sys};
 use crate::control::Stop;
-use crate::control::trace::EventKind;
+use crate::control::trace::{EventKind, Spindle};
 use crate::dialect::Control;
 use std::borrow::Cow;
 
@@ -15,23 +15,32 @@ pub fn lacks_messages(control: &Control) -> bool {
     control.statement("print").is_some() && control.system_runs(Sys::StopMessage).next().is_none()
 }
 
-/// Reads texts before stops as messages.
+/// Reads texts before stops as messages. Between a text and its stop stands only what the stop itself switches off.
 pub fn as_messages(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
     for act in acts {
-        let shown = match out.last().map(|last| &*last.what) {
-            Some(EventKind::Output { text }) => message(text, &act.what),
+        let text = out.iter().rposition(|earlier| !is_switched_off(&earlier.what));
+        let shown = text.and_then(|at| match &*out[at].what {
+            EventKind::Output { text } => Some((at, message(text, &act.what)?)),
             _ => None,
-        };
+        });
         match shown {
-            Some(what) => {
-                out.pop();
+            Some((at, what)) => {
+                out.remove(at);
                 out.push(Act { what: Cow::Owned(what), ..act });
             }
             None => out.push(act),
         }
     }
     out
+}
+
+/// True for a spindle or coolant that stops.
+fn is_switched_off(what: &EventKind) -> bool {
+    matches!(
+        what,
+        EventKind::Spindle { direction: Spindle::Stopped, .. } | EventKind::Coolant { state: Op::CoolantOff }
+    )
 }
 
 /// What a text and the act after it are together.

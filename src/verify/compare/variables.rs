@@ -3,7 +3,7 @@
 use super::found::Difference;
 use super::kinds::is_cut;
 use crate::control::{End, Run};
-use crate::verify::sides::{Side, SymbolMap, class_of};
+use crate::verify::sides::{Side, SymbolMap, class_of, numbered};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How far apart values may lie that count as the same, relative, and of one at the least.
@@ -76,13 +76,15 @@ pub fn writes_elsewhere(
     // A register that the control itself writes, such as the one of an arc's radius, holds nothing of anybody's.
     let is_scratch = |name: &str| {
         let of_words = class_of(to, name).is_some_and(|class| class.class == "parametric");
+        let plain = to.classes().iter().find(|row| row.class != "letter");
+        let in_between = plain.and_then(|row| numbered(name, &row.name));
         let prefixes = to.classes().iter().map(|row| row.name.as_str());
-        prefixes.into_iter().any(|prefix| {
-            let number = name.strip_prefix(prefix).and_then(|number| number.parse::<u32>().ok());
-            number.is_some_and(|number| {
-                names.scratch.contains(&number) || (of_words && to.is_in_use(prefix, number))
+        names.of_words.contains(name)
+            || in_between.is_some_and(|number| names.scratch.contains(&number))
+            || prefixes.into_iter().any(|prefix| {
+                let number = numbered(name, prefix);
+                number.is_some_and(|number| of_words && to.is_in_use(prefix, number))
             })
-        })
     };
     let found = all.into_iter().find(|name| {
         let (before, after) = (began.get(*name).copied(), run.variables.get(*name).copied());

@@ -41,7 +41,7 @@ impl Verifier<'_, '_> {
         }
         let Job { source, target, names, .. } = self.job;
         let theirs = constants(target, there, false);
-        let numbers = inputs(source, self.program).numbers;
+        let numbers = inputs(source, self.program, target).numbers;
         let (mut steps, mut for_target) = (self.job.effort.all_steps, FOR_THE_TARGET);
         for constant in constants(source, self.program, true).into_iter().take(CONSTANTS) {
             let named = names.variable(&constant.name, source.control, target.control);
@@ -76,7 +76,7 @@ impl Verifier<'_, '_> {
         {
             return;
         }
-        let found = inputs(&new_source, self.program);
+        let found = inputs(&new_source, self.program, target);
         let inch = unit(source, target).or(found.inch);
         let Some(mut scenario) = Proposals::new(&found, effort).next() else { return };
         scenario.inch = inch;

@@ -5,6 +5,7 @@ use crate::canon::Op;
 use crate::control::ProgramRef;
 use crate::verify::certificate::{Outcome, ProgramCertificate, Reason, Why};
 use crate::verify::explore::{Coverage, NotReached};
+use crate::verify::sides::Job;
 use crate::verify::triage::through;
 
 /// Ways not gone that a reason names.
@@ -35,7 +36,10 @@ impl Verifier<'_, '_> {
         if let Some(witness) = &self.witness {
             let through = through(self.job, self.program, &self.shown, self.tolerance);
             run_alone = through.is_alone(&self.given);
-            if let Some(excuse) = through.excuses() {
+            let locals = lacks_locals(self.job) && through.does_the_same();
+            let by_registers =
+                "what its callers give it stands in registers there, and called so it does the same";
+            if let Some(excuse) = through.excuses().or(locals.then(|| by_registers.into())) {
                 let text = format!("run by itself it differs ({}), but {excuse}", witness.what);
                 self.because(Why::NotByItself, &text);
                 outcome = Outcome::Undecided;
@@ -78,6 +82,11 @@ impl Verifier<'_, '_> {
             assumptions,
         }
     }
+}
+
+/// True if calls of the source give locals, and the target has none: nobody can give them to a program by itself.
+fn lacks_locals(job: &Job<'_>) -> bool {
+    job.source.has_locals() && !job.target.has_locals()
 }
 
 /// The ways that were never gone, the first of them by name.

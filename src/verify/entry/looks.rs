@@ -41,7 +41,7 @@ pub fn scenarios_in<'j>(
     runs: usize,
     given: Option<&'j EntryState>,
 ) -> impl Iterator<Item = (Scenario, Run)> + 'j {
-    let inputs = inputs(job.source, program);
+    let inputs = inputs(job.source, program, job.target);
     let inch = unit(job.source, job.target).or(inputs.inch);
     let mut proposals = Proposals::new(&inputs, job.effort);
     std::iter::from_fn(move || proposals.next()).take(runs).map(move |mut scenario| {

@@ -84,9 +84,11 @@ impl EntryState {
     /// be, stay so: no machine is switched on like that.
     pub fn unstarted(&self) -> Entry {
         let Entry { work, length, length_minus, length_lost, length_moved, length_across, .. } = self.entry;
+        let length_changed = self.entry.length_changed;
         let kept = Entry { work, ..Entry::default() };
-        if length_lost || length_moved {
-            return Entry { length, length_minus, length_lost, length_moved, length_across, ..kept };
+        if length_lost || length_moved || length_changed {
+            let lost = Entry { length_lost, length_moved, length_changed, length_across, ..kept };
+            return Entry { length, length_minus, ..lost };
         }
         kept
     }

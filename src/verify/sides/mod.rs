@@ -19,6 +19,7 @@ pub use edited_text::EditedText;
 pub use entry_state::EntryState;
 pub use hash::{hex, sha256};
 pub use job::{Assumptions, Effort, Job, of_target};
+pub(in crate::verify) use names::numbered;
 pub use names::{class_of, name_of};
 pub use side::Side;
 pub use symbol_map::SymbolMap;

@@ -38,6 +38,11 @@ pub struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
+    /// True if calls have variables of their own.
+    pub fn has_locals(&self) -> bool {
+        self.control.classes().iter().any(|row| row.class == "local")
+    }
+
     /// A library on a control.
     pub fn new(control: &'a Control, execute: Execute, files: &'a [LoadedFile<'a>]) -> Self {
         let reported = files.iter().map(|_| Reported::default()).collect();

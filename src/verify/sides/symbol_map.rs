@@ -16,6 +16,8 @@ pub struct SymbolMap {
     pub variables: BTreeMap<String, u32>,
     /// Registers of the target that hold values in between and that nobody may rely on.
     pub scratch: BTreeSet<u32>,
+    /// Those of classes that words alone take, by name.
+    pub of_words: BTreeSet<String>,
     /// Program numbers, by `O1234` or the program's name.
     pub programs: BTreeMap<String, u32>,
 }

@@ -57,6 +57,11 @@ impl Through {
         called && !self.differs && self.reached == 0
     }
 
+    /// True where runs came through the program, and did the same.
+    pub fn does_the_same(&self) -> bool {
+        self.entered && !self.differs && !self.callers.is_empty()
+    }
+
     /// Why a difference that shows by itself is none as the library calls the program, in words; none if
     /// nothing says so.
     pub fn excuses(&self) -> Option<String> {

@@ -7,7 +7,7 @@ use super::{File, Program};
 use machines::{machine, targets};
 use macroglot::control::trace::EventKind;
 use macroglot::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
-use macroglot::diag::Code;
+use macroglot::diag::{Code, Severity};
 use macroglot::dialect::Control;
 use macroglot::library::{self, Input, Lock, Options, convert, judge};
 use macroglot::syntax::{ParsedFile, parse_file};
@@ -27,6 +27,7 @@ pub const EFFORT: Effort = Effort {
 };
 
 /// What became of a program.
+#[derive(Default)]
 pub struct Trial {
     /// It has a conversion, and runs to its end by itself with something to compare.
     pub useful: bool,
@@ -36,6 +37,8 @@ pub struct Trial {
     pub faults: Vec<String>,
     /// Why conversions are undecided, by the certificates.
     pub reasons: Vec<Reason>,
+    /// Why conversions are refused: to which dialect, the message without numbers.
+    pub refusals: Vec<(&'static str, String)>,
     /// How long it took.
     pub took: Duration,
 }
@@ -53,14 +56,15 @@ pub enum Judgement {
 pub fn run(program: &Program) -> Trial {
     let start = Instant::now();
     let (files, source) = (program.files(), machine(program.dialect, program.metric[0]));
-    let (mut faults, mut reasons) = (Vec::new(), Vec::new());
-    let alive = is_read(&files, source, &mut faults);
-    let mut judged = Vec::new();
-    for target in targets(program.dialect, program.metric[1]) {
-        judged.push((target.entry().name, judgement(&files, source, target, &mut faults, &mut reasons)));
+    let mut trial = Trial::default();
+    let alive = is_read(&files, source, &mut trial.faults);
+    for target in targets(program.dialect, program.metric) {
+        let judged = judgement(&files, source, target, &mut trial);
+        trial.judged.push((target.entry().name, judged));
     }
-    let converted = judged.iter().any(|(_, judgement)| *judgement != Judgement::Refused);
-    Trial { useful: alive && converted, judged, faults, reasons, took: start.elapsed() }
+    trial.useful = alive && trial.judged.iter().any(|(_, judgement)| *judgement != Judgement::Refused);
+    trial.took = start.elapsed();
+    trial
 }
 
 /// Whether the program does something where its machine runs it; what is not read of it is a fault.
@@ -91,13 +95,8 @@ fn does_something(run: &Run) -> bool {
     run.end == End::Ended && (!run.variables.is_empty() || run.events.iter().any(|event| moved(&event.what)))
 }
 
-fn judgement(
-    files: &[File],
-    source: &Control,
-    target: &Control,
-    faults: &mut Vec<String>,
-    reasons: &mut Vec<Reason>,
-) -> Judgement {
+fn judgement(files: &[File], source: &Control, target: &Control, trial: &mut Trial) -> Judgement {
+    let Trial { faults, reasons, refusals, .. } = trial;
     let input = |file: &File| Input {
         path: PathBuf::from(&file.name),
         name: file.name.clone(),
@@ -110,6 +109,10 @@ fn judgement(
     for diagnostic in made.programs.iter().flat_map(|program| &program.diagnostics) {
         if diagnostic.code == Code::Internal {
             faults.push(format!("to {}: {}\n{written}", target.name(), diagnostic.message));
+        }
+        if diagnostic.severity() == Severity::Error {
+            let sort = diagnostic.message.chars().filter(|sign| !sign.is_ascii_digit()).collect();
+            refusals.push((target.entry().name, sort));
         }
     }
     if made.programs.iter().all(|program| program.outcome == library::Outcome::Refused) {

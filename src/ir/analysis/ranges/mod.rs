@@ -24,7 +24,7 @@ use super::cfg::labelled;
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, reached, solve_within};
 use super::effects::{Summaries, Vars};
 use crate::ir::{
-    Bank, Block, BlockId, Call, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var,
+    Bank, Block, BlockId, Call, Callee, Cond, Expr, NcItem, Place, Program, Stmt, StmtKind, TermKind, Var,
 };
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -163,9 +163,25 @@ impl<'p> Ranges<'p> {
         Self::with(program, summaries, inputs.collect())
     }
 
+    /// As [`Ranges::of`], of the variables in words that are whole numbers.
+    pub fn of_whole_words(program: &'p Program, summaries: &'p Summaries) -> Self {
+        let inputs = head_literals(program).into_iter().filter(|(.., var)| assigned(program, *var) == 1);
+        let inputs = inputs.map(|(id, at, _)| (id, at)).collect();
+        Self::following(program, summaries, inputs, in_whole_words(program))
+    }
+
     fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
+        Self::following(program, summaries, inputs, in_numbers(program))
+    }
+
+    fn following(
+        program: &'p Program,
+        summaries: &'p Summaries,
+        inputs: BTreeSet<(BlockId, usize)>,
+        vars: BTreeSet<Var>,
+    ) -> Self {
         let places: BTreeMap<Var, usize> =
-            followed(program).into_iter().enumerate().map(|(at, var)| (var, at)).collect();
+            followed(program, vars).into_iter().enumerate().map(|(at, var)| (var, at)).collect();
         let limit = STEPS.checked_div(places.len());
         let rules = Rules { program, summaries, places, inputs, stops: stops(program) };
         let starts = limit.and_then(|limit| solve_within(&rules, program, &Cfg::of(program), limit));
@@ -269,11 +285,26 @@ fn assigned(program: &Program, var: Var) -> usize {
     stmts.filter(|stmt| matches!(stmt.kind.target(), Some(Place::Var(other)) if *other == var)).count()
 }
 
-/// The variables that computed numbers depend on.
-fn followed(program: &Program) -> BTreeSet<Var> {
+/// The variables in words that are whole numbers.
+fn in_whole_words(program: &Program) -> BTreeSet<Var> {
     let mut found = BTreeSet::new();
-    let blocks = || program.blocks.iter();
-    for block in blocks() {
+    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
+        let StmtKind::Nc(nc) = &stmt.kind else { continue };
+        for item in &nc.items {
+            if let NcItem::Word(role, value) = item
+                && role.is_integer()
+            {
+                add(value, &mut found);
+            }
+        }
+    }
+    found
+}
+
+/// The variables in computed numbers.
+fn in_numbers(program: &Program) -> BTreeSet<Var> {
+    let mut found = BTreeSet::new();
+    for block in &program.blocks {
         let mut note = |e: &Expr| {
             e.walk(&mut |e| {
                 if let Expr::Indirect(_, index) = e {
@@ -292,12 +323,16 @@ fn followed(program: &Program) -> BTreeSet<Var> {
             _ => {}
         }
     }
+    found
+}
+
+/// These variables, and those that they depend on: what they are made of, and what they are compared with.
+fn followed(program: &Program, found: BTreeSet<Var>) -> BTreeSet<Var> {
     if found.is_empty() {
         return found;
     }
-    // What they are made of, and what they are compared with.
     let mut others: BTreeMap<Var, BTreeSet<Var>> = BTreeMap::new();
-    for block in blocks() {
+    for block in &program.blocks {
         for stmt in &block.stmts {
             if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
                 add(value, others.entry(*var).or_default());

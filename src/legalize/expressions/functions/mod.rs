@@ -5,6 +5,7 @@
 //! more than the last digit of binary64 brings a review diagnostic with its bound.
 
 mod angles;
+mod bits;
 mod decimal;
 mod emulated;
 mod exponential;
@@ -40,7 +41,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             }
             Expr::Binary(op @ (BinOp::And | BinOp::Or | BinOp::Xor), operands) => {
                 let [a, b] = *operands;
-                ("bits", None, Emulated::Exact(rounding::bits(op, a, b, rewriter, target)))
+                ("bits", None, bits::bits(op, a, b, rewriter, target))
             }
             other => return other,
         };

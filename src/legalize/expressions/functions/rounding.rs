@@ -2,7 +2,7 @@
 
 use super::emulated::{Emulated, apply, number};
 use crate::canon::Func;
-use crate::dialect::{Control, Question};
+use crate::dialect::Control;
 use crate::ir::{BinOp, Cond, Expr, Relation};
 use crate::legalize::{PreStatement, Rewriter};
 
@@ -43,21 +43,6 @@ pub fn nearest(a: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
         rewriter.first(PreStatement::When(cond, r, Expr::binary(BinOp::Add, f.clone(), number(step))));
     }
     Expr::Var(r)
-}
-
-/// Law: bit operations round their operands; where the target's do not, or where that is not known,
-/// the operands are rounded before. Exact. Where the target rounds, nothing changes.
-pub fn bits(op: BinOp, a: Expr, b: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
-    let rounds = target.behaviour(Question::BitsOfFraction).is_some_and(|row| row.value == "round");
-    let mut whole = |e: Expr| match e.constant() {
-        _ if rounds || e.is_whole() => e,
-        Some(value) => number(value.round()),
-        // ROUND inside a word is another function, in its subscripts too.
-        None if target.function(Func::Round, 1).is_some() && !rewriter.in_word => apply(Func::Round, e),
-        None => nearest(e, rewriter, target),
-    };
-    let (a, b) = (whole(a), whole(b));
-    Expr::binary(op, a, b)
 }
 
 /// Law: `ROUND[a*10^n]/10^n`. The product is rounded once more than the original's, so a

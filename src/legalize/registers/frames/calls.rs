@@ -95,9 +95,14 @@ fn open(
     Some(count)
 }
 
-/// What is vacant is 0 in a variable that never is.
+/// What is vacant is 0 in a variable that never is. A count of increments of an unknown size is refused by now.
 fn number(value: Expr) -> Expr {
-    if value == Expr::Vacant { Expr::Number(0.0) } else { value }
+    match value {
+        Expr::Vacant => Expr::Number(0.0),
+        Expr::Increments(count) => Expr::Number(count),
+        Expr::Negate(inner) if matches!(*inner, Expr::Increments(_)) => number(*inner),
+        value => value,
+    }
 }
 
 fn assign(var: Var, value: Expr, span: Span) -> Stmt {

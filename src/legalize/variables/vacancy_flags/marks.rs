@@ -128,6 +128,14 @@ impl Marks {
     }
 }
 
+/// What stands after the minus of a word: if it is vacant, the word is not there.
+pub(super) fn unsigned(value: &Expr) -> &Expr {
+    match value {
+        Expr::Negate(inner) => inner,
+        value => value,
+    }
+}
+
 fn writes_by_number(stmt: &Stmt) -> bool {
     matches!(stmt.kind.target(), Some(Place::Indirect(Bank::Numbered, _)))
 }
@@ -242,9 +250,9 @@ impl Own<'_> {
                 let mut words = 0;
                 for item in &nc.items {
                     match item {
-                        NcItem::Word(_, value) if may(value) => {
+                        NcItem::Word(_, value) if may(unsigned(value)) => {
                             words += usize::from(!matches!(value, Expr::Vacant));
-                            self.asked(value, span);
+                            self.asked(unsigned(value), span);
                         }
                         NcItem::Code(_, value) if may(value) => {
                             self.refused.push((span, "the number of a code may be vacant here, and the target has no vacant variables: set it before".into()));

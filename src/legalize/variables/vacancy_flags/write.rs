@@ -1,7 +1,7 @@
 //! Writes the flags of a program, and asks them.
 
 use super::conditions::rewritten;
-use super::marks::{At, Marks};
+use super::marks::{At, Marks, unsigned};
 use crate::ir::{
     Argument, BlockId, Builder, Call, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation,
     SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
@@ -111,7 +111,7 @@ impl Here<'_> {
     fn nc(&self, mut nc: Nc, site: SourceInfo, builder: &mut Builder) {
         nc.items.retain(|item| !matches!(item, NcItem::Word(_, Expr::Vacant)));
         let flags = nc.items.iter().enumerate().filter_map(|(at, item)| match item {
-            NcItem::Word(_, value) => Some((at, self.flag(value)?)),
+            NcItem::Word(_, value) => Some((at, self.flag(unsigned(value))?)),
             _ => None,
         });
         let flags: Vec<(usize, Var)> = flags.take(super::MOST_WORDS).collect();

@@ -25,7 +25,7 @@ pub fn inputs_of_both(
     let one_sided = theirs.difference(&ours).chain(ours.difference(&theirs));
     let order: Vec<u32> = one_sided.chain(ours.intersection(&theirs)).copied().take(LABELS).collect();
     // A target without locals gets what it is called with in registers: nothing can give those to a program by itself.
-    let locals = target.control.classes().iter().any(|row| row.class == "local");
+    let locals = target.has_locals();
     let mut found = inputs_by(source, program, locals, &order);
     let other = inputs_by(target, there, true, &order);
     let mut places = Vec::new();

@@ -7,9 +7,10 @@ use crate::syntax::{Item, ItemKind, Label};
 use crate::verify::sides::Side;
 use std::collections::BTreeSet;
 
-/// Reads a program.
-pub fn inputs(side: &Side<'_>, program: ProgramRef) -> Inputs {
-    inputs_by(side, program, true, &labels(side, program).into_iter().take(LABELS).collect::<Vec<_>>())
+/// Reads a program that is held against one on the `other` side: only if that has locals can both be given some.
+pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs {
+    let locals = other.has_locals();
+    inputs_by(side, program, locals, &labels(side, program).into_iter().take(LABELS).collect::<Vec<_>>())
 }
 
 /// Labels that a computed jump is sent to, at the most, where one side is looked at.

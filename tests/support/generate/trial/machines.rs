@@ -1,6 +1,8 @@
 //! The machines that random programs are run on and converted to.
 
+use macroglot::canon::Op;
 use macroglot::dialect::{Control, Profile, registry};
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// The machines of the project file at the root, and what it leaves open of the others: set to inches, and to millimetres.
@@ -28,11 +30,19 @@ pub fn machine(dialect: &str, metric: bool) -> &'static Control {
 }
 
 /// Targets that are not finished: all that is written for them is for review.
-const UNFINISHED: &[&str] = &["cc100", "fadal"];
+const UNFINISHED: &[&str] = &["cc100"];
 
-/// Machines that conversions are written for, but for one dialect.
-pub fn targets(from: &str, metric: bool) -> impl Iterator<Item = &'static Control> {
-    let of = &MACHINES[usize::from(metric)];
+/// Machines that conversions are written for, but for one dialect: set as `metric` says second, and those whose unit no
+/// program can change as it says first, like the machine that the program is from.
+pub fn targets(from: &str, metric: [bool; 2]) -> impl Iterator<Item = &'static Control> {
+    let selects = |target: &Control| target.code_for(Op::Inch, &BTreeMap::new()).is_some();
+    let as_told = move |target: &&Control| {
+        let [old, new] = metric;
+        machine(target.name(), if selects(target) { new } else { old })
+    };
     let written = |target: &&Control| target.entry().emit.is_some() && !UNFINISHED.contains(&target.name());
-    of.iter().filter(move |target| target.name() != from && written(target))
+    let of = &MACHINES[usize::from(metric[1])];
+    of.iter()
+        .filter(move |target| target.name() != from && written(target))
+        .map(move |target| as_told(&target))
 }

@@ -1,0 +1,72 @@
+//! Drilling cycles that the target does not end by itself.
+//!
+//! Law: where a motion code ends a cycle on the source and not on the target, the cycle is ended in a block of its own
+//! before the motion; so it is before the end of a program. Where no cycle is in force nothing is added. Side condition:
+//! none is in force at a tool change, which such a control takes for a fault: after it the source may drill on, and the
+//! target would have to be told the whole cycle again. Counter-example: `G81 X1. Z-5. R2. F100.`, `M6`, `X2.`
+
+use crate::canon::{Group, Op};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question};
+use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+
+/// True if the library has cycles, and the target does not end them by motion.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.any_op(Op::is_cycle) && ends(context.source) && !ends(context.target)
+}
+
+/// True if a motion code is sure to end the cycle in force.
+fn ends(control: &Control) -> bool {
+    let row = control.behaviour(Question::CycleEndsByMotion);
+    row.is_none_or(|row| row.value == "true" && row.origin.confirmed)
+}
+
+/// Ends cycles before what would go on drilling.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            let mut out = Vec::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                let drills = state.op(Group::Cycle) != Some(Op::CycleOff);
+                let known = state.op(Group::Cycle).is_some();
+                state.step(&stmt);
+                if let StmtKind::Nc(nc) = &stmt.kind
+                    && drills
+                {
+                    if nc.has(Op::ToolChange) && known && !nc.has(Op::CycleOff) {
+                        let what = "a drilling cycle is in force at this tool change, which the target takes for a \
+                                    fault: end it before, with G80";
+                        context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                    }
+                    if is_motion(nc) {
+                        out.push(end(&stmt.site));
+                    }
+                }
+                out.push(stmt);
+            }
+            if matches!(block.term.kind, TermKind::End { .. })
+                && state.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff)
+            {
+                out.push(end(&block.term.site));
+            }
+            block.stmts = out;
+        }
+    }
+}
+
+/// True for a block that names its motion, and ends no cycle itself.
+fn is_motion(nc: &Nc) -> bool {
+    let ends = |op: Op| op.is_cycle() || op == Op::CycleOff;
+    let moves = |op: Op| op.group() == Group::Motion && !ends(op) && op != Op::RapidOnce;
+    nc.ops().any(moves) && !nc.ops().any(ends)
+}
+
+/// The end of the cycle in force, in a block of its own.
+fn end(site: &SourceInfo) -> Stmt {
+    let site = SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() };
+    Stmt { kind: StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::CycleOff)] }), site }
+}
