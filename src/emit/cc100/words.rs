@@ -136,6 +136,9 @@ impl<'p> Emitter<'p> {
         if matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK) {
             return self.out.unmapped("the centre of an arc: no source says from where it counts here");
         }
+        if role == Role::ArcRadius && value.constant().is_none() {
+            return self.out.unmapped("an arc's radius from a variable: its sign means another arc here");
+        }
         used.push(letter);
         self.space();
         self.out.push(letter);
