@@ -2,10 +2,12 @@
 //!
 //! A call of a program that is not in the library stays a call of that number, since the shop may have the program
 //! in the machine; a reviewer must know it, because nothing is known of it. A maker's cycle that is not
-//! in the library has no number on the target and is an error.
+//! in the library has no number on the target and is an error. So is a call with arguments, if the target has no
+//! locals: which registers that program reads is known only when it is converted too.
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Callee, Module, TermKind};
+use crate::legalize::registers::needs::has_locals;
 use crate::legalize::{Context, calls_of, span_of};
 use crate::syntax::ProgramName;
 use crate::text::Span;
@@ -32,13 +34,33 @@ fn report(module: &Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter().enumerate() {
         for block in &program.blocks {
             for call in calls_of(block) {
-                check(&call.callee, &known, index, span_of(block, call), context);
+                let span = span_of(block, call);
+                match &call.callee {
+                    Callee::Program(name @ ProgramName::Number(_))
+                        if !known.contains(name)
+                            && !call.arguments.is_empty()
+                            && !has_locals(context.target) =>
+                    {
+                        unplaced(name, index, span, context);
+                    }
+                    callee => check(callee, &known, index, span, context),
+                }
             }
             if let TermKind::Chain(name) = &block.term.kind {
                 check(&Callee::Program(name.clone()), &known, index, block.term.site.span, context);
             }
         }
     }
+}
+
+/// The target has no locals, so nobody knows where a program that is not there looks for its arguments.
+fn unplaced(name: &ProgramName, index: usize, span: Span, context: &mut Context<'_>) {
+    let name = name.short();
+    let what = format!(
+        "{name} gets arguments and is not in the library: the target has no local variables, so no register is known for them"
+    );
+    let help = format!("convert it together with {name}");
+    context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
 }
 
 fn check(

@@ -11,7 +11,7 @@ pub(in crate::legalize) mod frames;
 pub(in crate::legalize) mod locked;
 pub(in crate::legalize) mod map;
 pub(in crate::legalize) mod names;
-mod needs;
+pub(in crate::legalize) mod needs;
 mod pool;
 mod runs;
 mod statics;

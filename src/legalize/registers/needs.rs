@@ -64,6 +64,6 @@ pub(super) fn is_general(row: &VariableClass, target: &Control) -> bool {
 }
 
 /// True if programs of the target have local variables.
-pub(super) fn has_locals(target: &Control) -> bool {
+pub(in crate::legalize) fn has_locals(target: &Control) -> bool {
     target.classes().iter().any(|row| row.class == "local")
 }
