@@ -162,6 +162,6 @@ impl Builder {
             }
             blocks.push(block);
         }
-        Program { name, file, site, blocks }
+        Program { name, file, site, held: Vec::new(), blocks }
     }
 }

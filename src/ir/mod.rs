@@ -96,6 +96,8 @@ pub struct Program {
     pub file: usize,
     /// The block that names it: comments, span.
     pub site: SourceInfo,
+    /// What people call the values that its statics hold: on a target without locals, the locals of the source (`#4`).
+    pub held: Vec<(Var, String)>,
     /// Its blocks, in source order. Block 0 is the entry.
     pub blocks: Vec<Block>,
 }

@@ -133,7 +133,9 @@ fn rebuild_where(
         block.stmts.into_iter().for_each(|stmt| each(&mut builder, Part::Stmt(stmt)));
         each(&mut builder, Part::Term(block.term));
     }
-    *program = builder.finish(program.name.take(), program.file, std::mem::take(&mut program.site));
+    let held = std::mem::take(&mut program.held);
+    let rebuilt = builder.finish(program.name.take(), program.file, std::mem::take(&mut program.site));
+    *program = Program { held, ..rebuilt };
 }
 
 /// Puts blocks before a program, the last of which goes on at the block after them: ids of the program's own blocks move.

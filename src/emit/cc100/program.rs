@@ -7,13 +7,12 @@ use crate::canon::Op;
 use crate::diag::Code;
 use crate::dialect::Compares;
 use crate::dialect::OperandPlace;
-use crate::emit::Index;
 use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::flow::{Abilities, Form, Plan};
+use crate::emit::common::taken::Taken;
 use crate::ir::analysis::reachable;
-use crate::ir::{Block, BlockId, Class, Cond, Expr, Relation, SourceInfo, TermKind};
+use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, TermKind};
 use crate::text::Span;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// What no source says of this control is too much for one who does not look.
 const UNFINISHED: &str = "programs for this control are new in macroglot: before the first run, read each block beside \
@@ -94,17 +93,10 @@ impl<'p> Emitter<'p> {
     /// Writes which registers the program takes, so that whoever reads it at the machine knows what they hold.
     fn taken_registers(&mut self) {
         self.out.span = Span::default();
-        let mut named = BTreeMap::new();
-        let mut seen = BTreeSet::new();
-        self.program.variables(&mut |var| {
-            let Some(register) = self.names.variable(var) else { return };
-            let Index::Number(number) = register.index else { return };
-            let scratch = matches!(var.class, Class::Temp | Class::Static | Class::Register);
-            if let (Some(label), false, true) = (&register.label, scratch, seen.insert(number)) {
-                named.insert(number, format!("{}{number} = {}", register.name, label.to_uppercase()));
-            }
-        });
-        named.into_values().for_each(|line| self.comment(&line));
+        let taken = Taken::of(self.program, self.names);
+        for ((name, number), label) in taken.named {
+            self.comment(&format!("{name}{number} = {label}"));
+        }
     }
 
     fn label(&mut self, at: usize) {

@@ -13,3 +13,4 @@ pub mod loops;
 pub mod reach;
 pub mod sheet;
 pub mod spellings;
+pub(in crate::emit) mod taken;

@@ -5,12 +5,11 @@ use super::labels::Labels;
 use super::lines::{COMMENT, Kind};
 use crate::canon::Func;
 use crate::diag::Code;
-use crate::emit::Index;
 use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::digits::write_integer;
 use crate::emit::common::flow::{Abilities, Form, Plan};
-use crate::ir::{Block, BlockId, Class, Cond, Expr, SourceInfo, TermKind};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::emit::common::taken::Taken;
+use crate::ir::{Block, BlockId, Cond, Expr, SourceInfo, TermKind};
 
 /// What this control does at tool changes, under compensation and in long runs of macro lines is not all in its table yet.
 const UNFINISHED: &str = "programs for this control are new in macroglot: before the first run, read each block beside \
@@ -74,19 +73,8 @@ impl<'p> Emitter<'p> {
 
     /// Writes which registers the program takes, so that whoever reads it at the machine knows what they hold.
     fn taken_registers(&mut self) {
-        let (mut named, mut scratch) = (BTreeMap::new(), BTreeSet::new());
-        self.program.variables(&mut |var| {
-            let Some(register) = self.names.variable(var) else { return };
-            let Index::Number(number) = register.index else { return };
-            let place = (register.name.clone(), number);
-            match (&register.label, var.class) {
-                (_, Class::Temp | Class::Static | Class::Register) | (None, _) => drop(scratch.insert(place)),
-                (Some(label), _) => drop(named.insert(place, label.to_uppercase())),
-            }
-        });
-        // One that keeps its name needs no line.
-        let named = named.into_iter().filter(|((name, number), label)| *label != format!("{name}{number}"));
-        let words = named.map(|((name, number), label)| format!("{name}{number}={label}"));
+        let Taken { named, scratch } = Taken::of(self.program, self.names);
+        let words = named.into_iter().map(|((name, number), label)| format!("{name}{number}={label}"));
         let mut words: Vec<String> = words.collect();
         let scratch: Vec<String> =
             scratch.into_iter().map(|(name, number)| format!("{name}{number}")).collect();

@@ -47,6 +47,11 @@ impl<'t> Parser<'t> {
         let site = self.site()?;
         self.mark("{")?;
         self.line()?;
+        let mut held = Vec::new();
+        while self.eat_word("holds") {
+            held.push((self.var()?, self.string()?));
+            self.line()?;
+        }
         let mut blocks = Vec::new();
         while !self.eat_mark("}") {
             if self.block_id()?.index() != blocks.len() {
@@ -55,7 +60,7 @@ impl<'t> Parser<'t> {
             blocks.push(self.block()?);
         }
         self.line()?;
-        Ok(Program { name, file, site, blocks })
+        Ok(Program { name, file, site, held, blocks })
     }
 
     /// A block after its id.

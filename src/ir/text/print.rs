@@ -30,6 +30,7 @@ impl Display for Program {
         write!(f, "program {name} file {}", self.file)?;
         site(f, &self.site)?;
         writeln!(f, " {{")?;
+        self.held.iter().try_for_each(|(var, name)| writeln!(f, "    holds {var} {}", quote(name)))?;
         for (id, block) in self.ids().zip(&self.blocks) {
             write!(f, "{id}")?;
             if !block.labels.is_empty() {

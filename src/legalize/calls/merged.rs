@@ -103,6 +103,10 @@ fn merge(
             first.stmts.insert(0, headline(body, span));
         }
         program.blocks.extend(blocks);
+        let of = body.name.as_ref().map(|name| name.short().into_owned()).unwrap_or_default();
+        let known: BTreeSet<Var> = program.held.iter().map(|(var, _)| *var).collect();
+        let held = body.held.iter().filter(|(var, _)| !known.contains(var));
+        program.held.extend(held.map(|(var, name)| (*var, format!("{name} of {of}"))));
     }
     for block in &mut program.blocks {
         if let TermKind::Call { call, .. } = &mut block.term.kind

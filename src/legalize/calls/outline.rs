@@ -152,7 +152,7 @@ fn extract(
         for_each_jump(&mut block.term.kind, &mut |to| *to = place.get(to).copied().unwrap_or(*to));
         blocks.push(block);
     }
-    Program { name, file: program.file, site, blocks }
+    Program { name, file: program.file, site, held: Vec::new(), blocks }
 }
 
 /// Every successor; callees keep their ids until they are renamed.

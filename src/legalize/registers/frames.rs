@@ -15,19 +15,20 @@ mod levels;
 pub(in crate::legalize) mod repeats;
 
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Control, Question};
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::analysis::{Universe, VarSet};
 use crate::ir::{
-    Bank, Block, BlockId, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
+    Bank, Block, BlockId, Callee, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
     Terminator, Var,
 };
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::needs::has_locals;
 use crate::legalize::rewrite::put_first;
-use crate::legalize::{Context, Position, Rewriter, rewrite_program};
+use crate::legalize::{Context, Position, Rewriter, calls_of, rewrite_program};
 use levels::Levels;
 use smallvec::SmallVec;
+use std::collections::BTreeSet;
 
 /// True if programs have variables, and the target no locals.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -40,6 +41,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     module.programs.iter_mut().for_each(|program| repeats::loops(program, |call| call.level));
     let levels = Levels::of(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        program.held = held(index, program, &levels, context.source);
         rename(index, program, &levels);
     }
     let cut = calls::cut(module);
@@ -54,6 +56,24 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     if !context.target.is(Question::Vacancy) {
         module.programs.iter_mut().for_each(plain);
     }
+}
+
+/// What people call the statics that a program names: its locals, and those of what it gives arguments to.
+fn held(index: usize, program: &Program, levels: &Levels, source: &Control) -> Vec<(Var, String)> {
+    let mut held = levels.held(index, source);
+    let mut known: BTreeSet<Var> = held.iter().map(|(var, _)| *var).collect();
+    for call in program.blocks.iter().flat_map(calls_of).filter(|call| call.level) {
+        let Callee::Program(name) = &call.callee else { continue };
+        for callee in levels.callees(index, call) {
+            let locals = levels.held(callee, source).into_iter();
+            held.extend(
+                locals
+                    .filter(|(var, _)| known.insert(*var))
+                    .map(|(var, local)| (var, format!("{local} of {}", name.short()))),
+            );
+        }
+    }
+    held
 }
 
 /// The statics that a library names.

@@ -367,6 +367,7 @@ fn rename(program: &mut Program, Plan { colours, naming, .. }: &Plan, statics: O
             }
         });
     };
+    program.held.iter_mut().for_each(|(var, _)| change(var));
     for (at, block) in program.blocks.iter_mut().enumerate() {
         if statics.is_none() && !naming.get(at).is_some_and(|naming| *naming) {
             continue;

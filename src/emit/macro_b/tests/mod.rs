@@ -178,7 +178,7 @@ fn blocks<const N: usize>(blocks: [(&[u32], Vec<StmtKind>, TermKind); N]) -> Pro
         stmts: stmts.into_iter().map(|kind| Stmt { kind, site: SourceInfo::default() }).collect(),
         term: Terminator { kind, site: SourceInfo::default() },
     });
-    Program { name: None, file: 0, site: SourceInfo::default(), blocks: blocks.collect() }
+    Program { name: None, file: 0, site: SourceInfo::default(), held: Vec::new(), blocks: blocks.collect() }
 }
 
 fn jump(to: u32) -> TermKind {

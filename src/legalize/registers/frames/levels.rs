@@ -1,7 +1,8 @@
 //! Which locals are the same variable: those of one level, in all programs that share it.
 
+use crate::dialect::Control;
 use crate::ir::analysis::CallGraph;
-use crate::ir::{Call, Callee, Class, Module, Program, TermKind, Var};
+use crate::ir::{Call, Callee, Class, LOCAL_FLAGS, Module, Program, TermKind, Var, flag_of};
 use crate::legalize::calls_of;
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
@@ -74,6 +75,19 @@ impl Levels {
         self.of.range((program, 0)..(program + 1, 0)).any(|(_, number)| *number == var.number)
     }
 
+    /// What people call the locals of the level that the program runs in.
+    pub fn held(&self, program: usize, source: &Control) -> Vec<(Var, String)> {
+        let name = |local| source.numbered().map(|before| format!("{before}{local}")).unwrap_or_default();
+        let held = self.of.range((program, 0)..(program + 1, 0)).map(|((_, local), number)| {
+            let name = match local.checked_sub(LOCAL_FLAGS) {
+                Some(local) => flag_of(&name(local)),
+                None => name(*local),
+            };
+            (Var { class: Class::Static, number: *number }, name)
+        });
+        held.collect()
+    }
+
     /// What people call it.
     pub fn name(&self, var: Var) -> String {
         self.names.get(&var.number).cloned().unwrap_or_default()
@@ -102,7 +116,7 @@ fn locals(program: &Program) -> BTreeSet<u32> {
 }
 
 fn describe(program: &Program, local: u32) -> String {
-    let local = match local.checked_sub(crate::ir::LOCAL_FLAGS) {
+    let local = match local.checked_sub(LOCAL_FLAGS) {
         Some(local) => format!("whether local {local} has a value"),
         None => format!("local {local}"),
     };
