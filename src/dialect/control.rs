@@ -208,6 +208,11 @@ impl Control {
         self.dialect.behaviours.get((*self.behaviours.get(question as usize)?)?)
     }
 
+    /// The answer to a question of a number; none if the table is silent.
+    pub fn number(&self, question: Question) -> Option<f64> {
+        self.behaviour(question)?.value.parse().ok()
+    }
+
     /// True where the answer is `true`; a silent table and an unknown answer are no.
     pub fn is(&self, question: Question) -> bool {
         self.behaviour(question).is_some_and(|row| row.value == "true")

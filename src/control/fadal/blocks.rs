@@ -98,9 +98,13 @@ impl<'r> Interpreter<'r, '_> {
         if shown.is_some() {
             read.command.ops.retain(|op| *op != Op::Stop);
         }
+        let waits = self.waits_for_start(&mut read);
         self.tell(&mut read, asked)?;
         if let Some(text) = shown {
             self.session.pause(Pause::Stop, EventKind::Message { text });
+        }
+        if waits {
+            self.session.pause(Pause::Message, EventKind::Message { text: String::new() });
         }
         if let Asked::Call(call) = asked
             && !read.flows(Op::CallModal)
@@ -111,6 +115,18 @@ impl<'r> Interpreter<'r, '_> {
             self.call_local(call)?;
         }
         self.after(&read)
+    }
+
+    /// Takes out a dwell of the one time that waits for START.
+    fn waits_for_start(&self, read: &mut Read<'_>) -> bool {
+        let waits = self.session.control.number(Question::DwellWaits);
+        let time = read.command.word(Role::DwellMs).filter(|_| read.command.has(Op::Dwell));
+        if time.is_none() || time != waits {
+            return false;
+        }
+        read.command.ops.retain(|op| *op != Op::Dwell);
+        read.command.words.retain(|(role, _)| *role != Role::DwellMs);
+        true
     }
 
     /// The text that a stop shows: the comment in its block.

@@ -2,12 +2,13 @@
 //!
 //! Law: a second is a thousand milliseconds. A constant is converted here; a computed value goes
 //! to the seconds word where the target has one, since its milliseconds word takes whole
-//! numbers only.
+//! numbers only. A target may have one time that means something else: the Fadal waits for START at 66 seconds. Two
+//! dwells of half the time are written for it.
 
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, StmtKind};
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let (ms, s) = (target.letter(Role::DwellMs, code).is_some(), target.letter(Role::DwellS, code).is_some());
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut computed: Vec<(bool, Span)> = Vec::new();
+        let waits = target.number(Question::DwellWaits);
         for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
             let vacant = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.may_be_vacant());
@@ -33,6 +35,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));
             }
         }
+        if let Some(waits) = waits {
+            halve(program, waits);
+            if let Some((_, span)) = computed.iter().find(|(in_cycle, _)| !in_cycle) {
+                let what = format!(
+                    "this dwell is computed, and one of {waits} milliseconds waits for START on the target: make sure that it is never that long"
+                );
+                context.add(index, Diagnostic::new(Code::Conditional, *span, what));
+            }
+        }
         let row = target.behaviour(Question::DwellExpression);
         let known = row.is_some_and(|row| row.value == "ms" && row.origin.confirmed);
         // In seconds a computed value counts as written; a cycle has no such word.
@@ -44,6 +55,38 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let what =
                 "no manual confirms whether the target counts a computed dwell in seconds or milliseconds";
             context.unconfirmed(index, Side::Target, *span, Question::DwellExpression.fact(), what);
+        }
+    }
+}
+
+/// Writes two dwells of half the time for each of this time. What stands beside a dwell stays in the first block.
+fn halve(program: &mut Program, waits: f64) {
+    let is_long = |stmt: &Stmt| match &stmt.kind {
+        StmtKind::Nc(nc) => {
+            nc.has(Op::Dwell) && nc.word(Role::DwellMs).and_then(Expr::constant) == Some(waits)
+        }
+        _ => false,
+    };
+    for block in &mut program.blocks {
+        if !block.stmts.iter().any(is_long) {
+            continue;
+        }
+        for mut stmt in std::mem::take(&mut block.stmts) {
+            let long = is_long(&stmt);
+            let mut second = None;
+            if let (true, StmtKind::Nc(nc)) = (long, &mut stmt.kind) {
+                let half = NcItem::Word(Role::DwellMs, Expr::Number(waits / 2.0));
+                for item in &mut nc.items {
+                    if matches!(item, NcItem::Word(Role::DwellMs, _)) {
+                        *item = half.clone();
+                    }
+                }
+                let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Dwell), half] });
+                let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
+                second = Some(Stmt { kind, site });
+            }
+            block.stmts.push(stmt);
+            block.stmts.extend(second);
         }
     }
 }

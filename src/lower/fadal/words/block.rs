@@ -57,9 +57,13 @@ impl<'b> Lowering<'b> {
         for op in self.grouped(&mut words, span)? {
             self.push(StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] }));
         }
+        let waits = self.waits_for_start(&mut words, span);
         if !words.is_empty() {
             words.shrink_to_fit();
             self.push(StmtKind::Nc(Nc { items: words }));
+        }
+        if waits {
+            self.push(StmtKind::StopMessage { number: Expr::Number(1.0), text: String::new() });
         }
         if codes.has(Op::RotateOn) && self.in_cycle() && self.control.is(Question::RotationRunsCycle) {
             // The cycle runs at the turned place.
@@ -83,6 +87,29 @@ impl<'b> Lowering<'b> {
             self.step(step, items, codes, span)?;
         }
         Some(())
+    }
+
+    /// Takes out a dwell of the one time that waits for START instead; a computed time may be that one.
+    fn waits_for_start(&mut self, items: &mut Vec<NcItem>, span: Span) -> bool {
+        let Some(waits) = self.control.number(Question::DwellWaits) else { return false };
+        let time = items.iter().find_map(|item| match item {
+            NcItem::Word(Role::DwellMs, value) => Some(value.constant()),
+            _ => None,
+        });
+        match time {
+            Some(Some(time)) if time == waits => {
+                items.retain(|item| !matches!(item, NcItem::Op(Op::Dwell) | NcItem::Word(Role::DwellMs, _)));
+                true
+            }
+            Some(None) => {
+                let what = format!(
+                    "a dwell of {waits} waits for START here, and this one is computed: make sure that it is never {waits}"
+                );
+                self.findings.add(Diagnostic::new(Code::Conditional, span, what));
+                false
+            }
+            _ => false,
+        }
     }
 
     fn has_axes(&self, items: &[Item], codes: &Codes<'b, 'b>) -> bool {
