@@ -218,7 +218,7 @@ questions! {
     DwellBare "dwell.bare" OneOf(&["ms", "seconds", "unknown"]), "what P of a dwell counts without a decimal point";
     DwellPoint "dwell.point" OneOf(&["ms", "seconds", "error", "unknown"]), "what P of a dwell counts with a decimal point", if "op:dwell";
     DwellExpression "dwell.expression" OneOf(&["ms", "seconds", "unknown"]), "what P of a dwell counts when it is computed", if "op:dwell";
-    DwellWaits "dwell.waits" NUMBER, "the milliseconds of a dwell that waits for cycle start instead";
+    DwellWaits "dwell.waits" NUMBER, "the milliseconds of a dwell that waits for cycle start instead", if "said";
     CyclePlanesFrozen "cycle.planes.frozen" YES, "the planes of a drilling cycle keep the meaning of the block that gave them";
     CycleL0Stores "cycle.l0.stores" YES, "a cycle with L0 is stored and not run", if "role:repeat";
     CycleRunsWithoutAxes "cycle.runs.without.axes" YES, "a cycle's own block runs it even without a position";
