@@ -4,8 +4,8 @@
 use super::overlay;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Form, Function, InUse, Limit, Operator, Question, Row, Setting,
-    Statement, SystemVariable, VariableClass, WordMeaning,
+    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Operator, Question, Row,
+    Setting, Statement, SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
 
@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 pub(super) struct Tables {
     pub forms: Vec<Placed<Form>>,
     pub limits: Vec<Placed<Limit>>,
+    pub forbidden: Vec<Placed<Forbidden>>,
     pub operators: Vec<Placed<Operator>>,
     pub functions: Vec<Placed<Function>>,
     pub statements: Vec<Placed<Statement>>,
@@ -31,6 +32,7 @@ pub(super) struct Tables {
 pub(super) fn all(reader: &mut Reader, tables: &Tables) {
     duplicates(reader, &tables.forms, |row| row.place.name().into());
     duplicates(reader, &tables.limits, |row| row.name.clone());
+    duplicates(reader, &tables.forbidden, Row::key);
     duplicates(reader, &tables.operators, |row| format!("{} {}", row.spelling, row.meaning));
     duplicates(reader, &tables.functions, |row| format!("{}/{}", row.spelling, row.arguments));
     duplicates(reader, &tables.statements, |row| row.name.clone());
@@ -321,6 +323,7 @@ fn sources(reader: &mut Reader, tables: &Tables) {
     }
     section(reader, &tables.forms);
     section(reader, &tables.limits);
+    section(reader, &tables.forbidden);
     section(reader, &tables.operators);
     section(reader, &tables.functions);
     section(reader, &tables.statements);

@@ -125,6 +125,7 @@ fn lay(reader: &mut Reader, own: Whole, base: Whole, without: &mut [Without]) ->
         tables: Tables {
             forms: lay.rows(mine.forms, its.forms),
             limits: lay.rows(mine.limits, its.limits),
+            forbidden: lay.rows(mine.forbidden, its.forbidden),
             operators: lay.rows(mine.operators, its.operators),
             functions: lay.rows(mine.functions, its.functions),
             statements: lay.rows(mine.statements, its.statements),

@@ -20,6 +20,7 @@ const KEYS: &[&str] = &[
     "names",
     "forms",
     "limits",
+    "forbidden",
     "operators",
     "functions",
     "statements",
@@ -93,6 +94,7 @@ fn read(
         names: names?,
         forms: plain(tables.forms),
         limits: plain(tables.limits),
+        forbidden: plain(tables.forbidden),
         operators: plain(tables.operators),
         functions: plain(tables.functions),
         statements: plain(tables.statements),
@@ -117,6 +119,7 @@ pub(super) fn sections(reader: &mut Reader, document: &mut DeTable<'_>) -> Whole
         tables: Tables {
             forms: reader.rows(document),
             limits: reader.rows(document),
+            forbidden: reader.rows(document),
             operators: reader.rows(document),
             functions: reader.rows(document),
             statements: reader.rows(document),

@@ -47,6 +47,8 @@ pub struct Dialect {
     pub forms: Vec<Form>,
     /// Nesting and other limits.
     pub limits: Vec<Limit>,
+    /// What it takes for a fault while a code is in force.
+    pub forbidden: Vec<Forbidden>,
     /// Operators, with their rank.
     pub operators: Vec<Operator>,
     /// Functions.

@@ -3,6 +3,7 @@
 use super::matrix::{mark, run};
 use super::table::columns;
 use super::{Compares, Control, Row};
+use crate::canon::Op;
 
 /// All that is known of a control: section by section, each row with its
 /// source, and with its note where it has one. A `?` marks what no maker's text confirms.
@@ -51,6 +52,12 @@ pub fn page(control: &Control) -> String {
     section(&mut out, "LIMITS", &dialect.limits, |row| {
         let max = row.max.map_or("none".into(), |max| max.to_string());
         vec![row.name.clone(), max, row.alarm.clone().unwrap_or_default()]
+    });
+    section(&mut out, "FORBIDDEN", &dialect.forbidden, |row| {
+        let names = |ops: &[Op]| ops.iter().map(|op| op.name()).collect::<Vec<_>>().join(", ");
+        let unless =
+            if row.unless.is_empty() { String::new() } else { format!("but in {}", names(&row.unless)) };
+        vec![format!("under {}", names(&row.under)), names(&row.ops), unless]
     });
     section(&mut out, "OPERATORS", &dialect.operators, |row| {
         let place = if row.condition_only { "in conditions" } else { "" };

@@ -1,9 +1,10 @@
 //! What all rows have in common: a section, a name within it, an origin.
 
 use super::{
-    Argument, Behaviour, CodeMeaning, Form, Function, InUse, Limit, Names, Numbers, Operator, Origin,
-    Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
+    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Names, Numbers, Operator,
+    Origin, Setting, Statement, SystemVariable, Text, VariableClass, WordMeaning,
 };
+use crate::canon::Op;
 use serde::de::DeserializeOwned;
 
 /// A row of a dialect's table: one fact.
@@ -67,6 +68,10 @@ row! {
     Names "names" "names" |_row| String::new();
     Form "forms" "form" |row| row.place.name().into();
     Limit "limits" "limit" |row| row.name.clone();
+    Forbidden "forbidden" "forbidden" |row| {
+        let first = |ops: &[Op]| ops.first().map_or("", |op| op.name());
+        format!("{}/{}", first(&row.under), first(&row.ops))
+    };
     Operator "operators" "operator" |row| row.meaning.clone();
     Function "functions" "function" |row| match row.arguments {
         1 => row.function.name().into(),

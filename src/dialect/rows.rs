@@ -20,6 +20,22 @@ pub struct Limit {
     pub origin: Origin,
 }
 
+/// What the control takes for a fault while a code is in force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Forbidden {
+    /// The codes one of which is in force.
+    pub under: Vec<Op>,
+    /// What may not stand in a block then.
+    pub ops: Vec<Op>,
+    /// Modes in which it may.
+    #[serde(default)]
+    pub unless: Vec<Op>,
+    /// Where it comes from.
+    #[serde(skip_deserializing)]
+    pub origin: Origin,
+}
+
 /// An operator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

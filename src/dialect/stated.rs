@@ -174,6 +174,7 @@ fn each_row(dialect: &mut Dialect, visit: &mut dyn FnMut(&str, &mut super::Origi
     section(std::slice::from_mut(&mut dialect.numbers), visit);
     section(std::slice::from_mut(&mut dialect.text), visit);
     section(&mut dialect.limits, visit);
+    section(&mut dialect.forbidden, visit);
     section(&mut dialect.operators, visit);
     section(&mut dialect.functions, visit);
     section(&mut dialect.statements, visit);

@@ -222,6 +222,22 @@ impl<'r> Interpreter<'r, '_> {
     }
 
     /// Tells the machine, as often as L says, and runs the modal subroutine after each move.
+    /// Stops at a code that the control takes for a fault under another one.
+    fn check_fault(&self, read: &Read<'_>) -> Flow<()> {
+        let (command, machine) = (&read.command, &self.session.machine);
+        for op in &command.ops {
+            let in_force = |other: Op| {
+                let group = other.group();
+                let own = command.of(group).filter(|_| group != op.group());
+                own.or_else(|| machine.modal(group)) == Some(other)
+            };
+            if let Some(row) = self.session.control.forbids(*op, in_force) {
+                return Err(Halt::Error(format!("{op} is a fault here ({})", row.origin.source)));
+            }
+        }
+        Ok(())
+    }
+
     fn tell(&mut self, read: &mut Read<'r>, asked: Asked) -> Flow<()> {
         let begins = read.codes.iter().any(|row| row.op.is_cycle());
         let drills = begins || self.session.machine.cycle().is_some() && !read.command.has(Op::CycleOff);
@@ -229,6 +245,7 @@ impl<'r> Interpreter<'r, '_> {
         if here {
             read.command.ops.retain(|op| *op != Op::CycleHere);
         }
+        self.check_fault(read)?;
         let moves = read.command.has_axes() && !read.command.ops.iter().any(|op| takes_axes(*op));
         let mut times = 1;
         if let Asked::Times(count) = asked {

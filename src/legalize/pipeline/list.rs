@@ -7,7 +7,7 @@ use crate::dialect::Question;
 use crate::legalize::assumptions::{facts, runtime};
 use crate::legalize::calls::{chain, jump_chains, link, modal_calls, modal_off, nesting, outline, repeats};
 use crate::legalize::codes::{
-    beside_moves, by_number, lookahead, machine_codes, missing, pauses, substitutes,
+    beside_moves, by_number, forbidden, lookahead, machine_codes, missing, pauses, substitutes,
 };
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_words, dwell, tapping};
 use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
@@ -307,6 +307,13 @@ const CODES: &[Pass] = &[
             "state",
             "cycle-words",
         ]),
+    Pass::reports(
+        "forbidden",
+        "refuses codes that the target takes for a fault under others",
+        forbidden::run,
+    )
+    .when(forbidden::concerns)
+    .needs(&["missing", "cycle-ends", "machine-codes"]),
 ];
 
 const EXPRESSIONS: &[Pass] = &[

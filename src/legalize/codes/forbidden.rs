@@ -1,0 +1,55 @@
+//! Codes that the target takes for a fault while another one is in force.
+//!
+//! A control may refuse a tool change under cutter compensation, or a cycle that is set in increments. The source's need
+//! not mind, so the program is refused here, and not at the machine. What is in force is followed through the library;
+//! where it is not known, because callers differ or nothing says it, only the verifier's runs can find it.
+
+use crate::canon::Op;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Forbidden};
+use crate::ir::{BlockId, Module, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+use std::collections::BTreeMap;
+
+/// True if the target has such codes.
+pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
+    !context.target.dialect().forbidden.is_empty()
+}
+
+/// Refuses what the target would stop at.
+pub fn run(module: &Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter().enumerate() {
+        for (at, block) in program.blocks.iter().enumerate() {
+            let mut state = facts.at(index, BlockId(at as u32));
+            for stmt in &block.stmts {
+                let before = state.clone();
+                state.step(stmt);
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                for op in nc.ops() {
+                    // A code of the same group ends the other one: what was in force until then counts.
+                    let in_force = |other: Op| {
+                        let state = if other.group() == op.group() { &before } else { &state };
+                        state.op(other.group()) == Some(other)
+                    };
+                    let Some(row) = context.target.forbids(op, in_force) else { continue };
+                    let under = row.under.iter().copied().find(|under| in_force(*under));
+                    let what = describe(op, under, row, context.target);
+                    let help = "end it in a block before, or write the part without it";
+                    let found = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what).with_help(help);
+                    context.add(index, found);
+                }
+            }
+        }
+    }
+}
+
+fn describe(op: Op, under: Option<Op>, row: &Forbidden, target: &Control) -> String {
+    let spelled = |op: Op| match target.code_for(op, &BTreeMap::new()) {
+        Some(code) => code.code.clone(),
+        None => op.meaning().trim().trim_end_matches('.').to_lowercase(),
+    };
+    let under = under.map(spelled).unwrap_or_default();
+    format!("{} while {under} is in force is a fault on the target ({})", spelled(op), row.origin.source)
+}
