@@ -18,6 +18,21 @@ impl Control {
         })
     }
 
+    /// As [`Control::read_system`], of all numbers of a name up to a last one: in one walk over the rows.
+    pub fn read_all_system(&self, name: &str, last: u32) -> Vec<Option<(Sys, Vec<u32>, &SystemVariable)>> {
+        let mut all = vec![None; last as usize + 1];
+        for (at, first, end) in self.system.get(name).into_iter().flatten() {
+            let Some(row) = self.dialect.system.get(*at) else { continue };
+            for number in *first..=last.min(*end) {
+                // The first row that has the number counts.
+                if let Some(slot @ None) = all.get_mut(number as usize) {
+                    *slot = row.subscripts_of(number).map(|subscripts| (row.state, subscripts, row));
+                }
+            }
+        }
+        all
+    }
+
     /// A system variable by its fixed name: `_EMPTY`, `_ABSIO[n]`.
     pub fn system_named(&self, alias: &str) -> Option<&SystemVariable> {
         self.dialect

@@ -154,12 +154,14 @@ impl Lay<'_> {
         base: Vec<Placed<T>>,
     ) -> Vec<Placed<T>> {
         let mut rows = Vec::with_capacity(own.len() + base.len());
+        let keys: Vec<String> = own.iter().map(|row| row.row.full_key()).collect();
         for placed in base {
             let (key, fact) = (placed.row.full_key(), placed.row.fact());
             let left_out = self.without.iter_mut().filter(|row| row.fact == fact);
             let left_out = left_out.map(|row| row.used = true).count() > 0;
-            let stands_for = own.iter().filter(|row| row.row.full_key() == key);
-            let overridden = stands_for.map(|row| self.check_differs(row, &placed.row, left_out)).count() > 0;
+            let stands_for = own.iter().zip(&keys).filter(|(_, own)| **own == key);
+            let overridden =
+                stands_for.map(|(row, _)| self.check_differs(row, &placed.row, left_out)).count() > 0;
             if !left_out && !overridden {
                 rows.push(placed);
             }

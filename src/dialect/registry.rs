@@ -7,7 +7,7 @@ use crate::control::{self, Execute};
 use crate::diag::Diagnostic;
 use crate::emit::{self, Emit};
 use crate::lower::{self, Cuts, Lower};
-use crate::syntax::{self, Parser, without_tokens};
+use crate::syntax::{self, Parser};
 use std::sync::OnceLock;
 
 /// A dialect: its table, and the modules that know it by name.
@@ -66,8 +66,8 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "fadal",
         syntax::fadal::parse_line,
-        |source, line, out| without_tokens(syntax::fadal::parse_line, source, line, out),
-        syntax::fadal::parse_line,
+        syntax::fadal::parse_items,
+        syntax::fadal::parse_items,
         lower::fadal::lower,
         |_, _| Vec::new(),
         Some(emit::fadal::emit),
@@ -99,8 +99,8 @@ static ENTRIES: [Entry; 4] = [
     entry!(
         "cc100",
         syntax::cc100::parse_line,
-        |source, line, out| without_tokens(syntax::cc100::parse_line, source, line, out),
-        syntax::cc100::parse_line,
+        syntax::cc100::parse_items,
+        syntax::cc100::parse_items,
         lower::cc100::lower,
         |_, _| Vec::new(),
         Some(emit::cc100::emit),

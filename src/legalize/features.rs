@@ -144,7 +144,11 @@ impl Features {
                 NcItem::Op(op) => self.ops[*op as usize / 64] |= 1 << (*op as usize % 64),
                 NcItem::Word(role, value) => {
                     self.roles[*role as usize / 64] |= 1 << (*role as usize % 64);
-                    self.value(value);
+                    // Most words are numbers.
+                    match value {
+                        Expr::Number(value) => self.number(*value),
+                        value => self.value(value),
+                    }
                 }
                 NcItem::Code(_, value) => {
                     self.add(Feature::Code);
@@ -187,13 +191,15 @@ impl Features {
         self.add(if matches!(callee, Callee::Block(_)) { Feature::LocalCall } else { Feature::Call });
     }
 
+    fn number(&mut self, value: f64) {
+        if is_long(value) {
+            self.add(Feature::Long);
+        }
+    }
+
     fn value(&mut self, e: &Expr) {
         match e {
-            Expr::Number(value) => {
-                return if is_long(*value) {
-                    self.add(Feature::Long)
-                };
-            }
+            Expr::Number(value) => return self.number(*value),
             Expr::Increments(_) => return self.add(Feature::Increments),
             Expr::Negate(inner) => return self.value(inner),
             Expr::Var(var) => self.variable(*var),

@@ -29,7 +29,7 @@ mod variables;
 
 pub use crate::ir::analysis::{Modal, ModalFacts, Setting, calls_of, reachable, replace_statements, span_of};
 pub use context::{Context, Copied};
-pub use expressions::split::shares_line;
+pub use expressions::split::ThenLines;
 pub use layout::program_numbers::ProgramNumbers;
 pub use registers::locked::Locked;
 pub use registers::map::{Register, Registers};

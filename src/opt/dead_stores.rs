@@ -71,7 +71,8 @@ fn is_read(temp: Var, block: &Block, from: usize) -> bool {
 fn sweep(program: &mut Program, ways: Ways) -> bool {
     let live = Liveness::of(program, ways);
     let mut dead = Vec::new();
-    for (id, block) in program.ids().zip(&program.blocks) {
+    let assigns = |block: &Block| block.stmts.iter().any(|stmt| assigned(stmt).is_some());
+    for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| assigns(block)) {
         live.backward(id, &mut |at, is_live| {
             if block.stmts.get(at).and_then(assigned).is_some_and(|temp| !is_live(&temp)) {
                 dead.push((id, at));

@@ -9,7 +9,7 @@
 
 use super::pass::{Level, Library, Pass};
 use crate::ir::analysis::{Liveness, Ways};
-use crate::ir::{BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
+use crate::ir::{Block, BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 use std::collections::BTreeSet;
 
 /// The pass.
@@ -53,15 +53,18 @@ pub(super) fn drop_statements(program: &mut Program, places: &[(BlockId, usize)]
 
 /// True where two statements could be a pair: only then is it worth asking what is live.
 fn has_pair(program: &Program) -> bool {
-    let mut all = program.blocks.iter().flat_map(|block| block.stmts.windows(2));
-    all.any(|two| matches!(two, [first, second] if pair(first, second).is_some()))
+    program.blocks.iter().any(may_have_pair)
+}
+
+fn may_have_pair(block: &Block) -> bool {
+    block.stmts.windows(2).any(|two| matches!(two, [first, second] if pair(first, second).is_some()))
 }
 
 /// Places of the first statements of pairs. No statement is in two of them.
 fn pairs(program: &Program, ways: Ways) -> Vec<(BlockId, usize)> {
     let live = Liveness::of(program, ways);
     let mut found: Vec<(BlockId, usize)> = Vec::new();
-    for (id, block) in program.ids().zip(&program.blocks) {
+    for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| may_have_pair(block)) {
         let mut taken = usize::MAX;
         live.backward(id, &mut |at, is_live| {
             let Some(before) = at.checked_sub(1) else { return };

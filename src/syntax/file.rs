@@ -99,13 +99,6 @@ fn read_lines(source: &[u8], part: Span, parser: Parser) -> (Vec<Line>, Vec<Bloc
     (lines, blocks)
 }
 
-/// As a parser, without the tokens: a third of a block, which only printing needs.
-pub fn without_tokens(parser: Parser, source: &[u8], line: Span, out: &mut Vec<Block>) {
-    let first = out.len();
-    parser(source, line, out);
-    out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
-}
-
 /// Reads all blocks of `source` and keeps only their count: memory stays flat.
 pub fn parse_totals(source: &[u8], parser: Parser) -> ParseTotals {
     fold_lines(source, parser, ParseTotals::none, ParseTotals::add_line, ParseTotals::plus)

@@ -26,9 +26,6 @@ mod walk;
 
 pub use ast::*;
 pub use block::print_blocks;
-pub use file::{
-    ParseTotals, ParsedFile, Parser, chunks, parse_faults, parse_file, parse_part, parse_totals,
-    without_tokens,
-};
+pub use file::{ParseTotals, ParsedFile, Parser, chunks, parse_faults, parse_file, parse_part, parse_totals};
 pub use value::*;
 pub use walk::{for_each_expr, for_each_item};

@@ -10,13 +10,14 @@ use super::{Block, Expr, ExprKind, Item, ItemKind, Token, TokenKind, Word};
 use crate::text::Span;
 use thin_vec::ThinVec;
 
-/// The block of a line that holds nothing but a block number and words with numbers.
-pub(super) fn plain_block(source: &[u8], line: Span) -> Option<Block> {
+/// The block of a line that holds nothing but a block number and words with numbers; with its tokens where they are to
+/// be kept.
+pub(super) fn plain_block(source: &[u8], line: Span, tokens: bool) -> Option<Block> {
     let mut scan = Scan {
         bytes: line.of(source),
         start: line.start,
         at: 0,
-        tokens: Vec::with_capacity(12),
+        tokens: tokens.then(|| Vec::with_capacity(12)),
         // Each begins with a letter; files of such blocks are kept whole, so that room to spare would be most of them.
         items: Vec::with_capacity(line.of(source).iter().filter(|byte| byte.is_ascii_alphabetic()).count()),
     };
@@ -34,14 +35,14 @@ pub(super) fn plain_block(source: &[u8], line: Span) -> Option<Block> {
         }
     }
     let Scan { tokens, items, .. } = scan;
-    Some(Block { span: line, tokens, items, errors: ThinVec::new() })
+    Some(Block { span: line, tokens: tokens.unwrap_or_default(), items, errors: ThinVec::new() })
 }
 
 struct Scan<'s> {
     bytes: &'s [u8],
     start: u32,
     at: usize,
-    tokens: Vec<Token>,
+    tokens: Option<Vec<Token>>,
     items: Vec<Item>,
 }
 
@@ -56,7 +57,9 @@ impl<'s> Scan<'s> {
 
     fn token(&mut self, kind: TokenKind, from: usize) -> Span {
         let span = self.span(from);
-        self.tokens.push(Token { kind, span });
+        if let Some(tokens) = &mut self.tokens {
+            tokens.push(Token { kind, span });
+        }
         span
     }
 

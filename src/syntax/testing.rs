@@ -146,31 +146,43 @@ pub fn lossless_under_mutation(dialect: &str, parser: Parser) {
 /// Each line that is read without the grammar, of the corpus and of random words, is the
 /// block that the grammar reads.
 pub fn assert_plain_blocks_agree(dialect: &str, grammar: Parser) {
+    let word = "[A-Za-z][+-]?([0-9]{1,3}\\.?[0-9]{0,4}|\\.[0-9]{0,2}|[0-9]{10,18})";
+    let shape = format!("[ \t]?([Nn][0-9]{{1,5}})?([ \t]{{0,2}}{word}){{0,4}}([ \t=#%;V/-]?)");
+    assert_reader_agrees(dialect, plain::plain_block, grammar, (&shape, 300));
+}
+
+/// Each line that `reader` takes, of the corpus and of random ones of a shape, is the block that the grammar reads; without
+/// its tokens it is the same. It takes more than so many of the random ones.
+pub fn assert_reader_agrees(
+    dialect: &str,
+    reader: fn(&[u8], Span, bool) -> Option<Block>,
+    grammar: Parser,
+    (shape, least): (&str, usize),
+) {
     use proptest::prelude::*;
     let agree = |line: &[u8]| {
-        let plain = plain::plain_block(line, Span::new(0, line.len() as u32));
-        if let Some(plain) = &plain {
-            assert_eq!([plain.clone()].as_slice(), parse(grammar, line), "{}", line.escape_ascii());
+        let span = Span::new(0, line.len() as u32);
+        let read = reader(line, span, true);
+        if let Some(read) = &read {
+            assert_eq!([read.clone()].as_slice(), parse(grammar, line), "{}", line.escape_ascii());
+            let bare = Block { tokens: Vec::new(), ..read.clone() };
+            assert_eq!(reader(line, span, false), Some(bare), "{}", line.escape_ascii());
         }
-        plain.is_some()
+        read.is_some()
     };
     let programs = programs(dialect);
     let lines = programs.iter().flat_map(|(_, source)| source.split(|byte| matches!(byte, b'\n' | b'\r')));
     let taken = lines.filter(|line| !line.is_empty() && agree(line)).count();
-    assert!(taken > 100, "only {taken} lines of the corpus are plain");
-
-    let word = "[A-Za-z][+-]?([0-9]{1,3}\\.?[0-9]{0,4}|\\.[0-9]{0,2}|[0-9]{10,18})";
-    let shape = format!("[ \t]?([Nn][0-9]{{1,5}})?([ \t]{{0,2}}{word}){{0,4}}([ \t=#%;V/-]?)");
+    assert!(taken > 100, "only {taken} lines of the corpus are taken");
     let taken = std::cell::Cell::new(0);
-    let lines =
-        proptest::string::string_regex(&shape).unwrap().prop_filter("a line", |line| !line.is_empty());
+    let lines = proptest::string::string_regex(shape).unwrap().prop_filter("a line", |line| !line.is_empty());
     runner(3_000)
         .run(&lines, |line| {
             taken.set(taken.get() + usize::from(agree(line.as_bytes())));
             Ok(())
         })
         .unwrap();
-    assert!(taken.get() > 300, "only {} random lines are plain", taken.get());
+    assert!(taken.get() > least, "only {} random lines are taken", taken.get());
 }
 
 /// The names of the codes of a line's faults, each with its column from 1.

@@ -4,7 +4,7 @@ use super::arrivals::{Arrivals, callees};
 use super::loops;
 use crate::dialect::Control;
 use crate::ir::{Block, BlockId, Cond, Program, Stmt, StmtKind, TermKind};
-use crate::legalize::shares_line;
+use crate::legalize::ThenLines;
 
 /// How the end of a block is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,7 +85,8 @@ impl Plan {
         joined: impl Fn(&Block) -> bool,
     ) -> Self {
         let count = program.blocks.len();
-        let mut layout = Layout { program, arrivals, abilities, joined, forms: vec![None; count] };
+        let lines = ThenLines::new(abilities.control);
+        let mut layout = Layout { program, arrivals, abilities, joined, lines, forms: vec![None; count] };
         for found in loops::find(program, arrivals, abilities.loops) {
             layout.forms[found.header] = Some(Form::While { negated: found.negated, number: found.number });
             layout.forms[found.last] = Some(Form::EndDo(found.number));
@@ -107,6 +108,7 @@ struct Layout<'a, F> {
     arrivals: &'a Arrivals,
     abilities: Abilities<'a>,
     joined: F,
+    lines: ThenLines<'a>,
     forms: Vec<Option<Form>>,
 }
 
@@ -176,7 +178,7 @@ impl<F: Fn(&Block) -> bool> Layout<'_, F> {
                 *join == otherwise
                     && join.index() == body + 1
                     && is_silent(block)
-                    && shares_line(self.abilities.control, cond, &stmt.kind)
+                    && self.lines.has_room(cond, &stmt.kind)
                     && stmt.site.skip.is_none()
                     && (stmt.site.sequence.is_none() || one_block(stmt.site.span))
                     && (macro_statement || (words && self.abilities.then_words && one_block(stmt.site.span)))

@@ -34,7 +34,7 @@ pub use ranges::{Numbers, Ranges, Values};
 pub use set::{BitRow, Universe, VarSet};
 pub use temps::Temps;
 pub use vacancy::Vacancy;
-pub use values::{Constant, values_at};
+pub use values::{Assigned, Constant, values_at};
 
 /// Whether something holds of a thing at the place that is being visited.
 pub type Holds<'a, T> = &'a dyn Fn(&T) -> bool;

@@ -167,6 +167,13 @@ impl Modal {
 
     /// Takes a statement's effect.
     pub fn step(&mut self, stmt: &Stmt) {
+        // Most blocks only say where to.
+        if stmt.kind.nc().is_some_and(only_says_where)
+            && !self.may_call()
+            && !self.op(Group::Cycle).is_some_and(Op::is_tap)
+        {
+            return;
+        }
         let before = stmt.site.skip.map(|_| self.clone());
         match &stmt.kind {
             StmtKind::Nc(nc) => {
@@ -317,6 +324,12 @@ impl Lattice for Modal {
         }
         changed
     }
+}
+
+/// True for words alone that put nothing in force, unless they run a cycle or a modal call.
+fn only_says_where(nc: &Nc) -> bool {
+    let stays = |role: Role| !matches!(role, Role::LengthOffset | Role::Tool | Role::Feed);
+    nc.items.iter().all(|item| matches!(item, NcItem::Word(role, _) if stays(*role)))
 }
 
 /// Every call of a block: modal ones and the terminator's.

@@ -69,7 +69,7 @@ impl Analysis for Rules<'_> {
             });
         };
         match &block.term.kind {
-            TermKind::Branch { cond, then, otherwise } if then != otherwise => {
+            TermKind::Branch { cond, then, otherwise } if then != otherwise && may_settle(cond) => {
                 self.changed(row, |row| self.refine(cond, to == *then, row))
             }
             TermKind::Call { call, next } => match call.callee {
@@ -260,6 +260,15 @@ impl Rules<'_> {
             Expr::Var(var) if var.class.nullable() => self.universe.place(*var).is_none_or(|at| row.has(at)),
             e => e.may_be_vacant(),
         }
+    }
+}
+
+/// False where a condition says nothing of what is vacant.
+fn may_settle(cond: &Cond) -> bool {
+    match cond {
+        Cond::Compare(relation, ..) => matches!(relation, Relation::Equal | Relation::NotEqual),
+        Cond::Switch(_) => false,
+        Cond::And(_) | Cond::Or(_) | Cond::Not(_) => true,
     }
 }
 

@@ -6,6 +6,7 @@ use super::dataflow::reached;
 use super::effects::Summaries;
 use crate::canon::Sys;
 use crate::ir::{BlockId, Callee, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 /// Something that a variable may hold.
@@ -26,8 +27,7 @@ const MOST: usize = 16;
 /// More steps back than so many are not taken.
 const STEPS: usize = 100_000;
 
-/// All that `var` may hold before statement `at` of block `id` (past the last: before its
-/// terminator). None where something else may reach it: what the caller left, an input, a result.
+/// As [`Assigned::at`], of a program that nothing else is asked of.
 pub fn values_at(
     program: &Program,
     summaries: &Summaries,
@@ -35,33 +35,47 @@ pub fn values_at(
     id: BlockId,
     at: usize,
 ) -> Option<Vec<Constant>> {
-    let mut open: BTreeSet<BlockId> = entries(program).chain([BlockId(0)]).collect();
-    if summaries.come_back() {
-        open.extend(labelled(program));
-    }
-    let search = Search { program, summaries, cfg: Cfg::of(program), open };
-    let (mut found, mut steps) = (Some(Vec::new()), STEPS);
-    reached([(id, at, var)], |place, go| {
-        let known = found.take().filter(|_| steps > 0);
-        steps = steps.saturating_sub(1);
-        found = known.and_then(|known| search.back(place, known, go));
-    });
-    found
+    Assigned::new(program, summaries).at(var, id, at)
 }
 
 /// A variable before a statement of a block.
 type Asked = (BlockId, usize, Var);
 
-/// Where assignments are looked for.
-struct Search<'s> {
+/// What is assigned in a program.
+pub struct Assigned<'s> {
     program: &'s Program,
     summaries: &'s Summaries,
-    cfg: Cfg,
+    cfg: OnceCell<Cfg>,
     /// Where control comes in from what the graph does not show, anything may be held.
-    open: BTreeSet<BlockId>,
+    open: OnceCell<BTreeSet<BlockId>>,
 }
 
-impl Search<'_> {
+impl<'s> Assigned<'s> {
+    /// Of a program of the library that `summaries` are of.
+    pub fn new(program: &'s Program, summaries: &'s Summaries) -> Self {
+        Self { program, summaries, cfg: OnceCell::new(), open: OnceCell::new() }
+    }
+
+    /// All that `var` may hold before statement `at` of block `id` (past the last: before its
+    /// terminator). None where something else may reach it: what the caller left, an input, a result.
+    pub fn at(&self, var: Var, id: BlockId, at: usize) -> Option<Vec<Constant>> {
+        let (mut found, mut steps) = (Some(Vec::new()), STEPS);
+        reached([(id, at, var)], |place, go| {
+            let known = found.take().filter(|_| steps > 0);
+            steps = steps.saturating_sub(1);
+            found = known.and_then(|known| self.back(place, known, go));
+        });
+        found
+    }
+
+    fn open(&self) -> BTreeSet<BlockId> {
+        let mut open: BTreeSet<BlockId> = entries(self.program).chain([BlockId(0)]).collect();
+        if self.summaries.come_back() {
+            open.extend(labelled(self.program));
+        }
+        open
+    }
+
     /// Goes back to what gave the variable its value last, or to where that must be asked; none if it is not known.
     fn back(
         &self,
@@ -93,10 +107,10 @@ impl Search<'_> {
 
     /// Goes back to the ends of the blocks before one.
     fn ahead(&self, id: BlockId, var: Var, go: &mut dyn FnMut(Asked)) -> Option<()> {
-        if self.open.contains(&id) {
+        if self.open.get_or_init(|| self.open()).contains(&id) {
             return None;
         }
-        for pred in self.cfg.preds(id) {
+        for pred in self.cfg.get_or_init(|| Cfg::of(self.program)).preds(id) {
             if let TermKind::Call { call, .. } = &self.program.block(*pred)?.term.kind
                 && (matches!(call.callee, Callee::Block(_)) || self.summaries.by_call(call).contains(var))
             {

@@ -220,6 +220,11 @@ impl<'c> Found<'c> {
     /// The place of a statement of the first of `blocks`, or of the next one that has any: what an emulation puts
     /// before a statement has none, and may end a block.
     fn span(&self, blocks: &[Block], at: usize) -> Span {
+        // Most statements have one.
+        let stmt = blocks.first().and_then(|block| block.stmts.get(at));
+        if let Some(stmt) = stmt.filter(|stmt| !stmt.site.span.is_empty()) {
+            return stmt.site.span;
+        }
         let here = blocks.first().and_then(|block| first_place(block, at));
         here.or_else(|| self.places.get(blocks.len().wrapping_sub(1)).copied().flatten()).unwrap_or(self.home)
     }

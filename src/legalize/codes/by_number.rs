@@ -11,12 +11,12 @@ use crate::assume::Predicate;
 use crate::canon::{Group, Op, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::analysis::{Constant, Summaries, values_at};
-use crate::ir::{BlockId, Expr, Module, NcItem, Program, StmtKind};
+use crate::ir::analysis::{Assigned, Constant};
+use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::text::Span;
 use std::cell::LazyCell;
-use std::rc::Rc;
+use std::collections::BTreeMap;
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -25,12 +25,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
+        let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
                 for item in &nc.items {
                     if let NcItem::Code(letter, value) = item {
-                        let mut numbers = numbers(value, program, &summaries, id, at, context.source);
+                        let mut numbers = numbers(value, &assigned, id, at, context.source);
                         if rounds && value.constant().is_none() {
                             numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
                         }
@@ -41,34 +42,46 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             }
         }
     }
+    let mut letters: BTreeMap<char, Letter> = BTreeMap::new();
     for (index, span, (letter, finding)) in &found {
+        let known = letters.entry(*letter).or_insert_with(|| Letter {
+            number_alike: context.number_alike(*letter),
+            alike: alike(*letter, context.source, context.target),
+        });
+        let by_scheme = if known.number_alike { Code::Conditional } else { Code::NoEquivalent };
         let (code, what) = match finding {
             Finding::Other(code) => {
                 (Code::NoEquivalent, format!("{code} may mean something else on the target"))
             }
             Finding::Read(code) => {
-                let same = context.number_alike(*letter);
                 let what = format!(
                     "the code that was read earlier is put in force again: {code} may mean something else \
                      on the target, and must not be in force when it is read"
                 );
-                (if same { Code::Conditional } else { Code::NoEquivalent }, what)
+                (by_scheme, what)
             }
             Finding::Any(letter) => {
-                let same = context.number_alike(*letter);
                 let what = format!(
                     "the number of the {letter} code is computed: make sure that every code it may be \
                      means the same on the target"
                 );
-                (if same { Code::Conditional } else { Code::NoEquivalent }, what)
+                (by_scheme, what)
             }
         };
-        let here = found.iter().filter(|(other, _, (l, _))| other == index && l == letter);
-        let places = here.map(|(_, span, _)| *span).collect();
-        let same = alike(*letter, context.source, context.target);
-        let predicate = Predicate::Codes { letter: *letter, places, same };
+        let own = found.partition_point(|(other, ..)| other < index);
+        let own = found.iter().skip(own).take_while(|(other, ..)| other == index);
+        let places = own.filter(|(.., (other, _))| other == letter).map(|(_, span, _)| *span).collect();
+        let predicate = Predicate::Codes { letter: *letter, places, same: known.alike.clone() };
         context.add_once(*index, &what, Diagnostic::new(code, *span, what.clone()).assuming(predicate));
     }
+}
+
+/// How both controls number the codes of a letter.
+struct Letter {
+    /// True where they do so by one scheme.
+    number_alike: bool,
+    /// The codes that mean the same on both.
+    alike: Vec<f64>,
 }
 
 enum Finding {
@@ -89,10 +102,9 @@ pub(in crate::legalize) struct Number {
 }
 
 /// The numbers that a code may be; none if that is not known.
-pub(in crate::legalize) fn numbers(
+pub(in crate::legalize) fn numbers<'p>(
     value: &Expr,
-    program: &Program,
-    summaries: &LazyCell<Rc<Summaries>, impl FnOnce() -> Rc<Summaries>>,
+    assigned: &LazyCell<Assigned<'p>, impl FnOnce() -> Assigned<'p>>,
     id: BlockId,
     at: usize,
     source: &Control,
@@ -102,7 +114,7 @@ pub(in crate::legalize) fn numbers(
     }
     let Expr::Var(var) = value else { return None };
     let mut numbers = Vec::new();
-    for constant in values_at(program, summaries, *var, id, at)? {
+    for constant in assigned.at(*var, id, at)? {
         match constant {
             Constant::Number(number) => numbers.push(Number { number, read: false }),
             Constant::Vacant => {}

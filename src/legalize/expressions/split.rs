@@ -34,16 +34,30 @@ pub(in crate::legalize) fn place_of(position: Position) -> OperandPlace {
     }
 }
 
-/// True where a line of the target has room for a condition and the statement after its THEN.
-pub fn shares_line(control: &Control, cond: &Cond, stmt: &StmtKind) -> bool {
-    let measure = Measure::new(control);
-    let (before, _) = beside(control, OperandPlace::Then);
-    let mut length = before + measure.cond(cond).length;
-    if let StmtKind::Nc(nc) = stmt {
-        length += 4 * nc.items.len();
+/// Tells whether conditions and what stands after their THEN share a line.
+pub struct ThenLines<'c> {
+    measure: Measure<'c>,
+    /// Characters beside the condition, and those that the line has.
+    beside: usize,
+    room: usize,
+}
+
+impl<'c> ThenLines<'c> {
+    /// Of a target.
+    pub fn new(control: &'c Control) -> Self {
+        let (beside, _) = beside(control, OperandPlace::Then);
+        Self { measure: Measure::new(control), beside, room: control.room(OperandPlace::Then) }
     }
-    stmt.exprs(&mut |e| length += measure.expr(e).length + 2);
-    length + REGISTER <= control.room(OperandPlace::Then)
+
+    /// True where a line of the target has room for a condition and the statement after its THEN.
+    pub fn has_room(&self, cond: &Cond, stmt: &StmtKind) -> bool {
+        let mut length = self.beside + self.measure.cond(cond).length;
+        if let StmtKind::Nc(nc) = stmt {
+            length += 4 * nc.items.len();
+        }
+        stmt.exprs(&mut |e| length += self.measure.expr(e).length + 2);
+        length + REGISTER <= self.room
+    }
 }
 
 /// Takes operands out of expressions that the target has no room for.
@@ -55,7 +69,8 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
         return false;
     }
     let highest = highest_temp(program);
-    let mut cutter = Cutter { control: context.target, measure, depth, highest, before: Vec::new() };
+    let (mosts, before) = Default::default();
+    let mut cutter = Cutter { control: context.target, measure, depth, mosts, highest, before };
     for block in &mut program.blocks {
         cutter.block(block);
     }
@@ -66,6 +81,8 @@ struct Cutter<'c> {
     control: &'c Control,
     measure: Measure<'c>,
     depth: u32,
+    /// By place: what may stand there, once it was asked for.
+    mosts: [Option<(u32, usize)>; OperandPlace::ALL.len()],
     highest: u32,
     before: Vec<(Var, Expr)>,
 }
@@ -118,19 +135,22 @@ impl Cutter<'_> {
         count
     }
 
-    fn most(&self, position: Position) -> Most {
+    fn most(&mut self, position: Position) -> Most {
         let place = place_of(position);
-        let (beside, brackets) = beside(self.control, place);
-        Most {
-            depth: self.depth.saturating_sub(brackets),
-            length: self.control.room(place).saturating_sub(beside),
-            word: matches!(position, Position::Word(_)),
-        }
+        let (control, most) = (self.control, self.depth);
+        let (depth, length) = *self.mosts[place as usize].get_or_insert_with(|| {
+            let (beside, brackets) = beside(control, place);
+            (most.saturating_sub(brackets), control.room(place).saturating_sub(beside))
+        });
+        Most { depth, length, word: matches!(position, Position::Word(_)) }
     }
 
     fn whole(&mut self, e: &mut Expr, position: Position) {
+        if is_leaf(e) {
+            return;
+        }
         let most = self.most(position);
-        if !is_leaf(e) && !most.holds(self.measure.bound(e)) && !most.holds(self.measure.expr(e)) {
+        if !most.holds(self.measure.bound(e)) && !most.holds(self.measure.expr(e)) {
             *e = self.cut(std::mem::replace(e, Expr::Vacant), most).0;
         }
     }

@@ -15,7 +15,7 @@ mod shift;
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Side};
-use crate::ir::analysis::{self, Ranges, Values, values_at};
+use crate::ir::analysis::{self, Assigned, Ranges, Values};
 use crate::ir::{Bank, Expr, Module};
 use crate::legalize::Context;
 use crate::legalize::variables::banks::{all_numbers, each_index};
@@ -75,6 +75,7 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -
     let mut reached = Reached::default();
     for (index, program) in module.programs.iter().enumerate() {
         let ranges = LazyCell::new(|| Ranges::of(program, &summaries));
+        let assigned = Assigned::new(program, &summaries);
         let mut found: Vec<Found> = Vec::new();
         // Numbers that others in the same block are known to be: they are no strays.
         let mut known: Vec<(Span, analysis::Numbers)> = Vec::new();
@@ -87,7 +88,7 @@ fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -
             // A plain variable is looked up with the literals that stand at the head.
             let constants = match number {
                 Expr::Var(var) if looked_up <= MOST_LOOKED_UP / 10 => {
-                    values_at(program, &summaries, *var, id, at).and_then(all_numbers)
+                    assigned.at(*var, id, at).and_then(all_numbers)
                 }
                 _ => None,
             };

@@ -13,6 +13,7 @@ pub use site::{comment_text, site_of};
 
 use crate::ir::Relation;
 use crate::syntax::{BinaryOp, Expr, ExprKind, Item, ItemKind};
+use smallvec::SmallVec;
 
 /// The value of a constant: a number, signed or in brackets or not. One that is too
 /// large for any control is none.
@@ -34,7 +35,7 @@ pub fn constant(expr: &Expr) -> Option<f64> {
 
 /// The letters of a block's plain words with their constant values, as
 /// [`crate::dialect::Control::code`] wants them. Comma words are left out.
-pub fn letters(items: &[Item]) -> Vec<(char, Option<f64>)> {
+pub fn letters(items: &[Item]) -> SmallVec<[(char, Option<f64>); 6]> {
     let words = items.iter().filter_map(|item| match &item.kind {
         ItemKind::Word(word) if !word.comma => Some(word),
         _ => None,

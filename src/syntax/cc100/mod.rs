@@ -16,10 +16,21 @@ use pest::Parser as _;
 /// Reads the one block of a line. Nothing nests in this language, so no line is
 /// too deep.
 pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    read_line(source, line, true, out);
+}
+
+/// As [`parse_line`], without the tokens.
+pub fn parse_items(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    let first = out.len();
+    read_line(source, line, false, out);
+    out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
+}
+
+fn read_line(source: &[u8], line: Span, tokens: bool, out: &mut Vec<Block>) {
     if line.is_empty() {
         return;
     }
-    match too_long(line).or_else(|| plain_block(source, line)) {
+    match too_long(line).or_else(|| plain_block(source, line, tokens)) {
         Some(block) => out.push(block),
         None => by_grammar(source, line, out),
     }

@@ -9,7 +9,7 @@ use crate::text::Span;
 use pest::iterators::{Pair, Pairs};
 
 /// Characters of a macro line from its `#` on (seed 000, line 225).
-const MACRO_LINE: u32 = 63;
+pub(super) const MACRO_LINE: u32 = 63;
 
 /// The items of a line that was read, and what is wrong with them.
 pub(super) fn items(source: &[u8], line: Span, pairs: Pairs<'_, Rule>) -> (Vec<Item>, Vec<SyntaxError>) {

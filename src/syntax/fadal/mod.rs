@@ -8,6 +8,7 @@ mod expr;
 mod grammar;
 mod lexemes;
 mod mark;
+mod reader;
 
 use super::plain::plain_block;
 use super::support::{depth, fault, readable, tile, too_long, unparsed};
@@ -26,16 +27,28 @@ const MOST_BRACKETS: usize = 32;
 
 /// Reads the one block of a line.
 pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    read_line(source, line, true, out);
+}
+
+/// As [`parse_line`], without the tokens.
+pub fn parse_items(source: &[u8], line: Span, out: &mut Vec<Block>) {
+    let first = out.len();
+    read_line(source, line, false, out);
+    out[first..].iter_mut().for_each(|block| block.tokens = Vec::new());
+}
+
+fn read_line(source: &[u8], line: Span, tokens: bool, out: &mut Vec<Block>) {
     if line.is_empty() {
         return;
     }
-    match too_long(line).or_else(|| plain_block(source, line)) {
+    let by_hand = || plain_block(source, line, tokens).or_else(|| reader::read(source, line, tokens));
+    match too_long(line).or_else(by_hand) {
         Some(block) => out.push(block),
         None => by_grammar(source, line, out),
     }
 }
 
-/// Reads a line by the grammar, which defines what [`plain_block`] may take over.
+/// Reads a line by the grammar, which defines what [`plain_block`] and [`reader::read`] may take over.
 fn by_grammar(source: &[u8], line: Span, out: &mut Vec<Block>) {
     let text = readable(line.of(source));
     if let Some(error) = too_complex(&text, line) {

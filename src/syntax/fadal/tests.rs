@@ -1,4 +1,4 @@
-use super::{by_grammar, parse_line};
+use super::{by_grammar, parse_line, reader};
 use crate::syntax::testing::*;
 use crate::syntax::{ItemKind, TokenKind};
 
@@ -195,4 +195,31 @@ fn any_bytes_print_back() {
 #[test]
 fn plain_blocks_are_what_the_grammar_says() {
     assert_plain_blocks_agree("fadal", by_grammar);
+}
+
+#[test]
+fn ordinary_macro_lines_are_what_the_grammar_says() {
+    let agrees = |shape: &str, least| assert_reader_agrees("fadal", reader::read, by_grammar, (shape, least));
+    let value = "([VR][0-9]{1,3}|V\\([0-9]{1,3}\\)|[0-9]{1,3}\\.?[0-9]{0,2}|(SIN|abs|Int)\\(V[0-9]-2\\)|\\(-V3\\*2\\))";
+    let sum = format!("-?{value}( ?[-+*/] ?{value}){{0,2}}");
+    let body = format!("(GOTO ?:[A-Z]{{1,3}}|goto N[0-9]{{1,3}}|[VR][0-9]{{1,2}} ?= ?{sum})");
+    agrees(
+        &format!(
+            "([Nn][0-9]{{1,4}} ?)?# ?(:[a-z0-9_]{{1,2}}|{body}|IF {sum} ?(<|>=|=) ?{sum} THEN {body}) ?"
+        ),
+        300,
+    );
+    agrees("([Nn][0-9]{1,4} )?([A-MPQS-UW-Z]([-+][Rr][0-9]|[-+]?[0-9]{1,3}\\.?[0-9]{0,2}) ?){1,3}", 300);
+    // With much that is rare or wrong.
+    let value = "([VRvr][0-9]{1,3}|[VR] ?\\([0-9 ]{1,3}\\)|V\\(V1[+ ]?[0-9]?\\)|[0-9]{0,3}\\.?[0-9]{0,2}|(SIN|ATN|RND|SQR|COS) ?\\(V[0-9] ?[-+] ?2\\)|H1|AX|V[XF])";
+    let operator = " ?([-+*/]|=|<|>|<>|< >|<=|>=|EQ|and|OR|[-+] ?[-+]) ?";
+    let sum = format!("[-+]? ?{value}({operator}{value}){{0,3}}");
+    let body = format!("(GOTO ?:[A-Za-z_]{{1,3}}|goto ?N[0-9]{{1,3}}|{value} ?= ?{sum}|WAIT)");
+    let statement = format!(
+        "(:[A-Z ]{{0,2}}[a-z0-9_]{{0,2}}|{body}|IF ?\\(?{sum}\\)? ?(THEN)? ?(IF {sum} THEN )?{body})"
+    );
+    let tail = "( ?'[A-Z]{0,3}|[ \\t)=;.]?|[ \\t]{0,3})";
+    agrees(&format!("[ \\t/]?([Nn][0-9]{{1,4}} ?)?# ?{statement}{tail}"), 50);
+    let word = "[A-Za-z] ?([-+] ?[RrV][0-9]{1,2}\\.?|[-+]?[0-9]{1,3}\\.?[0-9]{0,2})";
+    agrees(&format!("[ \\t/]?([Nn][0-9]{{1,4}})?([ \\t]{{0,2}}{word}){{1,4}}[ \\t;=#-]?"), 50);
 }

@@ -1,40 +1,76 @@
 //! States of nodes, and which nodes are to be looked at again.
 
 use super::Lattice;
-use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
 /// Nodes that wait to be looked at, each once, in the order of their ranks.
 #[derive(Clone, Debug)]
 pub struct Worklist {
-    /// By node.
-    ranks: Vec<u32>,
-    /// By node.
-    waits: Vec<bool>,
-    queue: BinaryHeap<Reverse<(u32, u32)>>,
+    /// By node: its place in the order.
+    places: Vec<u32>,
+    /// By place.
+    nodes: Vec<u32>,
+    /// A bit for each place: whether the node there waits.
+    waits: Vec<u64>,
+    /// No node waits in the words before this one.
+    first: usize,
 }
 
 impl Worklist {
     /// Of nodes with these ranks, the least of which comes first; among equals the first node does.
     pub fn ranked(ranks: Vec<u32>) -> Self {
-        Self { waits: vec![false; ranks.len()], ranks, queue: BinaryHeap::new() }
+        let places = places(ranks);
+        let mut nodes = vec![0; places.len()];
+        (0..).zip(&places).for_each(|(node, place)| nodes[*place as usize] = node);
+        let waits = vec![0; places.len().div_ceil(64)];
+        Self { places, nodes, waits, first: 0 }
     }
 
     /// Lets a node wait.
     pub fn add(&mut self, node: usize) {
-        if let Some(waits) = self.waits.get_mut(node)
-            && !std::mem::replace(waits, true)
-        {
-            self.queue.push(Reverse((self.ranks[node], node as u32)));
+        if let Some(place) = self.places.get(node) {
+            let word = (*place / 64) as usize;
+            self.waits[word] |= 1 << (place % 64);
+            self.first = self.first.min(word);
         }
     }
 
     /// The first node that waits, which does so no more.
     pub fn pop(&mut self) -> Option<usize> {
-        let Reverse((_, node)) = self.queue.pop()?;
-        self.waits[node as usize] = false;
-        Some(node as usize)
+        while let Some(word) = self.waits.get_mut(self.first) {
+            if *word != 0 {
+                let place = self.first * 64 + word.trailing_zeros() as usize;
+                *word &= *word - 1;
+                return self.nodes.get(place).map(|node| *node as usize);
+            }
+            self.first += 1;
+        }
+        None
     }
+}
+
+/// The place of each node in the order of ranks; of equals the first node comes first.
+fn places(mut ranks: Vec<u32>) -> Vec<u32> {
+    let count = ranks.len();
+    // By rank, how many places are before those of that rank.
+    let mut before = vec![0; count + 2];
+    if ranks.iter().any(|rank| *rank as usize > count) {
+        let mut nodes: Vec<usize> = (0..count).collect();
+        nodes.sort_by_key(|node| ranks[*node]);
+        (0..).zip(nodes).for_each(|(place, node)| ranks[node] = place);
+        return ranks;
+    }
+    ranks.iter().for_each(|rank| before[*rank as usize + 1] += 1);
+    let mut sum = 0;
+    before.iter_mut().for_each(|before| {
+        sum += *before;
+        *before = sum;
+    });
+    for rank in &mut ranks {
+        let next = &mut before[*rank as usize];
+        (*rank, *next) = (*next, *next + 1);
+    }
+    ranks
 }
 
 /// The states of a graph's nodes while they are followed. Whoever follows them takes the next node that waits, and

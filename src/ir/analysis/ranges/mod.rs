@@ -67,9 +67,12 @@ struct Rules<'p> {
 
 impl Lattice for State {
     fn join(&mut self, other: &Self) -> bool {
-        let joined: Self = self.iter().zip(other).map(|(a, b)| a.join(b)).collect();
-        let changed = *self != joined;
-        *self = joined;
+        let mut changed = false;
+        for (mine, theirs) in self.iter_mut().zip(other).filter(|(mine, theirs)| !mine.has_all_of(theirs)) {
+            let joined = mine.join(theirs);
+            changed |= *mine != joined;
+            *mine = joined;
+        }
         changed
     }
 }
@@ -101,7 +104,7 @@ impl Analysis for Rules<'_> {
     /// A loop that counts goes on to where it may stop, and one that never settles tells nothing.
     fn merge(&self, state: &mut State, other: &State, before: u32) -> bool {
         let mut changed = false;
-        for (mine, theirs) in state.iter_mut().zip(other) {
+        for (mine, theirs) in state.iter_mut().zip(other).filter(|(mine, theirs)| !mine.has_all_of(theirs)) {
             let joined = mine.join(theirs);
             let next = match before {
                 _ if joined == *mine => continue,

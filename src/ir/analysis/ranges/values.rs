@@ -87,6 +87,11 @@ impl Values {
         }
     }
 
+    /// True where it is plain to see that joining the other would change nothing.
+    pub fn has_all_of(&self, other: &Self) -> bool {
+        *self == Self::ANY || self == other
+    }
+
     /// The values of both.
     #[must_use]
     pub fn join(&self, other: &Self) -> Self {

@@ -5,7 +5,7 @@
 
 use crate::canon::{Group, Op};
 use crate::dialect::Units;
-use crate::ir::analysis::CallGraph;
+use crate::ir::analysis::{Assigned, CallGraph};
 use crate::ir::{Module, NcItem, StmtKind};
 use crate::legalize::codes::by_number::numbers;
 use crate::legalize::{Context, calls_of};
@@ -109,6 +109,7 @@ fn own(module: &Module, context: &Context<'_>) -> Vec<ExitUnit> {
     };
     let mut left = vec![ExitUnit::default(); module.programs.len()];
     for (index, program) in module.programs.iter().enumerate() {
+        let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {
                 let StmtKind::Nc(nc) = &stmt.kind else { continue };
@@ -116,7 +117,7 @@ fn own(module: &Module, context: &Context<'_>) -> Vec<ExitUnit> {
                     match item {
                         NcItem::Op(op) => left[index].name(*op),
                         NcItem::Code('G', value) => {
-                            left[index].computed |= numbers(value, program, &summaries, id, at, source)
+                            left[index].computed |= numbers(value, &assigned, id, at, source)
                                 .is_none_or(|all| all.iter().any(|n| is_unit(n.number)));
                         }
                         _ => {}

@@ -11,12 +11,20 @@ pub(super) enum Meaning {
     State(Sys, Vec<u32>),
 }
 
+/// What a number is of the system's, with its subscripts and its row.
+pub(super) type State<'c> = (Sys, Vec<u32>, &'c SystemVariable);
+
 /// What a control means by a number.
 pub(super) fn meaning(control: &Control, number: u32) -> Option<Meaning> {
+    meaning_by(control, number, control.numbered_state(number).as_ref())
+}
+
+/// The same, where it is this of the system's.
+pub(super) fn meaning_by(control: &Control, number: u32, state: Option<&State<'_>>) -> Option<Meaning> {
     if let Some(row) = control.numbered_class(number) {
         return Some(if row.class == "local" { Meaning::Local } else { Meaning::Shared });
     }
-    control.numbered_state(number).map(|(state, subscripts, _)| Meaning::State(state, subscripts))
+    state.map(|(state, subscripts, _)| Meaning::State(*state, subscripts.clone()))
 }
 
 /// The largest number that the control has.

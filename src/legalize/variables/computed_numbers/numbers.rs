@@ -1,7 +1,7 @@
 //! What both controls mean by the numbers of variables.
 
 use super::Finding;
-use super::meaning::{Meaning, last_number, meaning};
+use super::meaning::{Meaning, State, last_number, meaning, meaning_by};
 use super::shift::constant_part;
 use crate::canon::{Pause, Running, Sys};
 use crate::dialect::Control;
@@ -44,22 +44,26 @@ impl<'c> Numbers<'c> {
 
     fn compared(&self) -> Vec<Option<bool>> {
         let (source, target) = (self.source, self.target);
+        let last = last_number(source);
+        let states = |control: &'c Control| {
+            control.numbered().map(|name| control.read_all_system(name, last)).unwrap_or_default()
+        };
+        let (ours, theirs) = (states(source), states(target));
         let same = |number: u32| {
-            let (here, there) = (meaning(source, number), meaning(target, number));
-            let access = |control: &'c Control| {
-                control.numbered_state(number).map_or("", |(.., row)| row.access.as_str())
-            };
+            let [our, their] = [&ours, &theirs].map(|of| of.get(number as usize).and_then(Option::as_ref));
+            let (here, there) = (meaning_by(source, number, our), meaning_by(target, number, their));
+            let access = |state: Option<&State<'c>>| state.map_or("", |(.., row)| row.access.as_str());
             match &here {
                 None if there.is_none() => None,
                 Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
                 Some(Meaning::State(Sys::StopMessage, _)) if !stops_alike(source, target) => Some(false),
                 Some(Meaning::State(..)) => {
-                    Some(here == there && access(source).chars().all(|c| access(target).contains(c)))
+                    Some(here == there && access(our).chars().all(|c| access(their).contains(c)))
                 }
                 _ => Some(here == there && !target.is_numbered_reserved(number)),
             }
         };
-        (0..=last_number(source)).map(same).collect()
+        (0..=last).map(same).collect()
     }
 
     /// What is known of a computed number that may be one of some, `exact` where it is each of them; true where they all

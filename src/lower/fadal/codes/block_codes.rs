@@ -4,6 +4,7 @@ use crate::canon::{Group, Op, Role};
 use crate::dialect::{CodeHead, CodeMeaning, Control};
 use crate::lower::common::{constant, letters};
 use crate::syntax::{Expr, Item, ItemKind, Word};
+use smallvec::SmallVec;
 
 /// The codes of a block, looked up once.
 #[derive(Debug)]
@@ -11,7 +12,7 @@ pub struct Codes<'b, 'c> {
     items: &'b [Item],
     /// The words with a code's letter, with their meaning; none if the table has no row.
     pub rows: Vec<(&'b Item, Option<&'c CodeMeaning>)>,
-    letters: Vec<(char, Option<f64>)>,
+    letters: SmallVec<[(char, Option<f64>); 6]>,
     control: &'c Control,
 }
 

@@ -57,6 +57,9 @@ fn number_of(text: &ProgramText<'_>) -> Option<u32> {
 /// The programs that others of the file call, each after those that it calls itself; none if there are no calls. Not
 /// those that come back to themselves, nor what calls them.
 fn callees_first(texts: &[ProgramText<'_>], control: &Control) -> Option<Vec<usize>> {
+    if texts.len() < 2 {
+        return None;
+    }
     let mut places: BTreeMap<u32, Option<usize>> = BTreeMap::new();
     for (at, text) in texts.iter().enumerate() {
         if let Some(number) = number_of(text) {

@@ -5,7 +5,8 @@ use crate::dialect::Control;
 use crate::lower::common::says_something;
 use crate::lower::fadal::codes::{Codes, FIRST_FIXED, Step, operand, program_number, steps};
 use crate::syntax::{Block, Item, ItemKind, Label, Target, for_each_item};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use foldhash::{HashMap, HashSet, HashSetExt};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// What a jump looks for.

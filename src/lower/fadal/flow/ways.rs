@@ -83,10 +83,13 @@ impl<'b> Flow<'b> {
         }
     }
 
-    /// The state after the block at a place, which leaves the flow alone.
-    pub fn behind(&mut self, at: usize, block: &Block, state: State) -> State {
-        let keep = state.clone();
-        self.block(block, at, state).unwrap_or(keep)
+    /// The state after the block of these codes at a place, which leaves the flow alone.
+    pub fn behind(&mut self, at: usize, block: &Block, codes: &Codes<'_, '_>, state: State) -> State {
+        // Control goes on after any other block.
+        let leaves = |item: &Item| matches!(item.kind, ItemKind::Goto(_) | ItemKind::Start(_));
+        let keep =
+            (block.items.iter().any(leaves) || !steps(&block.items, codes).is_empty()).then(|| state.clone());
+        self.block(block, at, state, Some(codes)).or(keep).unwrap_or_default()
     }
 
     /// The constants that a subroutine call's value may be.
@@ -103,7 +106,7 @@ impl<'b> Flow<'b> {
         let end = self.shape.leaders.get(run + 1).copied().unwrap_or(self.blocks.len());
         for at in start..end {
             let Some(block) = self.blocks.get(at) else { return };
-            let Some(next) = self.block(block, at, state) else { return };
+            let Some(next) = self.block(block, at, state, None) else { return };
             state = next;
         }
         match self.shape.region(end.saturating_sub(1)) {
@@ -136,10 +139,16 @@ impl<'b> Flow<'b> {
     }
 
     /// The state after the block at a place; none if control does not go on there.
-    fn block(&mut self, block: &Block, at: usize, state: State) -> Option<State> {
+    fn block(
+        &mut self,
+        block: &Block,
+        at: usize,
+        state: State,
+        codes: Option<&Codes<'_, '_>>,
+    ) -> Option<State> {
         let skipped = block.items.iter().any(|item| matches!(item.kind, ItemKind::Skip(_)));
         let before = skipped.then(|| state.clone());
-        let behind = self.items(&block.items, at, state, 0);
+        let behind = self.items(&block.items, at, state, 0, codes);
         match (before, behind) {
             (Some(mut before), Some(behind)) => {
                 before.join(&behind);
@@ -149,7 +158,14 @@ impl<'b> Flow<'b> {
         }
     }
 
-    fn items(&mut self, items: &[Item], at: usize, mut state: State, depth: u8) -> Option<State> {
+    fn items(
+        &mut self,
+        items: &[Item],
+        at: usize,
+        mut state: State,
+        depth: u8,
+        codes: Option<&Codes<'_, '_>>,
+    ) -> Option<State> {
         for item in items {
             match &item.kind {
                 ItemKind::Goto(target) => {
@@ -160,7 +176,7 @@ impl<'b> Flow<'b> {
                 }
                 ItemKind::Start(_) => return None,
                 ItemKind::If { body, .. } if depth < 16 => {
-                    if let Some(done) = self.items(body, at, state.clone(), depth + 1) {
+                    if let Some(done) = self.items(body, at, state.clone(), depth + 1, None) {
                         state.join(&done);
                     }
                 }
@@ -168,7 +184,10 @@ impl<'b> Flow<'b> {
             }
         }
         if items.iter().any(|item| word(item).is_some()) {
-            return self.words(items, at, state);
+            return match codes {
+                Some(codes) => self.words(items, at, state, codes),
+                None => self.words(items, at, state, &Codes::new(items, self.control)),
+            };
         }
         Some(state)
     }
@@ -179,8 +198,7 @@ impl<'b> Flow<'b> {
         }
     }
 
-    fn words(&mut self, items: &[Item], at: usize, mut state: State) -> Option<State> {
-        let codes = Codes::new(items, self.control);
+    fn words(&mut self, items: &[Item], at: usize, mut state: State, codes: &Codes<'_, '_>) -> Option<State> {
         state.set_motion(codes.interpolation(), codes.cycle());
         for row in codes.known() {
             match row.op {
@@ -222,7 +240,7 @@ impl<'b> Flow<'b> {
         if state.modal_program && moves {
             self.called(&mut state);
         }
-        for step in steps(items, &codes) {
+        for step in steps(items, codes) {
             match step {
                 Step::Local(value) => {
                     let (subs, other) = self.callees(value, &state);
@@ -238,8 +256,8 @@ impl<'b> Flow<'b> {
                     let (others, own) = self.others;
                     state.modal_program |= modal;
                     let before = state.clone();
-                    state.called(others.sets(own), others.motion(items, &codes));
-                    let count = operand(items, &codes, Role::CallCount);
+                    state.called(others.sets(own), others.motion(items, codes));
+                    let count = operand(items, codes, Role::CallCount);
                     if count.is_some_and(|count| constant(count).is_none_or(|count| count < 1.0)) {
                         state.join(&before);
                     }
@@ -251,8 +269,8 @@ impl<'b> Flow<'b> {
                     return None;
                 }
                 Step::Return => {
-                    let goal = return_goal(items, &codes);
-                    if operand(items, &codes, Role::Sequence).is_none() {
+                    let goal = return_goal(items, codes);
+                    if operand(items, codes, Role::Sequence).is_none() {
                         self.leave(&state);
                     } else {
                         self.ends_elsewhere = true;
@@ -260,7 +278,7 @@ impl<'b> Flow<'b> {
                     if let Some(goal) = goal {
                         self.jump(&goal, &state);
                     }
-                    if returns_computed(items, &codes) {
+                    if returns_computed(items, codes) {
                         let all = self.shape.goals.keys();
                         let all = all.filter(|goal| matches!(goal, Goal::Sequence(_))).cloned();
                         all.collect::<Vec<_>>().iter().for_each(|goal| self.jump(goal, &state));

@@ -25,9 +25,10 @@ pub fn lower(
         if let Some(state) = flow.at(at) {
             lowering.state = state;
         }
-        lowering.block(at, block, &mut head);
+        let codes = Codes::new(&block.items, control);
+        lowering.block(at, block, &codes, &mut head);
         let state = std::mem::take(&mut lowering.state);
-        lowering.state = flow.behind(at, block, state);
+        lowering.state = flow.behind(at, block, &codes, state);
     }
     drop(flow);
     lowering.finish();
@@ -36,7 +37,7 @@ pub fn lower(
 }
 
 impl<'b> Lowering<'b> {
-    fn block(&mut self, at: usize, block: &'b Block, head: &mut SourceInfo) {
+    fn block(&mut self, at: usize, block: &'b Block, codes: &Codes<'b, 'b>, head: &mut SourceInfo) {
         self.at = at;
         self.site = site_of(block, self.source);
         self.placed = false;
@@ -51,7 +52,6 @@ impl<'b> Lowering<'b> {
             self.placed = block.items.iter().all(|other| std::ptr::eq(item, other) || !says_something(other));
         }
         let frame = block.items.iter().all(|item| matches!(item.kind, ItemKind::Tape | ItemKind::EndOfBlock));
-        let codes = Codes::new(&block.items, self.control);
         let unparsed = block.items.iter().any(|item| item.kind == ItemKind::Unparsed);
         let skip = self.site.skip;
         if skip == Some(1) {
@@ -66,7 +66,7 @@ impl<'b> Lowering<'b> {
         }
         let skip = skip.filter(|_| level_fits);
         // What changes the flow is jumped over; the rest carries its switch.
-        let over = skip.filter(|_| self.flows(block, &codes)).map(|level| {
+        let over = skip.filter(|_| self.flows(block, codes)).map(|level| {
             let (body, next) = (self.builder.fresh(), self.builder.fresh());
             self.end(TermKind::Branch { cond: Cond::Switch(level), then: next, otherwise: body });
             self.builder.start(body);
@@ -76,7 +76,7 @@ impl<'b> Lowering<'b> {
         if unparsed || !level_fits {
             self.hole();
         } else {
-            self.items(&block.items, &codes);
+            self.items(&block.items, codes);
         }
         if !self.placed && !frame {
             self.empty(block);

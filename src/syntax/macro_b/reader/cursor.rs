@@ -6,7 +6,8 @@ use crate::text::Span;
 
 /// Reads a block from left to right; a method that gives nothing declines the block.
 ///
-/// Without `ITEMS`, nothing is gathered, and what the checks would have to look at is declined.
+/// Without `ITEMS`, nothing is gathered: of an expression only its constant is known, and what the checks could find
+/// fault with is declined.
 pub struct Reader<'a, const ITEMS: bool, const TOKENS: bool> {
     pub rules: &'a Rules,
     /// The file, up to the end of the line.
@@ -22,6 +23,10 @@ pub struct Reader<'a, const ITEMS: bool, const TOKENS: bool> {
     pub operators: usize,
     /// True where something stands that may be wrong though the grammar lets it pass.
     pub in_doubt: bool,
+    /// How many items but comments were met; counted where none are gathered.
+    pub met: usize,
+    /// True where a call of ATAN was met.
+    pub met_atan: bool,
 }
 
 impl<'a, const ITEMS: bool, const TOKENS: bool> Reader<'a, ITEMS, TOKENS> {
@@ -34,8 +39,19 @@ impl<'a, const ITEMS: bool, const TOKENS: bool> Reader<'a, ITEMS, TOKENS> {
     ) -> Option<Self> {
         let line = source.get(..rest.end as usize)?;
         let at = rest.start as usize;
-        let (brackets, operators, in_doubt) = (0, 0, false);
-        Some(Self { rules, line, at, end_of_last: at, items, tokens, brackets, operators, in_doubt })
+        Some(Self {
+            rules,
+            line,
+            at,
+            end_of_last: at,
+            items,
+            tokens,
+            brackets: 0,
+            operators: 0,
+            in_doubt: false,
+            met: 0,
+            met_atan: false,
+        })
     }
 
     /// The next byte; at the end of the line a zero, which nothing begins with.
@@ -115,14 +131,22 @@ impl<'a, const ITEMS: bool, const TOKENS: bool> Reader<'a, ITEMS, TOKENS> {
         if ITEMS {
             let span = self.since(start);
             self.items.push(Item { kind, span });
+        } else if !matches!(kind, ItemKind::Comment(_)) {
+            self.met += 1;
         }
     }
 
     /// Leaves it to the checks whether something is wrong.
     #[inline(always)]
-    pub fn doubt(&mut self) -> Option<()> {
+    pub fn doubt(&mut self) {
         self.in_doubt = true;
-        ITEMS.then_some(())
+    }
+
+    /// Leaves it to the checks whether something is wrong; without items, declines it where it may be.
+    #[inline(always)]
+    pub fn doubt_if(&mut self, may_be_wrong: bool) -> Option<()> {
+        self.in_doubt |= may_be_wrong;
+        (ITEMS || !may_be_wrong).then_some(())
     }
 }
 

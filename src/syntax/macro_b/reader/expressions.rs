@@ -5,7 +5,7 @@ use super::super::shape::DEEPEST;
 use super::super::tree::MOST_OPERATORS;
 use super::cursor::Reader;
 use crate::canon::Func;
-use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, TokenKind, VarRef};
+use crate::syntax::{BinaryOp, CallForm, Expr, ExprKind, Index, Number, TokenKind, VarRef};
 use crate::text::Span;
 use thin_vec::{ThinVec, thin_vec};
 
@@ -53,9 +53,24 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
             self.take(TokenKind::Operator, length);
             let right = self.joined(rank + 1, between)?;
             let span = left.span.to(right.span);
-            left = Expr { kind: ExprKind::Binary(op, Box::new([left, right])), span };
+            let kind = if ITEMS {
+                ExprKind::Binary(op, Box::new([left, right]))
+            } else {
+                self.doubt_if(self.may_lack_value(op, &right))?;
+                COMPUTED
+            };
+            left = Expr { kind, span };
         }
         Some(left)
+    }
+
+    /// True for an operation that may have no value, or that a control may take for another.
+    fn may_lack_value(&self, op: BinaryOp, right: &Expr) -> bool {
+        match op {
+            BinaryOp::Divide if self.met_atan && self.rules.atan_slash_needs_bracket => true,
+            BinaryOp::Divide | BinaryOp::Modulo => constant(right).is_some_and(|number| number.value == 0.0),
+            _ => false,
+        }
     }
 
     fn operand(&mut self, between: Between) -> Option<Expr> {
@@ -85,9 +100,16 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
             return operand(self);
         }
         let start = self.take(TokenKind::Operator, 1);
-        let operand = Box::new(operand(self)?);
+        let operand = operand(self)?;
         let span = start.to(operand.span);
-        let kind = if sign == b'-' { ExprKind::Negate(operand) } else { ExprKind::Plus(operand) };
+        let kind = match (ITEMS, sign) {
+            (true, b'-') => ExprKind::Negate(Box::new(operand)),
+            (true, _) => ExprKind::Plus(Box::new(operand)),
+            // The sign of a constant counts for nothing but its value.
+            (false, _) => constant(&operand)
+                .filter(|_| sign == b'-')
+                .map_or(operand.kind, |number| ExprKind::Number(Number { value: -number.value, ..number })),
+        };
         Some(Expr { kind, span })
     }
 
@@ -102,7 +124,8 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
             b'#' => {
                 let variable = self.variable()?;
                 let span = variable.span;
-                Some(Expr { kind: ExprKind::Variable(Box::new(variable)), span })
+                let kind = if ITEMS { ExprKind::Variable(Box::new(variable)) } else { COMPUTED };
+                Some(Expr { kind, span })
             }
             b'[' => self.group(),
             _ => None,
@@ -112,7 +135,8 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
     /// `[#1+2]`
     fn group(&mut self) -> Option<Expr> {
         let (inner, span) = self.bracketed(|reader| reader.expression())?;
-        Some(Expr { kind: ExprKind::Group(Box::new(inner)), span })
+        let kind = if ITEMS { ExprKind::Group(Box::new(inner)) } else { inner.kind };
+        Some(Expr { kind, span })
     }
 
     /// What stands in a pair of brackets, and the span of both.
@@ -134,20 +158,32 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
         let length = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         let function = function(&text[..length])?;
         let word = self.take(TokenKind::Keyword, length);
-        let ((mut arguments, mut form), brackets) = self.bracketed(Self::arguments)?;
+        self.met_atan |= function == Func::Atan;
+        let ((mut arguments, mut form), brackets) =
+            self.bracketed(|reader| reader.arguments(has_domain(function)))?;
         let mut span = word.to(brackets);
         if matches!(function, Func::Atan | Func::Parameter) && self.second_part_follows() {
             self.take(TokenKind::Operator, 1);
             let (second, brackets) = self.bracketed(|reader| reader.expression())?;
-            arguments.push(second);
+            if ITEMS {
+                arguments.push(second);
+            }
             form = CallForm::Slash;
             span = span.to(brackets);
         }
         Some(Expr { kind: ExprKind::Call { function, arguments, form }, span })
     }
 
-    fn arguments(&mut self) -> Option<(ThinVec<Expr>, CallForm)> {
+    /// The arguments of a function, the first of which may lie outside of a `domain`.
+    fn arguments(&mut self, domain: bool) -> Option<(ThinVec<Expr>, CallForm)> {
         let first = self.expression()?;
+        if !ITEMS {
+            self.doubt_if(domain && constant(&first).is_some())?;
+            if self.take_sign(b',', TokenKind::Operator).is_some() {
+                self.expression()?;
+            }
+            return Some((ThinVec::new(), CallForm::Plain));
+        }
         if self.take_sign(b',', TokenKind::Operator).is_none() {
             return Some((thin_vec![first], CallForm::Plain));
         }
@@ -165,7 +201,7 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
         let hash = self.take_sign(b'#', TokenKind::Variable)?;
         let index = if self.byte() == b'[' {
             let (inner, _) = self.bracketed(|reader| reader.expression())?;
-            Index::Computed(Box::new(inner))
+            if ITEMS { Index::Computed(Box::new(inner)) } else { Index::None }
         } else {
             match self.index()? {
                 (number, None) => Index::Number(number),
@@ -174,4 +210,18 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
         };
         Some(VarRef { name: "#".into(), index, span: self.since(hash.start) })
     }
+}
+
+/// What stands for everything that is computed, where no items are gathered: it takes no memory.
+const COMPUTED: ExprKind =
+    ExprKind::Call { function: Func::Abs, arguments: ThinVec::new(), form: CallForm::Plain };
+
+/// A constant, where no items are gathered: with its sign, and without its brackets.
+pub fn constant(e: &Expr) -> Option<Number> {
+    if let ExprKind::Number(number) = e.kind { Some(number) } else { None }
+}
+
+/// True for a function that takes no number outside of some.
+fn has_domain(function: Func) -> bool {
+    matches!(function, Func::Asin | Func::Acos | Func::Sqrt | Func::Ln)
 }

@@ -2,7 +2,10 @@
 
 use super::super::statements::MOST_CONDITIONS;
 use super::cursor::{Reader, is_blank, taken};
-use crate::syntax::{Comment, Expr, ExprKind, Fence, ItemKind, Number, ProgramName, Target, TokenKind, Word};
+use super::expressions::constant;
+use crate::syntax::{
+    Comment, Expr, ExprKind, Fence, Index, ItemKind, Number, ProgramName, Target, TokenKind, Word,
+};
 use crate::text::Span;
 
 impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
@@ -101,8 +104,9 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
                 }
             }
             _ => {
-                self.doubt()?;
+                self.doubt();
                 let value = self.signed_value()?;
+                self.doubt_if(!ITEMS && constant(&value).is_some())?;
                 self.word_with(start, letter, comma, value);
             }
         }
@@ -113,9 +117,7 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
     #[inline(always)]
     fn number_of(&mut self, letter: u8) -> Option<(Number, Span)> {
         let (number, span) = self.number()?;
-        if can_be_wrong(letter, number) {
-            self.doubt()?;
-        }
+        self.doubt_if(can_be_wrong(letter, number))?;
         Some((number, span))
     }
 
@@ -144,18 +146,24 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
     }
 
     fn assign(&mut self) -> Option<()> {
-        self.doubt()?;
-        let target = Box::new(self.variable()?);
+        self.doubt();
+        let target = self.variable()?;
         let start = target.span.start;
         self.take_sign(b'=', TokenKind::Operator)?;
         let value = self.expression()?;
-        self.item(start, ItemKind::Assign { target, value, by_sign: false });
+        if ITEMS {
+            self.item(start, ItemKind::Assign { target: Box::new(target), value, by_sign: false });
+            return Some(());
+        }
+        let long = |number: Number| self.rules.constant_digits.is_some_and(|most| number.digits > most);
+        self.doubt_if(target.index == Index::Number(0) || constant(&value).is_some_and(long))?;
+        self.met += 1;
         Some(())
     }
 
     /// What begins with a keyword.
     fn statement(&mut self, depth: usize) -> Option<()> {
-        self.doubt()?;
+        self.doubt();
         let start = self.at as u32;
         let kind = match self.byte() | 0x20 {
             b'i' => self.conditional(depth)?,
@@ -168,7 +176,7 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
             b'd' => self.loop_head(None)?,
             b'e' => {
                 self.take_keyword(b"END")?;
-                ItemKind::End { number: self.integer()? }
+                ItemKind::End { number: self.loop_number()? }
             }
             _ => return None,
         };
@@ -181,15 +189,20 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
             return None;
         }
         self.take_keyword(b"IF")?;
-        let condition = Box::new(self.condition()?);
-        let first = self.items.len();
+        let condition = self.condition()?;
+        let (first, met) = (self.items.len(), self.met);
         while self.byte() == b'(' {
             self.comment()?;
         }
         let then = self.take_keyword(b"THEN").is_some();
         self.items(depth + 1)?;
+        if !ITEMS {
+            // Nothing conditional is a fault.
+            self.doubt_if(self.met == met)?;
+            return Some(ItemKind::EndOfBlock);
+        }
         let body = taken(self.items, first);
-        Some(ItemKind::If { condition, then, bare: false, body })
+        Some(ItemKind::If { condition: Box::new(condition), then, bare: false, body })
     }
 
     fn jump(&mut self) -> Option<ItemKind> {
@@ -204,7 +217,13 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
 
     fn loop_head(&mut self, condition: Option<Expr>) -> Option<ItemKind> {
         self.take_keyword(b"DO")?;
-        Some(ItemKind::Do { condition, number: self.integer()? })
+        Some(ItemKind::Do { condition, number: self.loop_number()? })
+    }
+
+    fn loop_number(&mut self) -> Option<u32> {
+        let number = self.integer()?;
+        self.doubt_if(!(1..=3).contains(&number))?;
+        Some(number)
     }
 }
 

@@ -45,7 +45,7 @@ pub fn read<const TOKENS: bool>(
     })
 }
 
-/// Passes over a block of plain words in which nothing can be wrong, and says where it ends.
+/// Passes over a block in which nothing can be wrong, and says where it ends.
 pub fn pass(rules: &Rules, source: &[u8], rest: Span) -> Option<u32> {
     let (mut items, mut tokens) = (Vec::new(), Vec::new());
     let mut reader = Reader::<false, false>::new(rules, source, rest, &mut items, &mut tokens)?;

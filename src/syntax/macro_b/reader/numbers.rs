@@ -59,10 +59,12 @@ impl<const ITEMS: bool, const TOKENS: bool> Reader<'_, ITEMS, TOKENS> {
 /// Adds the digits that a text begins with to those before them; also how many they are.
 #[inline]
 fn digits_of(text: &[u8], mut value: u64) -> (u64, usize) {
-    let mut length = 0;
-    while let Some(digit @ 0..10) = text.get(length).map(|byte| byte.wrapping_sub(b'0')) {
+    for (length, byte) in text.iter().enumerate() {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            return (value, length);
+        }
         value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
-        length += 1;
     }
-    (value, length)
+    (value, text.len())
 }
