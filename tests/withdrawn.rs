@@ -282,3 +282,15 @@ fn a_copy_that_the_conversion_made_goes_with_its_program() {
     let found = judged("fadal", "fanuc", &[("a.nc", file)], ("X5.", "X6."), false);
     assert_eq!(found.conversion.texts, [None]);
 }
+
+/// Fanuc takes four levels of macros and stops at the fifth: no run shows what the macros get, and none is different.
+#[test]
+fn macros_whose_callers_are_all_stopped_are_not_called_different() {
+    let library = "O1\nG21G90\nG65P2A5.\nM30\nO2\nG1X#1F100.\nG65P3A[#1+1.]\nM99\nO3\nG65P4A[#1+1.]\nM99\n\
+                   O4\nG65P5A[#1+1.]\nM99\nO5\nG65P6A[#1+1.]\nM99\nO6\nG1X#1\nM99\n";
+    let found = judged("fanuc", "fadal", &[("a.nc", library)], ("", ""), false);
+    let different =
+        |program: &&ProgramReport| program.diagnostics.iter().any(|d| d.code == Code::VerifiedDifferent);
+    let all: Vec<_> = found.conversion.programs.iter().filter(different).map(|p| p.name.clone()).collect();
+    assert!(all.is_empty(), "{all:?}");
+}
