@@ -2,7 +2,7 @@
 //!
 //! Law: a second is a thousand milliseconds. A constant is converted here; a computed value goes
 //! to the seconds word where the target has one, since its milliseconds word takes whole
-//! numbers only. A target may have one time that means something else: the Fadal waits for START at 66 seconds. Two
+//! numbers only. A target may have one time that means something else: there is one that waits for START at 66 seconds. Two
 //! dwells of half the time are written for it.
 
 use crate::canon::{Op, Role};

@@ -57,8 +57,8 @@ fn loop_without_move(program: &Program) -> Option<Span> {
         }
     }
     let (block, _) = program.blocks.iter().zip(&kept).find(|(_, kept)| **kept)?;
-    let spans = block.stmts.iter().map(|stmt| stmt.site.span).chain([block.term.site.span]);
-    Some(spans.into_iter().find(|span| !span.is_empty()).unwrap_or(program.site.span))
+    let mut spans = block.stmts.iter().map(|stmt| stmt.site.span).chain([block.term.site.span]);
+    Some(spans.find(|span| !span.is_empty()).unwrap_or(program.site.span))
 }
 
 /// True where the control has something to do but macro lines.

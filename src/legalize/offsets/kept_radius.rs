@@ -9,33 +9,51 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, reached, solve};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+use std::collections::BTreeSet;
 
 const FACT: Question = Question::LengthWordPicksRadius;
 
 /// True if only the target's lengths pick radii, and the library compensates.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let compensates = features.op(Op::RadiusLeft) || features.op(Op::RadiusRight);
-    compensates && context.target.is(FACT) && !context.source.is(FACT)
+    let own = context.source.is(FACT) || context.source.is(Question::RadiusOffsetActiveTool);
+    compensates && context.target.is(FACT) && !own
 }
 
 /// Names radii again that a length took the place of.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let facts = context.modal_facts(module);
-    let names = |program: &crate::ir::Program| {
+    // Programs start without compensation: only what one begins may be in force.
+    let mut entry = context.entry.clone();
+    entry.start_in(Op::RadiusOff);
+    let facts = context.modal_facts_from(module, &entry);
+    let names = |program: &Program| {
         let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
         stmts.filter_map(|stmt| stmt.kind.nc()).any(|nc| nc.word(Role::RadiusOffset).is_some() || picks(nc))
     };
     let naming: Vec<bool> = module.programs.iter().map(names).collect();
-    let called = context.called(module);
-    let entered: std::collections::BTreeSet<usize> =
-        called.pairs(module).into_iter().map(|(_, callee)| callee).collect();
+    let calls: BTreeSet<(usize, usize)> = context.called(module).pairs(module).into_iter().collect();
+    // Whether any program names one that this comes to by calls, or that comes to it.
+    let related = |from: usize, down: bool| {
+        let near = |at: usize, go: &mut dyn FnMut(usize)| {
+            let ways = calls
+                .iter()
+                .map(|(caller, callee)| if down { (*caller, *callee) } else { (*callee, *caller) });
+            ways.filter(|(one, _)| *one == at).for_each(|(_, other)| go(other));
+        };
+        let mut first = BTreeSet::new();
+        near(from, &mut |other| {
+            first.insert(other);
+        });
+        let all: BTreeSet<usize> = reached(first, |at, go| near(at, go));
+        all.into_iter().any(|other| naming[other])
+    };
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let elsewhere = naming.iter().enumerate().any(|(other, names)| *names && other != index);
-        let begins = if elsewhere && entered.contains(&index) { Named::Unknown } else { Named::Never };
+        let (elsewhere, before) = (related(index, true), related(index, false));
+        let begins = if before { Named::Unknown } else { Named::Never };
         let rules = Follows { elsewhere, begins: Radius { named: begins, lost: false } };
         let starts = solve(&rules, program, &Cfg::of(program));
         for (at, block) in program.blocks.iter_mut().enumerate() {
@@ -122,7 +140,7 @@ impl Lattice for Radius {
 }
 
 struct Follows {
-    /// True if other programs name radii or lengths.
+    /// True if programs that it calls name radii or lengths.
     elsewhere: bool,
     begins: Radius,
 }

@@ -51,7 +51,7 @@ impl Registers {
         for (_, register) in self.of.iter().filter(|(var, register)| !self.is_own(var, register)) {
             by_name.entry(&register.name).or_default().push((register.number, register.number));
         }
-        let words = by_name.into_iter().map(|(name, runs)| Numbers::of(runs).to_string().replace('#', name));
+        let words = by_name.into_iter().map(|(name, runs)| Numbers::of(runs).in_words(name));
         words.collect::<Vec<_>>().join(", ")
     }
 

@@ -79,7 +79,7 @@ fn by_loop(op: BinOp, a: Expr, b: Expr, rewriter: &mut Rewriter<'_>) -> Emulated
     let (a, b) = (rewriter.held(a), rewriter.held(b));
     let negative = |e: &Expr| Cond::Compare(Relation::Less, e.clone(), number(0.0));
     let sign = number(2f64.powi(WIDTH as i32));
-    let mut rest = [&a, &b].map(|e| {
+    let rest = [&a, &b].map(|e| {
         let raised = rewriter.materialize(e.clone());
         let higher = Expr::binary(BinOp::Add, e.clone(), sign.clone());
         rewriter.first(PreStatement::When(negative(e), raised, higher));
@@ -105,7 +105,7 @@ fn by_loop(op: BinOp, a: Expr, b: Expr, rewriter: &mut Rewriter<'_>) -> Emulated
     steps.push(PreStatement::Assign(common, Expr::binary(BinOp::Add, Expr::Var(common), bit)));
     let twice = Expr::binary(BinOp::Mul, Expr::Var(worth), number(2.0));
     steps.push(PreStatement::Assign(worth, twice));
-    for (rest, half) in rest.iter_mut().zip(halves) {
+    for (rest, half) in rest.iter().zip(halves) {
         steps.push(PreStatement::Assign(*rest, Expr::Var(half)));
     }
     rewriter.first(PreStatement::While(Cond::And(more.into()), steps));
