@@ -71,7 +71,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     continue;
                 }
                 let starts = compensates(nc) && before.lost;
-                if !starts && !(picks(nc) && on && !nc.has(Op::RadiusOff)) {
+                if !(starts || picks(nc) && on && !nc.has(Op::RadiusOff)) {
                     continue;
                 }
                 match before.named {

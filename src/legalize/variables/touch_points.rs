@@ -51,9 +51,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
             Some(Op::Linear) => {}
             _ if !probes => {}
-            _ => {
-                let what = "a probe move, and the interpolation to go back to is not known, or is an arc: write G0 or G1 \
-                            before it";
+            None => {
+                let what = "G1 stays in force behind this probe move, and what was in force before is not known: write the code \
+                            of the next move";
+                context.add_once(index, what, Diagnostic::new(Code::Conditional, site.span, what));
+            }
+            Some(_) => {
+                let what = "a probe move under an arc code: write G0 or G1 before it";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, site.span, what));
             }
         }
