@@ -282,3 +282,18 @@ fn a_copy_that_the_conversion_made_goes_with_its_program() {
     let found = judged("fadal", "fanuc", &[("a.nc", file)], ("X5.", "X6."), false);
     assert_eq!(found.conversion.texts, [None]);
 }
+
+/// Fanuc takes four levels of macros and stops at the fifth: no run shows what the macros get, and none is different.
+#[test]
+fn macros_whose_callers_are_all_stopped_are_not_called_different() {
+    let library = "O1\nG21G90\nG65P2A5.\nM30\nO2\nG1X#1F100.\nG65P3A[#1+1.]\nM99\nO3\nG65P4A[#1+1.]\nM99\n\
+                   O4\nG65P5A[#1+1.]\nM99\nO5\nG65P6A[#1+1.]\nM99\nO6\nG1X#1\nM99\n";
+    let [source, target] = ["fanuc", "fadal"].map(|name| Control::plain(name).unwrap());
+    let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: library.as_bytes().to_vec() }];
+    let mut conversion = convert(&inputs, &source, &target, Lock::new("fanuc", "fadal"), Options::default());
+    judge(&inputs, &mut conversion, &source, &target, Effort::default());
+    let different =
+        |program: &&ProgramReport| program.diagnostics.iter().any(|d| d.code == Code::VerifiedDifferent);
+    let all: Vec<_> = conversion.programs.iter().filter(different).map(|p| p.name.clone()).collect();
+    assert!(all.is_empty(), "{all:?}");
+}

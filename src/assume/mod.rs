@@ -63,6 +63,8 @@ pub enum Predicate {
     Alarms(f64),
     /// Both machines are set to one unit when the program starts.
     Unit,
+    /// Nothing calls the program: it is run by itself.
+    Main,
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
     Unseen,
 }
@@ -88,6 +90,7 @@ impl Predicate {
             Self::Codes { .. } => "codes",
             Self::Alarms(_) => "alarms",
             Self::Unit => "unit",
+            Self::Main => "main",
             Self::Unseen => "unseen",
         }
     }
@@ -103,7 +106,7 @@ impl Predicate {
 
     /// True where runs show whether it holds. Runs take facts and the unit to be as it says.
     pub fn is_seen(&self) -> bool {
-        !matches!(self, Self::Fact(_) | Self::Unit | Self::Unseen)
+        !matches!(self, Self::Fact(_) | Self::Unit | Self::Main | Self::Unseen)
     }
 
     /// Numbers worth a try: the ends of what is assumed to be safe, its inside, and what lies just outside. Of the
@@ -115,7 +118,7 @@ impl Predicate {
             Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
-            Self::Fact(_) | Self::Unit | Self::Unseen => Vec::new(),
+            Self::Fact(_) | Self::Unit | Self::Main | Self::Unseen => Vec::new(),
         }
     }
 }

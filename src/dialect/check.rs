@@ -140,6 +140,7 @@ pub const LIMITS: &[&str] = &[
     "message",
     "message.alarm",
     "lookahead",
+    "macro.lines",
 ];
 
 fn names(reader: &mut Reader, tables: &Tables) {

@@ -104,6 +104,8 @@ pub struct Numbers {
     pub increment_degrees: f64,
     /// Most digits a constant may have; absent where unknown.
     pub digits: Option<u32>,
+    /// The smallest number above 0 that is sure to be kept; absent where unknown.
+    pub least: Option<f64>,
     /// How values are kept: `double`, `single`, `decimal8`, `unknown`.
     pub arithmetic: String,
     /// Where these come from.
@@ -149,6 +151,10 @@ pub struct Text {
     pub sequence_max: u32,
     /// Largest program number.
     pub program_max: u32,
+    /// Most characters of a comment on a block of its own.
+    pub comment: Option<u32>,
+    /// Most blocks in a row that hold a comment and nothing else.
+    pub comments_in_a_row: Option<u32>,
     /// Most characters of a message to the operator.
     pub message: Option<u32>,
     /// Where these come from.

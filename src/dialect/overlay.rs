@@ -27,6 +27,7 @@ impl Control {
         let reserved = overlay.runs("reserved", &overlay.profile.reserved.clone());
         overlay.keep_variables(&mut dialect);
         overlay.site(&mut dialect);
+        overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
         let Overlay { reader, profile, .. } = overlay;
         if reader.faults.is_empty() {

@@ -46,6 +46,8 @@ pub struct Profile {
     pub confirm: Vec<String>,
     /// Codes that the machine's builder or the shop defined.
     pub site: Vec<SiteCode>,
+    /// What is wired to the inputs and outputs.
+    pub signal: Vec<Signal>,
     /// Where the file's `confirm`, `parameters`, ... stand, for reports.
     #[serde(skip)]
     pub(super) places: BTreeMap<String, std::ops::Range<usize>>,
@@ -197,6 +199,26 @@ impl SiteCode {
             },
         }
     }
+}
+
+/// An input or output of the control, and the number that the shop's programs know its wire by.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Signal {
+    /// The control's input: 1 is `I(1)`.
+    #[serde(default)]
+    pub input: Option<u32>,
+    /// The control's output.
+    #[serde(default)]
+    pub output: Option<u32>,
+    /// The number of the signal on the other control: 24 is `#1124`.
+    pub number: u32,
+    /// What the control shows when the signal is on: 0 or 1; absent where it is as the table has it.
+    #[serde(default)]
+    pub on: Option<u32>,
+    /// What it is, in words.
+    #[serde(default)]
+    pub text: Option<String>,
 }
 
 /// A run of variables in a profile: `#500-#549`, `V90`, `VX`.

@@ -188,6 +188,9 @@ pub struct SystemVariable {
     /// One entry a subscript, outermost first.
     #[serde(default)]
     pub subscripts: Vec<Subscript>,
+    /// True where its number stands in brackets: `I(1)`.
+    #[serde(default)]
+    pub array: bool,
     /// `r`, `w` or `rw`.
     #[serde(default = "rw")]
     pub access: String,
@@ -243,6 +246,9 @@ pub struct WordMeaning {
     pub role: Role,
     /// What the letter does by itself, without a code: `E2` selects a work offset.
     pub op: Option<Op>,
+    /// True where the code of that operation is written beside it, if there is one: `G43 H1`.
+    #[serde(default)]
+    pub with_code: bool,
     /// True where an expression may stand after it.
     #[serde(default = "yes")]
     pub expression: bool,

@@ -30,6 +30,8 @@ pub enum Feature {
     Print,
     /// Formatted output.
     Output,
+    /// The opening or closing of its port.
+    Port,
     /// A question to the operator.
     Input,
     /// The clearing of a class.
@@ -121,6 +123,7 @@ impl Features {
             StmtKind::Sync | StmtKind::LimitLookahead(_) => self.add(Feature::Wait),
             StmtKind::Print { .. } => self.add(Feature::Print),
             StmtKind::Output(_) => self.add(Feature::Output),
+            StmtKind::OpenPort | StmtKind::ClosePort => self.add(Feature::Port),
             StmtKind::Input { .. } => self.add(Feature::Input),
             StmtKind::ClearAll(_) => self.add(Feature::Clear),
             StmtKind::Alarm { .. } | StmtKind::StopMessage { .. } => self.add(Feature::Message),

@@ -1,11 +1,15 @@
 //! Rewrites expressions, and puts in front of a statement what a rewriting needs.
 
+mod lay;
+
 use crate::canon::Role;
 use crate::ir::{
     BinOp, Block, BlockId, Builder, Call, Callee, Class, Cond, Expr, Nc, NcItem, OutputPart, Place,
-    PrintPart, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
+    PrintPart, Program, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::text::Span;
+use lay::lay;
+pub(super) use lay::unless_skipped;
 use std::collections::VecDeque;
 
 /// Where an expression stands.
@@ -38,6 +42,8 @@ pub enum PreStatement {
     Assign(Var, Expr),
     /// An assignment under a condition.
     When(Cond, Var, Expr),
+    /// Others, again and again while a condition holds.
+    While(Cond, Vec<PreStatement>),
     /// A call.
     Call(Call),
 }
@@ -232,47 +238,6 @@ fn next_at(
 ) -> Option<Vec<PreStatement>> {
     preludes.front().filter(|(id, at, _)| (*id, *at) == place)?;
     preludes.pop_front().map(|(.., prelude)| prelude)
-}
-
-fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &SourceInfo) {
-    // A skipped block skips its prelude with it; comments and number stay with the statement.
-    // It has no place of its own in the source, so that optimization may tidy it.
-    let site = || SourceInfo { skip: site.skip, ..SourceInfo::default() };
-    for step in prelude {
-        match step {
-            PreStatement::Assign(var, value) => {
-                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
-            }
-            PreStatement::When(cond, var, value) => {
-                let (then, otherwise) = (builder.fresh(), builder.fresh());
-                if cond.may_alarm() {
-                    unless_skipped(builder, site().skip, otherwise);
-                }
-                builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
-                builder.start(then);
-                builder.push(StmtKind::Assign { target: Place::Var(var), value }, site());
-                builder.start(otherwise);
-            }
-            PreStatement::Call(call) => {
-                let behind = builder.fresh();
-                unless_skipped(builder, site().skip, behind);
-                builder.end(TermKind::Call { call: Box::new(call), next: behind }, SourceInfo::default());
-                builder.start(behind);
-            }
-        }
-    }
-}
-
-/// Goes on at `behind` while the switch of a skipped block is on: a terminator cannot be skipped itself.
-pub(super) fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
-    if let Some(level) = skip {
-        let cond = Cond::Switch(level);
-        builder.end_then(SourceInfo::default(), |otherwise| TermKind::Branch {
-            cond,
-            then: behind,
-            otherwise,
-        });
-    }
 }
 
 /// Applies `rewrite` to the parts of an expression that are wanted, then to itself where it is.

@@ -6,7 +6,6 @@ use super::refused_calls::{self, Link};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::{Emitted, Writer};
-use crate::ir::analysis::Numbers;
 use crate::ir::validate::Invalid;
 use crate::ir::{Module, Valid};
 use crate::legalize::{Context, Locked, Modal, pipeline};
@@ -22,7 +21,7 @@ pub(super) struct Made {
     pub found: Vec<Vec<Diagnostic>>,
     pub parts: Vec<Vec<Emitted>>,
     pub lock: Lock,
-    pub taken: Numbers,
+    pub taken: String,
     pub links: Vec<Link>,
 }
 
@@ -44,7 +43,7 @@ pub(super) fn make(
     let copied = std::mem::take(&mut context.copied);
     let legal = context.into_findings();
     lock.take(&registers, numbers.chosen);
-    let taken = Numbers::of(registers.taken().map(|number| (number, number)));
+    let taken = registers.taken_in_words();
     let mut naming = naming(&module, &registers, &numbers.of);
     found.resize_with(count, Vec::new);
     found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));

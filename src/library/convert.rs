@@ -9,7 +9,6 @@ use super::{Input, Lock};
 use crate::diag::{Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::Emitted;
-use crate::ir::analysis::Numbers;
 use crate::legalize::Modal;
 use crate::opt;
 use crate::text::Span;
@@ -56,7 +55,7 @@ pub struct Conversion {
     /// What the next run is to choose again.
     pub lock: Lock,
     /// The registers that were taken on the target.
-    pub taken: Numbers,
+    pub taken: String,
     /// True where the target's profile says which registers the shop keeps for itself.
     pub states_reserved: bool,
     /// The calls between its programs.
@@ -191,6 +190,6 @@ fn unchanged(inputs: &[Input], control: &Control, lock: Lock) -> Conversion {
             ProgramReport { file: at, name, outcome, verdict, diagnostics, map, range }
         }));
     }
-    let (taken, links) = (Numbers::default(), Vec::new());
+    let (taken, links) = (String::new(), Vec::new());
     Conversion { programs, texts, lock, taken, states_reserved: control.states_reserved(), links }
 }

@@ -64,6 +64,31 @@ for x, y in ((-3, 3), (-2, 2), (exp(1.5), log(20)), (95, 149), (30, 60), (90, 60
 part.to("haas", "functions/exponential.rs", "functions/rounding.rs", "functions/decimal.rs", "functions/emulated.rs", "functions/modulo.rs",
         "functions/trigonometry.rs", "functions/mod.rs", "rewrite.rs")
 
+part = Short("fanuc", "both-bits", "13 and 6 are 4, 15 and 11; with -3 they are 13, -1 and -16; 13 AND 6, 14 AND 7, 15 AND 8 are 4, 6 and 8.")
+part.work(1)
+part.rapid(0.0, 0.0)
+one, two, minus = 13, 6, -3
+part.rapid(one & two, one | two)
+part.rapid(one ^ two, two)
+part.rapid(one & minus, minus | two)
+part.rapid(minus ^ one, minus)
+for more in range(3):
+    part.rapid((one + more) & (two + more))
+part.to("fadal", "expressions/functions/bits.rs", "rewrite.rs")
+
+part = Short("fanuc", "taps-by-feed", "400 and 300 a minute, in and out, at 500 turns: leads of .8 and .6; back to Z20. (G98) and to the plane (G99).",
+             profile='options = ["common.variables"]')
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(z=20.0)
+part.feed(1.0, f=250.0)
+part.hole(2.0, 1.0, r=2.0, bottom=-3.0, back=20.0, f=400.0, out="feed")
+part.hole(4.0, 1.0, r=2.0, bottom=-3.0, back=20.0, f=400.0, out="feed")
+part.hole(5.0, 1.0, r=3.0, bottom=-2.0, f=300.0, out="feed")
+part.feed(6.0, f=300.0)
+part.to("fadal", "cycles/tap_leads.rs", profile='[settings]\nformat = "1"')
+part.to("fadal", profile='[settings]\nformat = "2"')
+
 part = Short("fanuc", "dwells", "G82 dwells .5 s; G83 and G73 take no P, so they do not; G82 dwells again. G04: P in ms, X in seconds.")
 part.work(1)
 part.rapid(0.0, 0.0)
@@ -75,6 +100,7 @@ part.hole(4.0, 1.0, r=2.0, bottom=-3.0, back=20.0, dwell=0.5)
 part.dwell(0.25)
 part.dwell(1.5)
 part.to("haas", "cycle_words.rs", "dwell.rs")
+part.to("fadal", "cycles/cycle_planes.rs")
 
 part = Short("haas", "deep", "Six doublings of 2 with one more each are 191; (191 > 20) + (191 < 20) * 5 is 1; 123456.789 - 123450 and\n"
                              "12.3456789; the loop ends when 12.346 - 3 is below 10, with #1 at 189; M97 twice.", profile='options = ["macros"]')

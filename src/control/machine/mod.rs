@@ -159,7 +159,7 @@ impl Machine {
             cells: HashMap::new(),
         };
         for cell in &scenario.state {
-            machine.cells.insert(system::cell(cell.state, &cell.subscripts), cell.value);
+            machine.preset(cell.state, &cell.subscripts, cell.value);
         }
         scenario.modes.iter().for_each(|op| machine.start_in(*op));
         machine.enter(&scenario.entry);

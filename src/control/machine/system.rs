@@ -127,8 +127,25 @@ impl Machine {
             Sys::CyclePlane => f64::from(u8::from(self.return_to_r)),
             Sys::Pi => std::f64::consts::PI,
             Sys::Euler => std::f64::consts::E,
-            _ => self.cells.get(&cell(state, subscripts)).copied().unwrap_or(0.0),
+            // One signal, whichever of its states a control shows as 1.
+            Sys::InputInverted => 1.0 - self.cell(Sys::Input, subscripts),
+            Sys::OutputInverted => 1.0 - self.cell(Sys::Output, subscripts),
+            _ => self.cell(state, subscripts),
         })
+    }
+
+    fn cell(&self, state: Sys, subscripts: &[u32]) -> f64 {
+        self.cells.get(&cell(state, subscripts)).copied().unwrap_or(0.0)
+    }
+
+    /// Puts a state there before the program starts, without a trace.
+    pub(super) fn preset(&mut self, state: Sys, subscripts: &[u32], value: f64) {
+        let (state, value) = match state {
+            Sys::InputInverted => (Sys::Input, 1.0 - value),
+            Sys::OutputInverted => (Sys::Output, 1.0 - value),
+            _ => (state, value),
+        };
+        self.cells.insert(cell(state, subscripts), value);
     }
 
     /// The tool length that a position along an axis holds.
@@ -189,6 +206,13 @@ impl Machine {
                 self.cells.insert(cell(state, subscripts), value);
                 let value = value * unit;
                 trace.push(EventKind::Write { state, subscripts: subscripts.to_vec(), value });
+            }
+            // Whatever is not 0 switches a signal one way; the trace says whether it is on.
+            Sys::Output | Sys::OutputInverted => {
+                let on = (value != 0.0) == (state == Sys::Output);
+                let value = f64::from(u8::from(on));
+                self.cells.insert(cell(Sys::Output, subscripts), value);
+                trace.push(EventKind::Write { state: Sys::Output, subscripts: subscripts.to_vec(), value });
             }
             Sys::TimerMs => self.timer_ms_from = self.clock - value,
             Sys::TimerHours => self.timer_hours_from = self.clock - value * 3_600_000.0,

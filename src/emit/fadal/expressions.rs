@@ -157,11 +157,14 @@ impl Emitter<'_> {
             |value: &Expr| value.constant().filter(|v| *v >= 0.0 && v.fract() == 0.0).map(|v| v as u32);
         let constants: Option<Vec<u32>> = subscripts.iter().map(whole).collect();
         if let Some(constants) = constants {
-            let found = rows().find_map(|row| Some((&row.name, row.number_of(&constants)?)));
+            let found = rows().find_map(|row| Some((row, row.number_of(&constants)?)));
             return match found {
-                Some((name, number)) => {
-                    self.out.push_str(name);
+                Some((row, number)) => {
+                    self.out.push_str(&row.name);
+                    let (open, close) = if row.array { ("(", ")") } else { ("", "") };
+                    self.out.push_str(open);
                     number.into_iter().for_each(|number| self.out.integer(number));
+                    self.out.push_str(close);
                 }
                 None => {
                     self.out.unmapped(format_args!("the state '{state}' {constants:?} where it is {verb}"))

@@ -9,13 +9,7 @@ use crate::emit::common::comments::{spelled, wrap};
 use crate::emit::common::digits::write_integer;
 use crate::ir::{Comment, SourceInfo};
 use crate::text::Span;
-
-/// Characters of a line of words: no maker's text bounds it, and posts cut there (facts/fadal-target.md 1).
-const WORDS: usize = 80;
-/// Characters of a comment on a block of its own.
-pub(super) const COMMENT: usize = 60;
-/// Blocks in a row without anything but a comment: after 16 the control stops (facts/fadal-target.md 1).
-const COMMENTS_IN_A_ROW: usize = 15;
+use std::collections::VecDeque;
 
 /// What a line holds.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -43,6 +37,8 @@ pub(super) struct Page<'p> {
     site: Option<&'p SourceInfo>,
     /// Comments in a row that were written on blocks of their own.
     row: usize,
+    /// Comments that wait for a block with something else in it.
+    rest: VecDeque<String>,
 }
 
 impl Page<'_> {
@@ -57,6 +53,7 @@ impl Page<'_> {
             waiting: Vec::new(),
             site: None,
             row: 0,
+            rest: VecDeque::new(),
         }
     }
 
@@ -124,8 +121,8 @@ impl<'p> Emitter<'p> {
         let (kind, skip) = (self.page.kind, self.page.skip);
         let comments = std::mem::take(&mut self.page.waiting);
         let most = match kind {
-            Kind::Words => self.control.text().line.map_or(WORDS, |line| line as usize),
-            Kind::Macro | Kind::Label => self.control.text().macro_line.map_or(WORDS, |line| line as usize),
+            Kind::Words => bound(self.control.text().line),
+            Kind::Macro | Kind::Label => bound(self.control.text().macro_line.or(self.control.text().line)),
         };
         // A comment beside words has the room that is left; several are one.
         let told = comments.iter().map(|comment| plain(&comment.text)).filter(|text| !text.is_empty());
@@ -144,7 +141,6 @@ impl<'p> Emitter<'p> {
             let message = format!("the block has {length} characters, and a line takes {most}");
             self.out.refuse(Code::LineTooLong, message);
         }
-        self.page.row = 0;
         let start = self.head(skip);
         if kind != Kind::Words {
             self.out.push('#');
@@ -158,6 +154,12 @@ impl<'p> Emitter<'p> {
             self.out.push_str(&told);
         }
         self.end_line(start);
+        self.end_row();
+    }
+
+    /// Characters of a comment on a block of its own.
+    pub(super) fn widest_comment(&self) -> usize {
+        bound(self.control.text().comment.or(self.control.text().line))
     }
 
     /// Writes a comment on blocks of its own.
@@ -166,20 +168,34 @@ impl<'p> Emitter<'p> {
         if text.is_empty() {
             return;
         }
-        for piece in wrap(&text, COMMENT) {
-            if self.page.row == COMMENTS_IN_A_ROW {
-                // A block with a code, so that the control does not stop; it starts no move and changes nothing.
-                let start = self.head(false);
-                self.out.push_str("G4 P1");
-                self.end_line(start);
-                self.page.row = 0;
-            }
+        let pieces = wrap(&text, self.widest_comment());
+        self.page.rest.extend(pieces.into_iter().map(str::to_owned));
+        self.write_comments(bound(self.control.text().comments_in_a_row));
+    }
+
+    /// Writes the comments that wait, as many as may stand in a row.
+    fn write_comments(&mut self, most: usize) {
+        while self.page.row < most
+            && let Some(piece) = self.page.rest.pop_front()
+        {
             let start = self.head(false);
             self.out.push('(');
-            self.out.push_str(piece);
+            self.out.push_str(&piece);
             self.end_line(start);
             self.page.row += 1;
         }
+    }
+
+    /// A block with something else in it stands behind the comments: those that were too many follow it.
+    fn end_row(&mut self) {
+        self.page.row = 0;
+        self.write_comments(bound(self.control.text().comments_in_a_row));
+    }
+
+    /// Writes all comments that are left, behind the last block.
+    pub(super) fn end_comments(&mut self) {
+        self.flush_comments();
+        self.write_comments(usize::MAX);
     }
 
     /// Writes the label of a block on a line of its own.
@@ -189,7 +205,7 @@ impl<'p> Emitter<'p> {
         self.out.push_str("#:");
         self.out.push_str(label);
         self.end_line(start);
-        self.page.row = 0;
+        self.end_row();
     }
 
     /// Starts a block with its number, or with `/`: a skipped one has none, because the control reads it always if a
@@ -227,4 +243,9 @@ fn plain(text: &str) -> String {
 /// How many digits a number has.
 fn digits(number: u32) -> usize {
     number.checked_ilog10().unwrap_or(0) as usize + 1
+}
+
+/// What a table bounds, or nothing.
+fn bound(most: Option<u32>) -> usize {
+    most.map_or(usize::MAX, |most| most as usize)
 }

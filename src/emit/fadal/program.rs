@@ -2,7 +2,7 @@
 
 use super::Emitter;
 use super::labels::Labels;
-use super::lines::{COMMENT, Kind};
+use super::lines::Kind;
 use crate::canon::Func;
 use crate::diag::Code;
 use crate::emit::common::arrivals::{Arrivals, callees};
@@ -52,7 +52,7 @@ impl<'p> Emitter<'p> {
             condition = self.block(block, *form, condition);
         }
         self.label(count);
-        self.flush_comments();
+        self.end_comments();
     }
 
     /// Writes the block that names the program; only a comment may stand beside it.
@@ -80,9 +80,9 @@ impl<'p> Emitter<'p> {
             scratch.into_iter().map(|(name, number)| format!("{name}{number}")).collect();
         words.extend((!scratch.is_empty()).then(|| "SCRATCH".to_owned()));
         words.extend(scratch);
-        let mut line = String::new();
+        let (mut line, most) = (String::new(), self.widest_comment());
         for word in words {
-            if !line.is_empty() && line.len() + 1 + word.len() > COMMENT {
+            if !line.is_empty() && line.len() + 1 + word.len() > most {
                 self.comment(&std::mem::take(&mut line));
             }
             line.push_str(if line.is_empty() { "" } else { " " });

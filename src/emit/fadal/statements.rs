@@ -154,8 +154,9 @@ impl<'p> Emitter<'p> {
         self.out.push_str(" P");
         self.out.integer(number);
         if let Some(count) = &call.count {
-            if count.constant().is_some_and(|count| !(1.0..=99.0).contains(&count)) {
-                self.out.refuse(Code::Unmapped, "a call runs 1 to 99 times here: write a loop");
+            let most = self.control.limit("repeat").map_or(f64::INFINITY, f64::from);
+            if count.constant().is_some_and(|count| !(1.0..=most).contains(&count)) {
+                self.out.refuse(Code::Unmapped, format!("a call runs 1 to {most} times here: write a loop"));
             }
             self.out.push_str(" L");
             self.word_value(Role::CallCount, count, false);

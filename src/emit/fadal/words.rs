@@ -12,8 +12,18 @@ use crate::ir::{Expr, Nc, NcItem, SourceInfo};
 use smallvec::SmallVec;
 
 impl<'p> Emitter<'p> {
-    /// Writes a block of words. G53 stands with no other G code, so those beside it go before it (facts/fadal-target.md 5).
+    /// Writes a block of words. G53 stands with no other G code, so those beside it go before it; and a fixture is not chosen
+    /// in the block of an arc (facts/fadal-target.md 5).
     pub(super) fn block_of_words(&mut self, site: &'p SourceInfo, nc: &Nc) {
+        let is_fixture =
+            |item: &NcItem| matches!(item, NcItem::Op(Op::SelectWork) | NcItem::Word(Role::WorkOffset, _));
+        if nc.has(Op::SelectWork) && is_arc(nc) {
+            let (first, rest): (Vec<_>, Vec<_>) = nc.items.iter().cloned().partition(is_fixture);
+            for items in [first, rest] {
+                self.block_of_words(site, &Nc { items });
+            }
+            return;
+        }
         let is_g = |op| self.spellings.bare_code(op).is_some_and(|code| !code.is_m());
         let before = |item: &NcItem| matches!(item, NcItem::Op(op) if *op != Op::MachineOnce && is_g(*op));
         if nc.has(Op::MachineOnce) && nc.items.iter().any(before) {
@@ -60,11 +70,11 @@ impl<'p> Emitter<'p> {
                 Some(Some(number)) => Operand::Constant(number),
                 Some(None) => Operand::Computed(0.0),
             });
-            let by_word = || control.word_for(op).is_some_and(|row| nc.word(row.role).is_some());
-            if op.is_flow() || (code.is_none() && !by_word()) {
+            let word = control.word_for(op).filter(|row| nc.word(row.role).is_some());
+            if op.is_flow() || (code.is_none() && word.is_none()) {
                 self.out.unmapped(format_args!("the operation '{op}' with these words"));
             }
-            codes.push(code.filter(|_| !by_word()));
+            codes.push(code.filter(|_| word.is_none_or(|row| row.with_code)));
         }
         codes
     }
@@ -181,4 +191,10 @@ impl<'p> Emitter<'p> {
             true => self.out.unmapped(format_args!("a fraction in the word '{role}'")),
         }
     }
+}
+
+/// True for a block with an arc, or with the words of one.
+fn is_arc(nc: &Nc) -> bool {
+    let words = [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius];
+    nc.has(Op::ArcCw) || nc.has(Op::ArcCcw) || words.iter().any(|role| nc.word(*role).is_some())
 }

@@ -1,5 +1,6 @@
 //! Going on in another program for good, and returning to a sequence number of the caller.
 
+use crate::assume::Predicate;
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
@@ -83,7 +84,8 @@ pub fn return_to(module: &mut Module, context: &mut Context<'_>) {
                 block.term.kind = TermKind::Jump(*to);
                 let why =
                     "nothing in the library calls this program: as a main program it goes on at that block";
-                context.add(index, Diagnostic::new(Code::Conditional, span, why));
+                let finding = Diagnostic::new(Code::Conditional, span, why);
+                context.add(index, finding.assuming(Predicate::Main));
                 continue;
             }
             match (wanted.constant().filter(|n| *n >= 1.0), &program.name) {

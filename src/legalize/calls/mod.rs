@@ -4,11 +4,13 @@ pub(in crate::legalize) mod carried;
 pub(in crate::legalize) mod chain;
 pub(in crate::legalize) mod jump_chains;
 pub(in crate::legalize) mod link;
+pub(in crate::legalize) mod main_returns;
 pub(in crate::legalize) mod merged;
 pub(in crate::legalize) mod modal_calls;
 pub(in crate::legalize) mod modal_off;
 pub(in crate::legalize) mod nesting;
 pub(in crate::legalize) mod outline;
+pub(in crate::legalize) mod repeat_loops;
 pub(in crate::legalize) mod repeats;
 
 use crate::canon::{Op, Role};

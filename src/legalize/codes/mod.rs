@@ -8,3 +8,4 @@ pub(in crate::legalize) mod machine_codes;
 pub(in crate::legalize) mod missing;
 pub(in crate::legalize) mod pauses;
 pub(in crate::legalize) mod substitutes;
+pub(in crate::legalize) mod waits;

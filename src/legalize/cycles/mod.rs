@@ -2,6 +2,8 @@
 
 pub(in crate::legalize) mod cycle_ends;
 pub(in crate::legalize) mod cycle_here;
+pub(in crate::legalize) mod cycle_planes;
 pub(in crate::legalize) mod cycle_words;
 pub(in crate::legalize) mod dwell;
+pub(in crate::legalize) mod tap_leads;
 pub(in crate::legalize) mod tapping;

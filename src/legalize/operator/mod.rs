@@ -1,6 +1,7 @@
 //! What the operator reads and answers.
 
 pub(in crate::legalize) mod alarms;
+pub(in crate::legalize) mod formatted;
 pub(in crate::legalize) mod letters;
 pub(in crate::legalize) mod messages;
 pub(in crate::legalize) mod ports;

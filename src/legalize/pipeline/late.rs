@@ -1,13 +1,21 @@
-//! The passes from registers on, in the order they run in.
+//! The last passes, in the order they run in.
 
 use super::Pass;
 use crate::legalize::assumptions::facts;
 use crate::legalize::calls::merged;
 use crate::legalize::features::Feature;
-use crate::legalize::layout::{program_numbers, sequence_numbers};
-use crate::legalize::operator::{letters, messages, questions};
+use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
+use crate::legalize::operator::{letters, messages, ports, questions};
 use crate::legalize::registers::{allocate, clear, frames, temporaries};
-use crate::legalize::variables::{computed_numbers, retention};
+use crate::legalize::variables::{computed_numbers, retention, vacancy};
+
+pub(super) const ENTRY: &[Pass] = &[
+    Pass::rewrites("ports", "output ports are opened and closed", ports::run)
+        .when(|c, _| c.has(Feature::Output)),
+    Pass::rewrites("vacancy", "variables that are never vacant are set to 0 if they are", vacancy::run)
+        .when(vacancy::concerns)
+        .changes_flow(),
+];
 
 // What these put in, they put in for something that stood there before.
 pub(super) const REGISTERS: &[Pass] = &[
@@ -84,6 +92,8 @@ pub(super) const LAYOUT: &[Pass] = &[
         facts::of_target,
     )
     .needs(&["missing", "split-expressions", "registers", "prints", "messages"]),
+    Pass::reports("macro-lines", "reports loops without a move", macro_lines::run)
+        .when(|c, _| c.has(Feature::Computed)),
     Pass::reports("program-numbers", "every program gets a number of the target", program_numbers::run)
         .needs(&["outline", "chain"]),
 ];

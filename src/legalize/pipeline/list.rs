@@ -1,15 +1,17 @@
 //! The passes, in the order they run in.
 
-use super::late::{LAYOUT, OPERATOR, REGISTERS};
+use super::late::{ENTRY, LAYOUT, OPERATOR, REGISTERS};
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
 use crate::legalize::assumptions::{facts, runtime};
-use crate::legalize::calls::{chain, jump_chains, link, modal_calls, modal_off, nesting, outline, repeats};
-use crate::legalize::codes::{
-    beside_moves, by_number, forbidden, lookahead, machine_codes, missing, pauses, substitutes,
+use crate::legalize::calls::{
+    chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
 };
-use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_words, dwell, tapping};
+use crate::legalize::codes::{
+    beside_moves, by_number, forbidden, lookahead, machine_codes, missing, pauses, substitutes, waits,
+};
+use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, tap_leads, tapping};
 use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
 use crate::legalize::features::Feature;
 use crate::legalize::layout::blanks;
@@ -18,12 +20,12 @@ use crate::legalize::moves::{
     unit_checks, units,
 };
 use crate::legalize::offsets::{
-    active_offsets, external, kept_length, length_radius, offset_rows, position_length, set_position,
-    tool_lengths, tool_word,
+    active_offsets, external, kept_length, kept_radius, length_radius, offset_rows, position_length,
+    set_position, side_changes, tool_lengths, tool_word,
 };
-use crate::legalize::operator::{alarms, ports, questions};
+use crate::legalize::operator::{alarms, formatted, questions};
 use crate::legalize::variables::{
-    banks, computed_numbers, probe_points, state, vacancy, vacancy_flags, vacant_writes,
+    banks, computed_numbers, probe_points, signals, state, touch_points, vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -139,6 +141,16 @@ const CALLS: &[Pass] = &[
     .when(|c, _| c.has(Feature::ReturnTo))
     .needs(&["modal-calls"])
     .changes_flow(),
+    Pass::rewrites(
+        "repeat-loops",
+        "calls that run more often than a count says become loops",
+        repeat_loops::run,
+    )
+    .when(repeat_loops::concerns)
+    .needs(&["modal-calls", "return-to"])
+    .changes_flow(),
+    Pass::reports("main-returns", "reports returns of programs that nothing calls", main_returns::run)
+        .needs(&["return-to"]),
     Pass::rewrites("jump-chains", "computed jumps become comparisons with each label", jump_chains::run)
         .when(jump_chains::concerns)
         .needs(&["return-to"])
@@ -185,7 +197,17 @@ const MOVES: &[Pass] = &[
         length_radius::run,
     )
     .when(|c, _| c.role(Role::RadiusOffset)),
+    Pass::rewrites(
+        "kept-radius",
+        "radii that a tool length takes the place of are named again",
+        kept_radius::run,
+    )
+    .when(kept_radius::concerns)
+    .needs(&["length-radius"]),
+    Pass::reports("side-changes", "checks compensation that goes over to the other side", side_changes::run)
+        .when(side_changes::concerns),
     Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
+    Pass::rewrites("tap-leads", "taps by feed get a lead", tap_leads::run).when(tap_leads::concerns),
     Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)
         .when(|c, _| c.op(Op::ReferenceReturn)),
     Pass::rewrites("kept-length", "the tool length after a return is written out", kept_length::run)
@@ -246,6 +268,9 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("probe-points", "touch points by number are kept in registers", probe_points::run)
         .changes_flow()
         .when(|c, _| c.role(Role::ProbePoint)),
+    Pass::rewrites("touch-points", "places where the probe touched are kept as point 1", touch_points::run)
+        .when(touch_points::concerns)
+        .needs(&["computed-numbers"]),
     Pass::edits("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
@@ -262,9 +287,12 @@ const VARIABLES: &[Pass] = &[
     )
     .when(|c, _| c.has(Feature::System))
     .changes_flow(),
+    Pass::rewrites("signals", "inputs and outputs are on where they were on", signals::run)
+        .when(|c, _| c.has(Feature::System))
+        .needs(&["computed-numbers"]),
     Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
-        .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows"]),
+        .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows", "signals"]),
 ];
 
 const CYCLES: &[Pass] = &[
@@ -274,6 +302,9 @@ const CYCLES: &[Pass] = &[
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
     Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)
         .when(|c, _| c.has(Feature::Wait) || c.has(Feature::Emptied)),
+    Pass::edits("waits", "what is read before the moves are done waits for them", waits::run)
+        .when(waits::concerns)
+        .needs(&["state", "lookahead"]),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
         .when(|c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere)),
     Pass::rewrites(
@@ -283,12 +314,21 @@ const CYCLES: &[Pass] = &[
     )
     .when(cycle_ends::concerns)
     .needs(&["cycle-here"]),
+    Pass::rewrites(
+        "cycle-planes",
+        "retract planes are told again where a cycle goes on from another",
+        cycle_planes::run,
+    )
+    .when(cycle_planes::concerns)
+    .needs(&["cycle-here"]),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
         .when(|c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)))
         .needs(&["dwell", "cycle-here"]),
 ];
 
 const CODES: &[Pass] = &[
+    Pass::rewrites("formatted", "output in a format is printed without one", formatted::run)
+        .when(formatted::concerns),
     Pass::each("substitutes", "operations become near relatives, for review", substitutes::run)
         .when(|c, _| substitutes::concerns(c)),
     Pass::each("machine-codes", "a block has no more M codes than the target takes", machine_codes::run)
@@ -353,14 +393,6 @@ const EXPRESSIONS: &[Pass] = &[
     Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
         .when(|c, _| c.has(Feature::Computed))
         .needs(&["operands"]),
-];
-
-const ENTRY: &[Pass] = &[
-    Pass::rewrites("ports", "output ports are opened and closed", ports::run)
-        .when(|c, _| c.has(Feature::Output)),
-    Pass::rewrites("vacancy", "variables that are never vacant are set to 0 if they are", vacancy::run)
-        .when(vacancy::concerns)
-        .changes_flow(),
 ];
 
 /// Only passes that keep a module such as the target can say it.

@@ -45,6 +45,16 @@ impl Registers {
             .map(|(_, register)| register.number)
     }
 
+    /// The same in words, as the target names them: `V1-V3, R5`.
+    pub fn taken_in_words(&self) -> String {
+        let mut by_name: BTreeMap<&str, Vec<(u32, u32)>> = BTreeMap::new();
+        for (_, register) in self.of.iter().filter(|(var, register)| !self.is_own(var, register)) {
+            by_name.entry(&register.name).or_default().push((register.number, register.number));
+        }
+        let words = by_name.into_iter().map(|(name, runs)| Numbers::of(runs).in_words(name));
+        words.collect::<Vec<_>>().join(", ")
+    }
+
     /// The registers that hold the variable of their number, locals aside.
     pub fn own(&self) -> impl Iterator<Item = u32> + '_ {
         let own =

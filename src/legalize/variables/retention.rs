@@ -32,7 +32,13 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
         (here.is_some() && here != there).then_some(here == Some(true))
     };
     let of = |(var, register): (&Var, &Register)| {
-        differing(var, register).map(|kept| (*var, kept, (register.name.clone(), register.number)))
+        // As the program has it, whatever register it is in.
+        let name = registers.names.get(var).and_then(|name| {
+            let digits = name.find(|c: char| c.is_ascii_digit())?;
+            Some((name[..digits].to_owned(), name[digits..].parse().ok()?))
+        });
+        let named = || name.unwrap_or_else(|| (register.name.clone(), register.number));
+        differing(var, register).map(|kept| (*var, kept, named()))
     };
     let mut lives: Vec<_> = registers.of.iter().filter_map(of).collect();
     if lives.is_empty() {

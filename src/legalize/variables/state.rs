@@ -7,13 +7,13 @@
 use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
-use crate::ir::analysis::computed_calls::CalledPrograms;
-use crate::ir::analysis::dataflow::reached;
-use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind};
+use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
 use crate::legalize::offsets::tool_word;
+use crate::legalize::variables::cycle_seconds;
+use crate::legalize::variables::signals::is_signal;
 use crate::legalize::{Context, Position, Rewriter, rewrite_program};
 use crate::text::Span;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use thin_vec::ThinVec;
 
 /// States that the target may hold in each other's stead, and by what the first is multiplied to give the second.
@@ -61,7 +61,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
     }
     if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
-        start_timer(module, &callers_of(module, timed), context);
+        cycle_seconds::start(module, timed, context);
     }
 }
 
@@ -71,6 +71,10 @@ enum Finding {
     Unconfirmed(Sys, String, String),
     Renumbered(String),
     Wiring,
+    /// The tool in the spindle stands for the last tool word.
+    ToolWord,
+    /// The position of the target stands for this one.
+    Frame(Sys),
     ReadOnly(Sys),
     Table(Sys),
     TargetTable,
@@ -82,6 +86,8 @@ impl Finding {
     fn report(self, index: usize, span: Span, context: &mut Context<'_>) {
         let title = context.target.dialect().title.clone();
         match self {
+            // The pass that turns signals round has said so.
+            Finding::Missing(state) if is_signal(state) => {}
             Finding::Missing(state) => {
                 let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
@@ -124,6 +130,21 @@ impl Finding {
                 }
                 if holds_radii(context.target).is_some() {
                     context.rests_on_target(index, span, name);
+                }
+            }
+            Finding::ToolWord => {
+                let what = format!(
+                    "the last T is read, and {title} tells the tool in the spindle: call no tool ahead of its M6"
+                );
+                context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+            }
+            Finding::Frame(state) => {
+                context.rests_on_target(index, span, Question::PositionFrame);
+                if state == Sys::EndPosition {
+                    let what = "the end of the block before is read, and the target tells where the axes are when \
+                                they have stopped: no cutter compensation and no rotation may be in force here, and \
+                                no probe may have stopped the move";
+                    context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
                 }
             }
             Finding::Wiring => {
@@ -196,6 +217,26 @@ fn read(
         Sys::ModalMotionPlus1 if held(Sys::Modal, &[Expr::Number(1.0)], target).is_some() => {
             binary(BinOp::Add, Expr::System(Sys::Modal, [Expr::Number(1.0)].into()), 1.0)
         }
+        Sys::Modal
+            if subscripts.first().and_then(Expr::constant) == Some(1.0)
+                && held(Sys::ModalMotionPlus1, &[], target).is_some() =>
+        {
+            binary(BinOp::Sub, Expr::System(Sys::ModalMotionPlus1, ThinVec::new()), 1.0)
+        }
+        Sys::Address
+            if subscripts.first().and_then(Expr::constant) == Some(f64::from(tool_word::ADDRESS_T))
+                && held(Sys::ActiveTool, &[], target).is_some() =>
+        {
+            found.push((span, Finding::ToolWord));
+            Expr::System(Sys::ActiveTool, ThinVec::new())
+        }
+        Sys::WorkPosition | Sys::EndPosition | Sys::MachinePosition
+            if held(Sys::AxisPosition, &subscripts, target).is_some()
+                && (state == Sys::MachinePosition) == is_machine_frame(target) =>
+        {
+            found.push((span, Finding::Frame(state)));
+            Expr::System(Sys::AxisPosition, subscripts)
+        }
         Sys::ActiveTool if tool_word::stands_in(target) => {
             Expr::System(Sys::Address, [Expr::Number(f64::from(tool_word::ADDRESS_T))].into())
         }
@@ -207,6 +248,11 @@ fn read(
             Expr::Number(0.0)
         }
     }
+}
+
+/// True for a control whose one kind of position is known to be in machine coordinates.
+fn is_machine_frame(control: &Control) -> bool {
+    control.behaviour(Question::PositionFrame).is_some_and(|row| row.value == "machine")
 }
 
 /// True where a control's cutter table holds radii; none if that is a setting which nobody stated.
@@ -321,35 +367,6 @@ fn write_radius(
     for item in &mut nc.items {
         if let NcItem::Word(Role::OffsetValue, value) = item {
             *value = scaled(std::mem::replace(value, Expr::Vacant), factor);
-        }
-    }
-}
-
-/// The programs, and all that call them, directly or not.
-fn callers_of(module: &Module, programs: BTreeSet<usize>) -> BTreeSet<usize> {
-    let mut callers: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (caller, callee) in CalledPrograms::of(module).pairs(module) {
-        callers.entry(callee).or_default().push(caller);
-    }
-    reached(programs, |index, go| callers.get(&index).into_iter().flatten().for_each(|caller| go(*caller)))
-}
-
-/// Sets the timer to 0 where each main program that reads it starts.
-fn start_timer(module: &mut Module, timed: &BTreeSet<usize>, context: &mut Context<'_>) {
-    for &index in timed {
-        let program = &mut module.programs[index];
-        if program.ends()
-            && let Some(block) = program.blocks.first_mut()
-        {
-            let kind = StmtKind::Assign {
-                target: Place::System(Sys::TimerMs, ThinVec::new()),
-                value: Expr::Number(0.0),
-            };
-            block.stmts.insert(0, Stmt { kind, site: SourceInfo::default() });
-            let what = "the millisecond timer counts the seconds since cycle start; the program sets it \
-                        to 0 at its start";
-            let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
-            context.add_once(index, "cycle seconds", finding);
         }
     }
 }

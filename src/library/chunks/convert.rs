@@ -11,7 +11,6 @@ use super::cut::{Piece, Pieces};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::analysis::Numbers;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::library::compile::{Made, make};
@@ -286,7 +285,7 @@ impl Sink {
             programs: reports,
             texts: vec![any.then_some(text)],
             lock,
-            taken: Numbers::default(),
+            taken: String::new(),
             states_reserved: target.states_reserved(),
             links: Vec::new(),
         }

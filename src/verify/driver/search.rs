@@ -1,6 +1,7 @@
 //! The search for scenarios: in which both sides go every way that they can.
 
 use super::verifier::Verifier;
+use crate::assume::Predicate;
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::certificate::Why;
 use crate::verify::compare::{is_cut, returns};
@@ -43,12 +44,15 @@ impl Verifier<'_, '_> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
+        let mut supposed = self.job.assumptions.get(&self.program).into_iter().flatten();
+        let main = supposed.any(|assumption| assumption.predicate == Predicate::Main);
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
                 break;
             }
             scenario.milliseconds = scenario.milliseconds.map(|most| most.min(self.clock.left()));
             scenario.inch = inch;
+            scenario.called &= !main;
             self.given.start(&mut scenario);
             self.theirs = proposals.theirs().clone();
             let run = self.run_longer(&mut scenario);

@@ -39,7 +39,11 @@ impl Verifier<'_, '_> {
             let locals = lacks_locals(self.job) && through.does_the_same();
             let by_registers =
                 "what its callers give it stands in registers there, and called so it does the same";
-            if let Some(excuse) = through.excuses().or(locals.then(|| by_registers.into())) {
+            let stopped = lacks_locals(self.job) && through.is_stopped();
+            let by_callers =
+                "what its callers give it stands in registers there, and no run of them comes to its end";
+            let why = locals.then(|| by_registers.into()).or(stopped.then(|| by_callers.into()));
+            if let Some(excuse) = through.excuses().or(why) {
                 let text = format!("run by itself it differs ({}), but {excuse}", witness.what);
                 self.because(Why::NotByItself, &text);
                 outcome = Outcome::Undecided;

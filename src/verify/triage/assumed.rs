@@ -109,7 +109,7 @@ pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Differen
 fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> Held {
     match predicate {
         // The emulated controls go by the tables, and both sides are set to one unit.
-        Predicate::Fact(_) | Predicate::Unit => Held::Kept,
+        Predicate::Fact(_) | Predicate::Unit | Predicate::Main => Held::Kept,
         Predicate::Unseen => Held::Untried,
         Predicate::Subscripts(subscripts) => {
             let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
@@ -139,7 +139,11 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
 fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &Run) -> Held {
     let Some(of) = of else { return Held::Untried };
     match predicate {
-        Predicate::Fact(_) | Predicate::Unit | Predicate::Unseen | Predicate::Subscripts(_) => Held::Untried,
+        Predicate::Fact(_)
+        | Predicate::Unit
+        | Predicate::Main
+        | Predicate::Unseen
+        | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, domain, .. } => {
             let here = computed(&run.arguments, of, run, None).filter(|one| one.what.0 == *function);
             judged(here, |(_, arguments)| domain.contains(*arguments), call)

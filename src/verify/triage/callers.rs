@@ -62,6 +62,11 @@ impl Through {
         self.entered && !self.differs && !self.callers.is_empty()
     }
 
+    /// True where runs came through the program, and the control stopped each of them.
+    pub fn is_stopped(&self) -> bool {
+        self.entered && !self.differs && self.callers.is_empty()
+    }
+
     /// Why a difference that shows by itself is none as the library calls the program, in words; none if
     /// nothing says so.
     pub fn excuses(&self) -> Option<String> {

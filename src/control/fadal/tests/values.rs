@@ -134,10 +134,11 @@ fn machine_state() {
     assert_eq!(read(b"#TU(5)=TU(5)+7\n#V1=TU5", one(Sys::ToolTimeUsed, 5, 10.0)), 17.0);
     assert_eq!(read(b"#V1=TT3", one(Sys::ToolTimeLimit, 3, 25.0)), 25.0);
     assert_eq!(read(b"#V1=I(3)", one(Sys::InputInverted, 3, 1.0)), 1.0);
-    assert_eq!(read(b"#V1=I(3)", Scenario::default()), 0.0);
+    // An input that nothing switches on is off, which reads 1 (seed 000:378).
+    assert_eq!(read(b"#V1=I(3)", Scenario::default()), 1.0);
+    assert_eq!(read(b"#V1=I(3)", one(Sys::Input, 3, 1.0)), 0.0);
     let run = run("fadal", &[("t.nc", b"#O(1) = 0")], &Scenario::default());
-    let low =
-        |what: &EventKind| matches!(what, EventKind::Write { state: Sys::OutputInverted, value: 0.0, .. });
+    let low = |what: &EventKind| matches!(what, EventKind::Write { state: Sys::Output, value: 1.0, .. });
     assert!(run.events.iter().any(|event| low(&event.what)));
 }
 

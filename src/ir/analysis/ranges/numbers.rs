@@ -71,16 +71,20 @@ impl Numbers {
     }
 }
 
+impl Numbers {
+    /// In words, where this stands before the number of a variable: `V1-V33, V100`.
+    pub fn in_words(&self, name: &str) -> String {
+        let words = self.0.iter().map(|(first, last)| match first == last {
+            true => format!("{name}{first}"),
+            false => format!("{name}{first}-{name}{last}"),
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
+}
+
 /// As people write numbers of variables: `#1-#33, #100`.
 impl fmt::Display for Numbers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (at, (first, last)) in self.0.iter().enumerate() {
-            f.write_str(if at > 0 { ", " } else { "" })?;
-            match first == last {
-                true => write!(f, "#{first}")?,
-                false => write!(f, "#{first}-#{last}")?,
-            }
-        }
-        Ok(())
+        f.write_str(&self.in_words("#"))
     }
 }

@@ -32,8 +32,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         let span = rewriter.span;
         let (name, function, emulated) = match e {
             Expr::Call(function, arguments) => {
+                let own = target.function(function, arguments.len()).is_some();
                 let emulated = call(function, arguments, rewriter, source, target);
-                (function.name(), Some(function), emulated)
+                (function.name(), Some(function).filter(|_| !own), emulated)
             }
             Expr::Binary(BinOp::Mod, operands) if !modulo::is_native(&operands, target) => {
                 let [a, b] = *operands;
@@ -45,6 +46,14 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             }
             other => return other,
         };
+        if let Some(least) = target.numbers().least
+            && matches!(function, Some(Func::Exp | Func::Ln | Func::Pow))
+            && !matches!(emulated, Emulated::Missing(_))
+        {
+            let what =
+                format!("{name}: values in between may be smaller than {least}, which the target may refuse");
+            found.push((Code::Conditional, span, what, None));
+        }
         match emulated {
             Emulated::Exact(value) => value,
             Emulated::Near(value, why) => {

@@ -14,11 +14,13 @@ static MACHINES: LazyLock<[Vec<Control>; 2]> = LazyLock::new(|| {
     };
     let fanuc = include_str!("../../../../machines/fanuc-0i.toml");
     let haas = include_str!("../../../../machines/haas-vf.toml");
-    let (fadal, cc100) = ("dialect = \"fadal\"\nunits = \"inch\"", "dialect = \"cc100\"\nunits = \"inch\"");
+    // In the maker's own format where it is set to inches, and in the one like Fanuc's where it is set to millimetres.
+    let fadal = "dialect = \"fadal\"\nunits = \"inch\"\n[settings]\nformat = \"1\"";
+    let cc100 = "dialect = \"cc100\"\nunits = \"inch\"";
     let inch = [fadal, fanuc, haas, cc100];
     let metric = inch.map(|text| {
         assert!(text.contains("units = \"inch\""));
-        text.replace("units = \"inch\"", "units = \"metric\"")
+        text.replace("units = \"inch\"", "units = \"metric\"").replace("format = \"1\"", "format = \"2\"")
     });
     [inch.map(with).into(), metric.map(|text| with(&text)).into()]
 });

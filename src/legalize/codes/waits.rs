@@ -1,0 +1,89 @@
+//! State that is read before the moves are done, on a control that runs macro statements early.
+//!
+//! Law: where the target works out macro statements while moves before them are still to come, a wait before a statement that
+//! reads what moves change, or that switches an output, lets it see and do what it would where the text has it. A wait
+//! computes nothing. Side condition: none; where no move is to come it waits for nothing. Counter-example: `G1 G31 X50.`,
+//! `V1=AX`, which reads where the axes were when the probe began.
+
+use crate::canon::Sys;
+use crate::dialect::{Control, Question};
+use crate::ir::{Expr, Module, Place, SourceInfo, Stmt, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::features::{Feature, Features};
+
+/// True if the library reads state, and the target reads it early unless it is told to wait.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.has(Feature::System) && reads_early(context.target)
+}
+
+fn reads_early(target: &Control) -> bool {
+    target.is(Question::LookaheadRunsEarly)
+        && !target.is(Question::SystemReadWaits)
+        && target.statement("wait").is_some()
+}
+
+/// Waits before what would be early.
+pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
+    let mut changed = false;
+    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
+        let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
+        // Statements after a wait are at their place until the next move.
+        let mut waited = false;
+        for stmt in std::mem::take(&mut block.stmts) {
+            if !waited && is_early(&stmt.kind) {
+                out.push(wait(&stmt.site));
+                (waited, changed) = (true, true);
+            }
+            match &stmt.kind {
+                StmtKind::Sync => waited = stmt.site.skip.is_none(),
+                StmtKind::Nc(nc) if !nc.items.is_empty() => waited = false,
+                StmtKind::ModalCall(_) => waited = false,
+                _ => {}
+            }
+            out.push(stmt);
+        }
+        let mut early = false;
+        block.term.kind.exprs(&mut |e| early |= reads(e));
+        if early && !waited {
+            out.push(wait(&block.term.site));
+            changed = true;
+        }
+        block.stmts = out;
+    }
+    changed
+}
+
+fn is_early(kind: &StmtKind) -> bool {
+    let mut early = matches!(kind.target(), Some(Place::System(Sys::Output | Sys::OutputInverted, _)));
+    kind.exprs(&mut |e| early |= reads(e));
+    early
+}
+
+fn reads(e: &Expr) -> bool {
+    let mut found = false;
+    e.walk(&mut |e| found |= matches!(e, Expr::System(state, _) if is_moved(*state)));
+    found
+}
+
+/// True for state that moves change, or that changes while they are made.
+fn is_moved(state: Sys) -> bool {
+    matches!(
+        state,
+        Sys::AxisPosition
+            | Sys::WorkPosition
+            | Sys::MachinePosition
+            | Sys::EndPosition
+            | Sys::SkipPosition
+            | Sys::ProbePoint
+            | Sys::Input
+            | Sys::InputInverted
+            | Sys::ToolTimeUsed
+            | Sys::Clock
+            | Sys::CyclePlane
+    )
+}
+
+fn wait(site: &SourceInfo) -> Stmt {
+    let site = SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() };
+    Stmt { kind: StmtKind::Sync, site }
+}

@@ -1,0 +1,149 @@
+//! Tapping by speed and feed, where the target's cycle takes speed and lead.
+//!
+//! Law: a tap that feeds f a minute at S turns advances f / S each turn. Side conditions: both are known numbers where the
+//! cycle begins, or stand in its block, and the feed counts per minute. The speed word of the target's cycle takes the place of
+//! its feed, so the feed that was in force is said again where the cycle ends. Counter-example: a subprogram that taps at
+//! whatever speed its caller chose.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::{Control, Question};
+use crate::ir::analysis::Cfg;
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+
+/// True if there are taps by feed, and the target's are by lead.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.any_op(Op::is_tap) && by_lead(context.target) && !by_lead(context.source)
+}
+
+fn by_lead(control: &Control) -> bool {
+    control.behaviour(Question::CycleTapFeed).is_some_and(|row| row.value == "lead")
+}
+
+/// Gives tapping cycles a lead for their feed.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let facts = context.modal_facts(module);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let speeds = solve(&Speeds, program, &Cfg::of(program));
+        let mut found = Vec::new();
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let id = BlockId(at as u32);
+            let mut modal = facts.at(index, id);
+            let mut speed = speeds.at(id).copied().unwrap_or(Speed::Unknown);
+            for stmt in &mut block.stmts {
+                let was = modal.op(Group::Cycle);
+                modal.step(stmt);
+                speed.step(stmt);
+                let span = stmt.site.span;
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                if nc.ops().any(Op::is_tap) {
+                    if nc.word(Role::Lead).is_none()
+                        && let Err(why) = give_lead(nc, speed, modal.feed(), modal.op(Group::FeedMode))
+                    {
+                        found.push((Code::NoEquivalent, span, why));
+                    }
+                } else if was.is_some_and(Op::is_tap)
+                    && nc.word(Role::Feed).is_some()
+                    && modal.op(Group::Cycle) == was
+                {
+                    found.push((
+                        Code::NoEquivalent,
+                        span,
+                        "a feed under a tapping cycle: write the cycle again with it",
+                    ));
+                } else if was.is_none_or(Op::is_tap)
+                    && modal.op(Group::Cycle).is_some_and(|op| !op.is_tap())
+                    && nc.word(Role::Feed).is_none()
+                {
+                    match modal.feed() {
+                        Some(feed) => nc.items.push(NcItem::Word(Role::Feed, Expr::Number(feed))),
+                        None if was.is_some() => found.push((Code::Conditional, span, STAYS)),
+                        None => {}
+                    }
+                }
+            }
+        }
+        for (code, span, what) in found {
+            context.add_once(index, what, Diagnostic::new(code, span, what));
+        }
+    }
+}
+
+const STAYS: &str =
+    "the tapping cycle took the place of the feed that was in force: write the feed again after it";
+
+/// Gives a tap by feed its lead.
+fn give_lead(nc: &mut Nc, speed: Speed, feed: Option<f64>, mode: Option<Op>) -> Result<(), &'static str> {
+    if mode == Some(Op::FeedPerTurn) {
+        return Err("a tapping cycle in feed per turn: write it in feed per minute");
+    }
+    let Speed::Known(speed) = speed else {
+        return Err("a tapping cycle whose speed is not known here: write S before it in this program");
+    };
+    let Some(feed) = nc.word(Role::Feed).map_or(feed, Expr::constant) else {
+        return Err("a tapping cycle whose feed is not known here: write F in its block");
+    };
+    if speed <= 0.0 || feed <= 0.0 {
+        return Err("a tapping cycle needs a speed and a feed above 0");
+    }
+    nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Feed | Role::Speed, _)));
+    for item in &mut nc.items {
+        if *item == NcItem::Op(Op::CycleTap) {
+            *item = NcItem::Op(Op::CycleTapByLead);
+        }
+    }
+    nc.items.push(NcItem::Word(Role::Lead, Expr::Number(feed / speed)));
+    nc.items.push(NcItem::Word(Role::Speed, Expr::Number(speed)));
+    Ok(())
+}
+
+/// The speed of the spindle, as the last word has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Speed {
+    Known(f64),
+    Unknown,
+}
+
+impl Speed {
+    fn step(&mut self, stmt: &Stmt) {
+        let StmtKind::Nc(nc) = &stmt.kind else {
+            if matches!(stmt.kind, StmtKind::ModalCall(_)) {
+                *self = Self::Unknown;
+            }
+            return;
+        };
+        if let Some(value) = nc.word(Role::Speed) {
+            let now = value.constant().map_or(Self::Unknown, Self::Known);
+            *self = if stmt.site.skip.is_some() && *self != now { Self::Unknown } else { now };
+        }
+    }
+}
+
+impl Lattice for Speed {
+    fn join(&mut self, other: &Self) -> bool {
+        let joined = if self == other { *self } else { Self::Unknown };
+        std::mem::replace(self, joined) != joined
+    }
+}
+
+/// The speed at the start of every block of a program; whoever calls it chose one, and whoever it calls may choose another.
+struct Speeds;
+
+impl Analysis for Speeds {
+    type State = Speed;
+    const DIRECTION: Direction = Direction::Forward;
+
+    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Speed)> {
+        cfg.roots().iter().map(|root| (*root, Speed::Unknown)).collect()
+    }
+
+    fn block(&self, _: BlockId, block: &Block, speed: &mut Speed) {
+        block.stmts.iter().for_each(|stmt| speed.step(stmt));
+        if matches!(block.term.kind, TermKind::Call { .. }) {
+            *speed = Speed::Unknown;
+        }
+    }
+}

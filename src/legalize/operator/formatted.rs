@@ -1,0 +1,78 @@
+//! Formatted output, on a control that prints values as they come.
+//!
+//! Law: a value that is rounded to its places and then printed shows the digits that the format shows, but for zeros at its
+//! end and the blanks before it. A port needs no opening where every line is sent by itself. A vacant value prints as 0.
+//! Side condition, for a reviewer: whoever reads the lines does not count columns. Counter-example: `DPRNT[X#1[53]]`, which
+//! fills nine columns, and `SPRINT "X",V1`.
+
+use crate::canon::Func;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{BinOp, Expr, Module, OutputPart, PrintPart, SourceInfo, Stmt, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::features::{Feature, Features};
+use crate::text::Span;
+
+/// True if there is output in a format, and the target prints without one.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    (features.has(Feature::Output) || features.has(Feature::Port)) && prints_plainly(context.target)
+}
+
+fn prints_plainly(target: &Control) -> bool {
+    target.statement("output.formatted").is_none() && target.statement("print.serial").is_some()
+}
+
+/// Prints what was formatted.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let mut found: Vec<(usize, Span)> = Vec::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for block in &mut program.blocks {
+            let mut stmts = Vec::with_capacity(block.stmts.len());
+            for stmt in std::mem::take(&mut block.stmts) {
+                match stmt.kind {
+                    StmtKind::Output(parts) => {
+                        found.push((index, stmt.site.span));
+                        if context.target.statement("wait").is_some() {
+                            let site = SourceInfo {
+                                span: stmt.site.span,
+                                skip: stmt.site.skip,
+                                ..SourceInfo::default()
+                            };
+                            stmts.push(Stmt { kind: StmtKind::Sync, site });
+                        }
+                        let parts = parts.into_iter().map(plain).collect();
+                        let kind = StmtKind::Print { serial: true, parts, stay: false };
+                        stmts.push(Stmt { kind, site: stmt.site });
+                    }
+                    StmtKind::OpenPort | StmtKind::ClosePort => {
+                        stmts.push(Stmt { kind: StmtKind::Comment, site: stmt.site });
+                    }
+                    kind => stmts.push(Stmt { kind, site: stmt.site }),
+                }
+            }
+            block.stmts = stmts;
+        }
+    }
+    for (index, span) in found {
+        let what = "output in a format is printed without one: values have no blanks before them and no zeros at their \
+                    end; make sure that what reads it does not count columns";
+        context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+    }
+}
+
+fn plain(part: OutputPart) -> PrintPart {
+    match part {
+        OutputPart::Text(text) => PrintPart::Text(text),
+        OutputPart::Value { value, fraction, .. } => {
+            let value = match value {
+                Expr::Vacant => Expr::Number(0.0),
+                value if value.may_be_vacant() => Expr::binary(BinOp::Add, value, Expr::Number(0.0)),
+                value => value,
+            };
+            PrintPart::Value(match fraction {
+                0 => Expr::Call(Func::Round, [value].into()),
+                places => Expr::Call(Func::RoundPlaces, [value, Expr::Number(f64::from(places))].into()),
+            })
+        }
+    }
+}

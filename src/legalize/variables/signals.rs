@@ -1,0 +1,120 @@
+//! Inputs and outputs that the target shows the other way round.
+//!
+//! Laws: an input that reads 1 when it is on is one less what reads 0 when it is on; an output that any number but 0
+//! switches on is switched alike by whether the number is 0, where 0 switches it on. Side condition, for a reviewer: the number
+//! of the signal means the same wire on both machines, which their profiles say (`[[signal]]`). Where a number is computed the
+//! target must have all of its signals in one run. Counter-example: `#1100=2.` and `O(1)=1-2`, which lets the output float.
+
+use crate::canon::Sys;
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{BinOp, Cond, Expr, Module, Place, Relation, StmtKind};
+use crate::legalize::{Context, rewrite_program};
+use crate::text::Span;
+
+/// A state, and the one that is its opposite.
+const OPPOSITES: [(Sys, Sys); 4] = [
+    (Sys::Input, Sys::InputInverted),
+    (Sys::InputInverted, Sys::Input),
+    (Sys::Output, Sys::OutputInverted),
+    (Sys::OutputInverted, Sys::Output),
+];
+
+/// Reads and writes signals as the target shows them.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let target = context.target;
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut missing: Vec<(Span, Sys, Option<u32>)> = Vec::new();
+        let shows = |e: &Expr| matches!(e, Expr::System(state, _) if is_signal(*state));
+        rewrite_program(program, shows, &mut |e, _, rewriter| {
+            let Expr::System(state, subscripts) = e else { return e };
+            let there = held(state, &subscripts, target);
+            missing.extend(there.err().map(|number| (rewriter.span, state, number)));
+            match there {
+                Ok(other) if other != state => {
+                    Expr::binary(BinOp::Sub, Expr::Number(1.0), Expr::System(other, subscripts))
+                }
+                _ => Expr::System(state, subscripts),
+            }
+        });
+        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+            let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else {
+                continue;
+            };
+            if !is_signal(*state) {
+                continue;
+            }
+            match held(*state, subscripts, target) {
+                Ok(other) if other != *state => {
+                    *state = other;
+                    *value = is_zero(std::mem::replace(value, Expr::Vacant));
+                }
+                Ok(_) => {}
+                Err(number) => missing.push((stmt.site.span, *state, number)),
+            }
+        }
+        for (span, state, number) in missing {
+            report(index, span, state, number, context);
+        }
+    }
+}
+
+/// True for the state of an input or output.
+pub(in crate::legalize) fn is_signal(state: Sys) -> bool {
+    opposite(state).is_some()
+}
+
+fn opposite(state: Sys) -> Option<Sys> {
+    OPPOSITES.iter().find(|(own, _)| *own == state).map(|(_, other)| *other)
+}
+
+/// The state by which the target shows a signal; else the number that it has none for, and none of a computed one.
+fn held(state: Sys, subscripts: &[Expr], target: &Control) -> Result<Sys, Option<u32>> {
+    let states = [Some(state), opposite(state)].into_iter().flatten();
+    let numbers: Option<Vec<u32>> =
+        subscripts.iter().map(|s| s.constant().and_then(crate::ir::eval::whole)).collect();
+    match numbers {
+        Some(numbers) => {
+            let has = |state: &Sys| target.system_address(*state, &numbers).is_some();
+            states.into_iter().find(has).ok_or(numbers.first().copied())
+        }
+        None => {
+            let runs = |state: Sys| target.system_runs(state).count();
+            let mut having = states.filter(|state| runs(*state) > 0);
+            match (having.next(), having.next()) {
+                (Some(state), None) if runs(state) == 1 => Ok(state),
+                _ => Err(None),
+            }
+        }
+    }
+}
+
+/// 1 where a value is 0, else 0.
+fn is_zero(value: Expr) -> Expr {
+    match value.constant() {
+        Some(number) => Expr::Number(f64::from(u8::from(number == 0.0))),
+        None => {
+            let value = match value {
+                Expr::Vacant => return Expr::Number(1.0),
+                value if value.may_be_vacant() => Expr::binary(BinOp::Add, value, Expr::Number(0.0)),
+                value => value,
+            };
+            Expr::Truth(Box::new(Cond::Compare(Relation::Equal, value, Expr::Number(0.0))))
+        }
+    }
+}
+
+fn report(index: usize, span: Span, state: Sys, number: Option<u32>, context: &mut Context<'_>) {
+    let title = &context.target.dialect().title;
+    let kind = if matches!(state, Sys::Input | Sys::InputInverted) { "input" } else { "output" };
+    let what = match number {
+        Some(number) => format!("{title} has no {kind} {number}"),
+        None => format!("the number of an {kind} is computed, and {title} does not count its {kind}s so"),
+    };
+    let named = number.unwrap_or_default();
+    let help = format!(
+        "say in the target's profile which of its {kind}s is wired for it: [[signal]] with {kind} = 1 and \
+         number = {named}"
+    );
+    context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()).with_help(help));
+}

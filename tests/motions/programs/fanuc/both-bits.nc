@@ -1,0 +1,15 @@
+O1120(BITS OF TWO NUMBERS)
+G21 G90 G00 G54 X0. Y0.
+#1=13
+#2=6
+X[#1 AND #2] Y[#1 OR #2]
+X[#1 XOR #2] Y[#2 AND #2]
+#3=-3
+X[#1 AND #3] Y[#3 OR #2]
+X[#3 XOR #1] Y[#3 AND #3]
+#4=0
+WHILE [#4 LT 3] DO1
+X[[#1+#4] AND [#2+#4]]
+#4=#4+1
+END1
+M30
