@@ -63,6 +63,10 @@ pub enum Predicate {
     Alarms(f64),
     /// Both machines are set to one unit when the program starts.
     Unit,
+    /// This tool is in the spindle when the program starts.
+    Loaded(u32),
+    /// The arcs of these blocks pass at most half a turn.
+    ShortArcs(Vec<Span>),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
     Unseen,
 }
@@ -73,7 +77,8 @@ impl Predicate {
         match self {
             Self::Subscripts(Subscripts { places, .. })
             | Self::Arguments { places, .. }
-            | Self::Codes { places, .. } => Some(places),
+            | Self::Codes { places, .. }
+            | Self::ShortArcs(places) => Some(places),
             _ => None,
         }
     }
@@ -88,6 +93,8 @@ impl Predicate {
             Self::Codes { .. } => "codes",
             Self::Alarms(_) => "alarms",
             Self::Unit => "unit",
+            Self::Loaded(_) => "tool",
+            Self::ShortArcs(_) => "arcs",
             Self::Unseen => "unseen",
         }
     }
@@ -101,9 +108,9 @@ impl Predicate {
         }
     }
 
-    /// True where runs show whether it holds. Runs take facts and the unit to be as it says.
+    /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
-        !matches!(self, Self::Fact(_) | Self::Unit | Self::Unseen)
+        !matches!(self, Self::Fact(_) | Self::Unit | Self::Loaded(_) | Self::Unseen)
     }
 
     /// Numbers worth a try: the ends of what is assumed to be safe, its inside, and what lies just outside. Of the
@@ -115,7 +122,7 @@ impl Predicate {
             Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
-            Self::Fact(_) | Self::Unit | Self::Unseen => Vec::new(),
+            Self::Fact(_) | Self::Unit | Self::Loaded(_) | Self::ShortArcs(_) | Self::Unseen => Vec::new(),
         }
     }
 }
