@@ -4,4 +4,5 @@ pub(in crate::legalize) mod cycle_ends;
 pub(in crate::legalize) mod cycle_here;
 pub(in crate::legalize) mod cycle_words;
 pub(in crate::legalize) mod dwell;
+pub(in crate::legalize) mod hole_moves;
 pub(in crate::legalize) mod tapping;
