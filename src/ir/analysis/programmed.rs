@@ -100,14 +100,8 @@ impl Programmed {
     fn moved(&mut self, to: [Option<&Expr>; 2], distance: Option<Op>) {
         for (word, to) in self.0.iter_mut().zip(to) {
             if let Some(to) = to {
-                *word = match distance {
-                    Some(Op::Absolute) if is_plain(to) => Some(to.clone()),
-                    Some(Op::Incremental) => {
-                        let from = word.as_ref().and_then(Expr::constant);
-                        from.zip(to.constant()).map(|(from, by)| Expr::Number(from + by))
-                    }
-                    _ => None,
-                };
+                let stays = distance == Some(Op::Absolute) && is_plain(to);
+                *word = stays.then(|| to.clone());
             }
         }
     }

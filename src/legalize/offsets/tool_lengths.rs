@@ -240,7 +240,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 modal.step(&stmt);
                 let before = state;
                 let found = state.step(&stmt, &modal, &rules);
-                let result = found.and_then(|sync| settle(&mut stmt, (&before, &state), sync, again));
+                let result = settle(&mut stmt, (&before, &state), found.unwrap_or_default(), again);
+                let result = found.and(result);
                 match result {
                     Ok(first) => out.extend(first),
                     Err(what) => {

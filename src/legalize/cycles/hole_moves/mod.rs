@@ -99,6 +99,8 @@ const FROZEN: &str = "the planes of this cycle were told under the other of G90 
      known: tell them again in this block";
 const MOTION: &str = "which interpolation is in force after this cycle is not known, and the target is in rapid traverse: write G0 or G1 \
      in the next move";
+const KEPT: &str =
+    "after this cycle the interpolation of before it is taken to count again, as on most controls";
 const BELOW: &str = "the bottom of this peck drill is taken to lie below its retract plane";
 const COUNT: &str = "a repeat of this cycle is taken to be a whole number, 0 or more";
 const VACANT: &str = "if this cycle's words are vacant, the source takes none, and the target takes the value of before: make sure that they \
@@ -200,7 +202,7 @@ impl Writer<'_, '_> {
             _ if named => {}
             Some(Op::Rapid) => {}
             Some(op) => {
-                self.context.rests_on_source(self.index, span, Question::MotionAfterCycle);
+                self.review(span, KEPT);
                 nc.items.insert(0, NcItem::Op(op));
             }
             None if nc.moves() || !says_motion => self.review(span, MOTION),
