@@ -2,7 +2,7 @@
 
 mod support;
 
-use macroglot::dialect::{Control, Dialect, Question, Row, registry};
+use macroglot::dialect::{Answers, Control, Dialect, Question, Row, registry};
 use std::sync::OnceLock;
 use support::{asks, rust_files};
 
@@ -98,7 +98,10 @@ fn every_question_is_answered_by_the_tables_that_it_concerns() {
 #[test]
 fn every_question_is_answered_by_some_table() {
     for question in Question::ALL {
-        assert!(controls().iter().any(|control| control.behaviour(*question).is_some()), "{question}");
+        // A number that may be said is one that only the profile of a machine has.
+        let of_machine = question.needs() == Some("said") && question.answers() == Answers::Number;
+        let answered = controls().iter().any(|control| control.behaviour(*question).is_some());
+        assert!(of_machine || answered, "{question}");
     }
 }
 

@@ -65,6 +65,10 @@ pub enum Predicate {
     Unit,
     /// Nothing calls the program: it is run by itself.
     Main,
+    /// This tool is in the spindle when the program starts.
+    Loaded(u32),
+    /// The arcs of these blocks pass at most half a turn.
+    ShortArcs(Vec<Span>),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
     Unseen,
 }
@@ -75,7 +79,8 @@ impl Predicate {
         match self {
             Self::Subscripts(Subscripts { places, .. })
             | Self::Arguments { places, .. }
-            | Self::Codes { places, .. } => Some(places),
+            | Self::Codes { places, .. }
+            | Self::ShortArcs(places) => Some(places),
             _ => None,
         }
     }
@@ -91,6 +96,8 @@ impl Predicate {
             Self::Alarms(_) => "alarms",
             Self::Unit => "unit",
             Self::Main => "main",
+            Self::Loaded(_) => "tool",
+            Self::ShortArcs(_) => "arcs",
             Self::Unseen => "unseen",
         }
     }
@@ -104,9 +111,9 @@ impl Predicate {
         }
     }
 
-    /// True where runs show whether it holds. Runs take facts and the unit to be as it says.
+    /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
-        !matches!(self, Self::Fact(_) | Self::Unit | Self::Main | Self::Unseen)
+        !matches!(self, Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::Unseen)
     }
 
     /// Numbers worth a try: the ends of what is assumed to be safe, its inside, and what lies just outside. Of the
@@ -118,7 +125,9 @@ impl Predicate {
             Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
-            Self::Fact(_) | Self::Unit | Self::Main | Self::Unseen => Vec::new(),
+            Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::ShortArcs(_) | Self::Unseen => {
+                Vec::new()
+            }
         }
     }
 }

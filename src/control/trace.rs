@@ -49,6 +49,8 @@ pub enum Told {
     Implied,
     /// What the program found in force when it started.
     Found,
+    /// A change to the tool that is in the spindle already.
+    SameTool,
     /// A spindle that a drilling cycle stops, turns round, or lets turn again.
     Cycle,
 }

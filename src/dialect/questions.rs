@@ -228,6 +228,7 @@ questions! {
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
     MotionAfterCycle "motion.after.cycle" OneOf(&["kept", "unknown"]), "the interpolation in force when a drilling cycle has ended";
     CycleBlockRuns "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it", if "said";
+    CyclePeckClearance "cycle.peck.clearance" NUMBER, "how far over the last depth a peck drill begins its next step, millimetres", if "said";
     CycleR0Kept "cycle.r0.kept" YES, "a drilling cycle takes its retract plane from the variable that holds it";
     RotationRunsCycle "rotation.runs.cycle" YES, "a rotation inside an active cycle runs the cycle at the turned place", if "op:rotate.on";
     RotationDirection "rotation.direction" OneOf(&["ccw", "cw", "unknown"]), "which way a positive rotation turns", if "op:rotate.on";

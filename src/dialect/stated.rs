@@ -3,6 +3,7 @@
 use super::check::{LIMITS, STATEMENTS};
 use super::overlay::Overlay;
 use super::profile::Plain;
+use super::questions::Answers;
 use super::reader::closest;
 use super::{Behaviour, CodeHead, Dialect, Origin, Question, Row, matters, registry};
 use crate::canon::Func;
@@ -115,7 +116,10 @@ fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value
     let settles = |row: &Behaviour| {
         row.value == value || OPEN.contains(&row.value.as_str()) || row.option.is_some() && value != "unknown"
     };
-    row.is_some_and(settles)
+    // A number that no table has is one that only the machine has.
+    let of_machine = row.is_none() && question.answers() == Answers::Number;
+    of_machine
+        || row.is_some_and(settles)
         || registry::all()
             .iter()
             .filter_map(|entry| entry.dialect().ok())

@@ -58,6 +58,9 @@ pub fn flag_of(name: &str) -> String {
     format!("flag of {name}")
 }
 
+/// Statics from this number on belong to no level: what a program sets there its callers find.
+pub const OF_NO_LEVEL: u32 = 1_000_000;
+
 /// Flags of locals have numbers from here on.
 pub const LOCAL_FLAGS: u32 = 100;
 

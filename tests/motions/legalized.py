@@ -102,6 +102,22 @@ part.dwell(1.5)
 part.to("haas", "cycle_words.rs", "dwell.rs")
 part.to("fadal", "cycles/cycle_planes.rs")
 
+part = Short("fanuc", "holes-as-moves", "G98 returns to 20, G99 to 2; pecks begin 1 over the last depth. Under G91 the plane is 18 below 20, and the bottom 3\n"
+                                         "below that; K2 drills twice.", profile="[behaviours]\n\"cycle.peck.clearance\" = 1.0")
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(z=20.0)
+part.hole(1.0, 1.0, r=2.0, bottom=-3.0, back=20.0, f=100.0)
+part.hole(2.0, r=2.0, bottom=-3.0)
+part.hole(3.0, r=2.0, bottom=-4.0, out="feed")
+part.peck(4.0, r=2.0, bottom=-8.0, steps=[5, 5])
+part.peck(5.0, r=2.0, bottom=-7.0, steps=[4, 4, 1], back=20.0)
+part.peck(6.0, r=2.0, bottom=-8.0, steps=[5, 5], back=20.0, chips=True)
+part.hole(7.0, r=2.0, bottom=-1.0, back=20.0)
+part.hole(8.0, r=2.0, bottom=-1.0, back=20.0)
+part.feed(20.0, f=200.0)
+part.to("cc100", "cycles/hole_moves/mod.rs")
+
 part = Short("haas", "deep", "Six doublings of 2 with one more each are 191; (191 > 20) + (191 < 20) * 5 is 1; 123456.789 - 123450 and\n"
                              "12.3456789; the loop ends when 12.346 - 3 is below 10, with #1 at 189; M97 twice.", profile='options = ["macros"]')
 part.work(1)

@@ -112,6 +112,7 @@ pub struct Machine {
 impl Machine {
     /// A machine of a control, which has these facts, as a scenario finds it.
     pub(super) fn new(rules: Arc<Rules>, control: &Control, scenario: &Scenario) -> Self {
+        let peck_clearance = rules.peck_clearance.unwrap_or(scenario.peck_clearance);
         let mut machine = Self {
             rules,
             rounding: Rounding::new(control),
@@ -149,7 +150,7 @@ impl Machine {
             polar: false,
             references: scenario.references,
             probes: scenario.probes.clone().into_iter(),
-            peck_clearance: scenario.peck_clearance,
+            peck_clearance,
             clock: 0.0,
             timer_ms_from: 0.0,
             timer_hours_from: 0.0,

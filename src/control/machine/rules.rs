@@ -98,6 +98,8 @@ pub struct Rules {
     pub no_centre: Fact<NoCentre>,
     pub centre_is_incremental: Fact<bool>,
     pub planes_frozen: Fact<bool>,
+    /// How far over the last depth a peck begins, where the machine's profile says it: millimetres.
+    pub peck_clearance: Option<f64>,
     pub zero_repeats_stores: Fact<bool>,
     pub cycle_block_runs: Fact<bool>,
     pub cycle_runs_without_axes: Fact<bool>,
@@ -176,6 +178,9 @@ impl Rules {
             negative_radius_is_long: negative_is_long,
             no_centre: fact(control, Question::ArcWithoutCentre, no_centre, NoCentre::Alarm),
             centre_is_incremental: fact(control, Question::ArcCentre, word("incremental", "absolute"), true),
+            peck_clearance: control
+                .behaviour(Question::CyclePeckClearance)
+                .and_then(|row| row.value.parse().ok()),
             planes_frozen: yes(control, Question::CyclePlanesFrozen, true),
             zero_repeats_stores: yes(control, Question::CycleL0Stores, true),
             cycle_block_runs: yes(control, Question::CycleBlockRuns, true)

@@ -4,7 +4,7 @@ use super::rules::{LengthAfter, RadiusTable};
 use super::{Command, Machine};
 use crate::canon::{Op, Pause, Role};
 use crate::control::scenario::AXES;
-use crate::control::trace::{EventKind, Side, Trace};
+use crate::control::trace::{EventKind, Side, Told, Trace};
 
 /// Takes the codes and words of compensation.
 pub(super) fn compensation(machine: &mut Machine, command: &Command, trace: &mut Trace) {
@@ -46,8 +46,12 @@ pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) 
 
 /// Puts the tool that is ready into the spindle.
 pub(super) fn change(machine: &mut Machine, trace: &mut Trace) {
+    let same = machine.tool == machine.tool_ready;
     machine.tool = machine.tool_ready;
     machine.pause(Pause::Change, EventKind::ToolChange { tool: machine.tool }, trace);
+    if same {
+        trace.tell(Told::SameTool);
+    }
     machine.may_lose_length(LostBy::Change, true);
 }
 

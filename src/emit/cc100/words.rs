@@ -136,7 +136,7 @@ impl<'p> Emitter<'p> {
         if matches!(role, Role::ArcI | Role::ArcJ | Role::ArcK) {
             return self.out.unmapped("the centre of an arc: no source says from where it counts here");
         }
-        if role == Role::ArcRadius && value.constant().is_none() {
+        if role == Role::ArcRadius && value.constant().is_none() && !matches!(value, Expr::Negate(_)) {
             return self.out.unmapped("an arc's radius from a variable: its sign means another arc here");
         }
         used.push(letter);
@@ -144,6 +144,14 @@ impl<'p> Emitter<'p> {
         self.out.push(letter);
         match (value.constant(), value) {
             (Some(number), _) => self.literal(role, letter, number),
+            // The shorter arc has a minus here: its radius stands in the program with the other sign.
+            (None, Expr::Negate(inner)) if role == Role::ArcRadius => match **inner {
+                Expr::Var(var) => {
+                    self.out.push('=');
+                    self.variable(var);
+                }
+                _ => self.out.unmapped("a computed radius of an arc"),
+            },
             (None, Expr::Var(var)) => {
                 self.out.push('=');
                 self.variable(*var);

@@ -14,6 +14,7 @@ mod live_statics;
 mod liveness;
 pub(crate) mod modal;
 pub(crate) mod modal_facts;
+pub mod over_calls;
 pub(crate) mod programmed;
 mod ranges;
 mod set;

@@ -18,7 +18,7 @@ use crate::ir::{
 use crate::legalize::context::Context;
 use crate::legalize::expressions::split::{is_free_all, is_leaf, place_of};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::rewrite::{self, highest_temp};
+use crate::legalize::rewrite::{self, Position, highest_temp};
 
 /// True where the target has places that do not take everything, and the library may have something there.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -69,7 +69,11 @@ impl Taker<'_> {
         let mut at = 0;
         while let Some(stmt) = block.stmts.get_mut(at) {
             let skip = stmt.site.skip;
-            rewrite::statement(&mut stmt.kind, &mut |e, position| self.whole(e, place_of(position)));
+            rewrite::statement(&mut stmt.kind, &mut |e, position| {
+                if !self.is_opposite_radius(e, position) {
+                    self.whole(e, place_of(position));
+                }
+            });
             if let StmtKind::Assign { target: Place::System(..), value } = &mut stmt.kind {
                 self.whole(value, OperandPlace::State);
             }
@@ -84,6 +88,14 @@ impl Taker<'_> {
         }
         let end = block.stmts.len();
         self.lay(&mut block.stmts, end, None);
+    }
+
+    /// True for the radius of an arc in the form that stands for the shorter arc where that has a minus.
+    fn is_opposite_radius(&self, e: &Expr, position: Position) -> bool {
+        let short =
+            self.target.behaviour(Question::ArcRadiusNegative).is_some_and(|row| row.value == "short");
+        let opposite = matches!(e, Expr::Negate(inner) if matches!(**inner, Expr::Var(_)));
+        position == Position::Word(Role::ArcRadius) && short && opposite
     }
 
     /// Puts what was taken out before the statement; how many statements that is.

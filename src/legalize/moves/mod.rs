@@ -10,5 +10,6 @@ pub(in crate::legalize) mod rapid_once;
 pub(in crate::legalize) mod reference;
 pub(in crate::legalize) mod shaped;
 pub(in crate::legalize) mod shift;
+pub(in crate::legalize) mod short_arcs;
 pub(in crate::legalize) mod unit_checks;
 pub(in crate::legalize) mod units;

@@ -2,13 +2,17 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves.
+//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves; of those the target
+//! has no letter for, the ones that the program itself moves.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::{Context, replace_statements};
+
+const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
+                      stand at their reference position, or that the target's machine has no such axes";
 
 /// Names the axes of returns that name none.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
@@ -34,6 +38,21 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let rotary = [Role::A, Role::B, Role::C];
     let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
     let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
+    // What the target has no letter for is named where the program moves it, and refused there.
+    let target = context.target;
+    let own: Vec<Vec<Role>> = module
+        .programs
+        .iter()
+        .map(|program| {
+            let ncs = || program.blocks.iter().flat_map(|b| &b.stmts).filter_map(|stmt| stmt.kind.nc());
+            let named = |role: &Role| {
+                !rotary.contains(role)
+                    || target.letter(*role, None).is_some()
+                    || ncs().any(|nc| nc.word(*role).is_some())
+            };
+            axes.iter().copied().filter(named).collect()
+        })
+        .collect();
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
@@ -46,7 +65,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let (code, what) = match state.op(Group::Distance) {
                 Some(distance) => {
                     restore = (distance == Op::Absolute).then_some(distance);
-                    name(nc, &axes);
+                    name(nc, &own[index]);
                     (
                         Code::Conditional,
                         "all axes return at the same time; no source says in which order the source moves \
@@ -60,6 +79,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 ),
             };
             context.add(index, Diagnostic::new(code, span, what));
+            if [Role::A, Role::B, Role::C].into_iter().any(|role| target.letter(role, None).is_none()) {
+                context.add_once(index, ROTARY, Diagnostic::new(Code::Conditional, span, ROTARY));
+            }
         }
         out.push(stmt);
         if let Some(distance) = restore {

@@ -1,26 +1,32 @@
 //! Tool lengths, on a control whose tool word brings the length of the tool.
 //!
-//! Law: a change to tool n brings length n there, so the block that takes up length n of the tool in the spindle has
-//! nothing left to do; a length that is ended is tool 0. Side conditions: the numbers of tools and lengths are constants;
-//! a length is taken up with its own tool in the spindle, changed by the program; nothing moves along Z while the lengths
-//! of the two controls differ, nor is anything called or returned to. A tool that is made ready is named at its change.
-//! A main program that takes up one length alone and changes to no tool is run with that tool: it is changed to at the
-//! head, which a person must look at. Counter-example: `T1 M6`, `G0 Z5.`, `G43 H1`: on the target Z5 counts the length.
+//! Law: a change to tool n brings length n there, and a word of the tool that is in the spindle brings it again where the
+//! machine's profile says that it changes nothing; tool 0 ends it. Lengths show in moves along Z alone. So the block that takes
+//! up or ends a length has nothing to do by itself, and before the next move along Z the target's length is made what the
+//! source's is there. What a program is called with is followed through its callers. Side conditions: the numbers of tools and
+//! lengths are constants; a length is taken up with its own tool in the spindle. Where no profile says what a tool word does
+//! for the tool in the spindle, the length that a change brings stays until it is ended, and nothing may move along Z while the
+//! lengths of the two controls differ, nor may a program that others do not call return. A tool that is made ready is named at
+//! its change.
+//!
+//! A program that nothing in the library calls, takes up one length alone and changes to no tool is run with that tool: a
+//! person must look at that. Counter-example: `T1 M6`, `G0 Z5.`, `G43 H1`: on the target Z5 counts the length.
 
+use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
-use crate::ir::analysis::{Cfg, calls_of, own_call, reachable};
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::over_calls::{Follow, OverCalls, called};
+use crate::ir::analysis::reachable;
+use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    Block, BlockId, Call, Callee, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind,
-    Terminator,
+    Block, BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator,
 };
 use crate::legalize::Context;
 use crate::legalize::rewrite::put_first;
-use crate::syntax::ProgramName;
 use smallvec::SmallVec;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// True if a tool word brings the length of its tool.
 pub fn concerns(target: &Control) -> bool {
@@ -65,30 +71,87 @@ impl Lattice for State {
     }
 }
 
+/// What is put in so that both controls count the same length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sync {
+    /// Tool 0 in the block.
+    Off,
+    /// The word of this tool in a block of its own before.
+    Bring(u32),
+}
+
 impl State {
-    fn step(&mut self, stmt: &Stmt) {
-        let StmtKind::Nc(nc) = &stmt.kind else { return };
-        let before = *self;
+    /// What a block says of tools and lengths.
+    fn say(&mut self, nc: &Nc, rules: &Rules<'_>) {
         let named = nc.word(Role::Tool).map(number);
         if nc.has(Op::ToolChange) {
             self.tool = named.unwrap_or(self.waits);
             self.waits = None;
             self.theirs = self.tool.map_or(Length::Unknown, of);
+            if rules.change_ends {
+                self.ours = Length::Off;
+            }
         } else if let Some(named) = named {
             self.waits = named;
         }
-        if let Some(row) = nc.word(Role::LengthOffset) {
+        let row = nc.word(Role::LengthOffset);
+        if let Some(row) = row {
             self.ours = number(row).map_or(Length::Unknown, of);
-            self.theirs = if self.ours == Length::Off { Length::Off } else { self.theirs };
         }
         if nc.has(Op::LengthMinus) {
             self.ours = Length::Unknown;
         }
         if nc.has(Op::LengthOff) {
-            (self.ours, self.theirs) = (Length::Off, Length::Off);
+            self.ours = Length::Off;
         }
+        if !rules.again && self.ours == Length::Off && (row.is_some() || nc.has(Op::LengthOff)) {
+            self.theirs = Length::Off;
+        }
+    }
+
+    /// Takes a statement, before which `under` a cycle moves along Z whatever its words; what has to be put in with it.
+    fn step(&mut self, stmt: &Stmt, modal: &Modal, rules: &Rules<'_>) -> Result<Option<Sync>, &'static str> {
+        let StmtKind::Nc(nc) = &stmt.kind else { return Ok(None) };
+        let before = *self;
+        self.say(nc, rules);
+        let drills = modal.op(Group::Cycle).is_some_and(Op::is_cycle);
+        let along = nc.moves() && (nc.word(Role::Z).is_some() || drills);
+        let found = if along { self.sync(rules) } else { self.taken(nc, rules) };
         if stmt.site.skip.is_some() {
             self.join(&before);
+        }
+        found
+    }
+
+    /// Makes the target count what the source counts.
+    fn sync(&mut self, rules: &Rules<'_>) -> Result<Option<Sync>, &'static str> {
+        if self.agrees() {
+            return Ok(None);
+        }
+        match self.ours {
+            Length::Off if rules.again => {
+                self.theirs = Length::Off;
+                Ok(Some(Sync::Off))
+            }
+            Length::Of(row) if rules.again && self.tool == Some(row) => {
+                self.theirs = self.ours;
+                Ok(Some(Sync::Bring(row)))
+            }
+            Length::Of(row) if self.tool != Some(row) || self.theirs == Length::Off => Err(NOT_ITS_OWN),
+            _ => Err(MOVED),
+        }
+    }
+
+    /// Where nothing moves a length is taken up by its change alone.
+    fn taken(&self, nc: &Nc, rules: &Rules<'_>) -> Result<Option<Sync>, &'static str> {
+        let takes = nc.has(Op::LengthPlus) || nc.word(Role::LengthOffset).is_some();
+        match self.ours {
+            _ if !takes || nc.has(Op::LengthMinus) => Ok(None),
+            Length::Off if nc.has(Op::ToolChange) && !rules.again => Err(NOT_ITS_OWN),
+            Length::Of(row) if rules.again && self.tool != Some(row) => Err(NOT_ITS_OWN),
+            Length::Of(_) if !rules.again && self.theirs != self.ours => Err(NOT_ITS_OWN),
+            Length::Unknown | Length::Entry => Err(NOT_ITS_OWN),
+            _ => Ok(None),
         }
     }
 
@@ -112,66 +175,114 @@ fn names_tools(nc: &Nc) -> bool {
     words || nc.ops().any(|op| op == Op::ToolChange || op.group() == Group::LengthComp)
 }
 
-/// What blocks do; `says` tells the calls that may say something of tools.
+/// What is known of both controls, and of the tools that programs are run with.
 struct Rules<'r> {
-    says: &'r dyn Fn(&Call) -> bool,
+    facts: &'r ModalFacts,
+    /// True if a tool word of the tool in the spindle brings its length and changes nothing.
+    again: bool,
+    /// True if a change ends the length on the source.
+    change_ends: bool,
+    /// The tool that each program is run with, where that is supposed.
+    loaded: &'r [Option<u32>],
 }
 
-impl Analysis for Rules<'_> {
-    type State = State;
-    const DIRECTION: Direction = Direction::Forward;
+impl Follow for Rules<'_> {
+    type Known = State;
 
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, State)> {
-        cfg.roots().iter().map(|root| (*root, START)).collect()
+    fn outside(&self, program: usize) -> State {
+        let tool = self.loaded.get(program).copied().flatten();
+        let theirs = tool.filter(|_| !self.again).map_or(Length::Entry, Length::Of);
+        State { tool, theirs, ..START }
     }
 
-    fn block(&self, _: BlockId, block: &Block, here: &mut State) {
-        block.stmts.iter().for_each(|stmt| here.step(stmt));
-        if let TermKind::Call { call, .. } = &block.term.kind
-            && (self.says)(call)
-        {
-            *here = LOST;
+    fn stmts(&self, (program, id): (usize, BlockId), block: &Block, state: &mut State) {
+        let mut modal = self.facts.at(program, id);
+        for stmt in &block.stmts {
+            modal.step(stmt);
+            let _ = state.step(stmt, &modal, self);
         }
+    }
+
+    fn lose(&self, state: &mut State) {
+        *state = LOST;
     }
 }
 
 /// Leaves lengths to the changes of their tools.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let says = |program: &Program| program.blocks.iter().any(block_says);
-    let saying: Vec<bool> = module.programs.iter().map(says).collect();
-    let names: BTreeMap<ProgramName, usize> =
-        module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
-    let below = below(module, &names, &saying);
-    for (index, program) in module.programs.iter_mut().enumerate().filter(|(index, _)| saying[*index]) {
-        if let Some(tool) = loaded(program) {
-            begin(program, tool);
-            let what = format!(
-                "the program takes up the length of tool {tool} and changes to none: T{tool:02} is written at its head, \
-                 because on the target only the tool word brings a length. Make sure that tool {tool} is the one to run with"
-            );
-            context.add(index, Diagnostic::new(Code::Conditional, program.site.span, what));
-        }
-        let own = has_saying_parts(program);
-        let says = |call: &Call| match &call.callee {
-            Callee::Program(name) => names.get(name).is_none_or(|callee| below[*callee]),
-            Callee::Block(_) => own,
-            Callee::Computed(_) | Callee::Cycle(_) => true,
-        };
-        let states = solve(&Rules { says: &says }, program, &Cfg::of(program));
+    if !module.programs.iter().any(|program| program.blocks.iter().any(block_says)) {
+        return;
+    }
+    let value = |control: &Control, question| control.behaviour(question).map(|row| row.value.clone());
+    let again = value(context.target, Question::ToolWordAgain).as_deref() == Some("skipped");
+    let change_ends = value(context.source, Question::ChangeLength).as_deref() == Some("cancelled");
+    let called: Vec<bool> = called(module)
+        .into_iter()
+        .zip(&module.programs)
+        .map(|(called, program)| called && program.returns())
+        .collect();
+    let loaded: Vec<Option<u32>> = module
+        .programs
+        .iter()
+        .zip(&called)
+        .map(|(program, called)| loaded(program).filter(|_| !called))
+        .collect();
+    let facts = context.modal_facts(module);
+    let rules = Rules { facts: &facts, again, change_ends, loaded: &loaded };
+    let states = OverCalls::of(module, &rules);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let main = reachable(program, BlockId(0));
         for (id, block) in program.ids().zip(&mut program.blocks) {
-            let Some(mut state) = states.at(id).copied() else { continue };
-            for stmt in &mut block.stmts {
+            let Some(mut state) = states.at(index, id).copied() else { continue };
+            let mut modal = facts.at(index, id);
+            let mut out = Vec::with_capacity(block.stmts.len() + 1);
+            for mut stmt in std::mem::take(&mut block.stmts) {
+                modal.step(&stmt);
                 let before = state;
-                state.step(stmt);
-                if let Err(what) = settle(stmt, &before, &state) {
-                    context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                let found = state.step(&stmt, &modal, &rules);
+                let result = settle(&mut stmt, (&before, &state), found.unwrap_or_default(), again);
+                let result = found.and(result);
+                match result {
+                    Ok(first) => out.extend(first),
+                    Err(what) => {
+                        let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
+                        context.add_once(index, what, finding);
+                    }
+                }
+                out.push(stmt);
+            }
+            let leaves = match block.term.kind {
+                TermKind::Return { .. } => !called[index] && main.contains(&id),
+                TermKind::End { .. } => {
+                    again && state.ours == Length::Off && matches!(state.theirs, Length::Of(_))
+                }
+                _ => false,
+            };
+            if leaves && !state.agrees() && state != LOST {
+                let span = block.term.site.span;
+                match state.sync(&rules) {
+                    Ok(Some(Sync::Off)) => out.push(word_of(0, span)),
+                    Ok(Some(Sync::Bring(tool))) => out.push(word_of(tool, span)),
+                    _ => context.add_once(
+                        index,
+                        ELSEWHERE,
+                        Diagnostic::new(Code::NoEquivalent, span, ELSEWHERE),
+                    ),
                 }
             }
-            let leaves = matches!(block.term.kind, TermKind::Call { .. } | TermKind::Return { .. });
-            if leaves && !state.agrees() {
-                let span = block.term.site.span;
-                context.add_once(index, ELSEWHERE, Diagnostic::new(Code::NoEquivalent, span, ELSEWHERE));
+            block.stmts = out;
+        }
+        if let Some(tool) = loaded[index] {
+            if !again {
+                begin(program, tool);
             }
+            let place = if again { "before the first move that counts it" } else { "at its head" };
+            let what = format!(
+                "the program takes up the length of tool {tool} and changes to none: T{tool:02} is written {place}, \
+                 because on the target only the tool word brings a length. Make sure that tool {tool} is the one to run with"
+            );
+            let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
+            context.add(index, finding.assuming(Predicate::Loaded(tool)));
         }
     }
 }
@@ -180,44 +291,19 @@ fn block_says(block: &Block) -> bool {
     block.stmts.iter().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if names_tools(nc)))
 }
 
-/// The programs that say something of tools, themselves or in what they call.
-fn below(module: &Module, names: &BTreeMap<ProgramName, usize>, saying: &[bool]) -> Vec<bool> {
-    let mut below = saying.to_vec();
-    let mut changed = true;
-    while std::mem::take(&mut changed) {
-        for (index, program) in module.programs.iter().enumerate() {
-            let mut calls = program.blocks.iter().flat_map(calls_of);
-            let says = calls.any(|call| match &call.callee {
-                Callee::Program(name) => names.get(name).is_none_or(|callee| below[*callee]),
-                Callee::Block(_) => false,
-                Callee::Computed(_) | Callee::Cycle(_) => true,
-            });
-            changed |= says && !std::mem::replace(&mut below[index], true);
-        }
-    }
-    below
-}
-
-/// True if parts of the program are called and any block may be one that says something of tools after its call.
-fn has_saying_parts(program: &Program) -> bool {
-    let entries: Vec<BlockId> = program.blocks.iter().filter_map(own_call).map(|(entry, ..)| entry).collect();
-    let mut blocks = entries.iter().flat_map(|entry| reachable(program, *entry));
-    blocks.any(|id| program.block(id).is_some_and(block_says))
-}
-
-/// The tool of a main program that takes up the length of one alone, and changes to none.
-fn loaded(program: &Program) -> Option<u32> {
-    let mut main = reachable(program, BlockId(0)).into_iter().filter_map(|id| program.block(id));
-    if main.any(|block| matches!(block.term.kind, TermKind::Return { .. })) {
-        return None;
-    }
-    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    let ncs = || {
-        stmts.clone().filter_map(|stmt| match &stmt.kind {
-            StmtKind::Nc(nc) => Some(nc),
-            _ => None,
-        })
+/// The word of a tool in a block of its own.
+fn word_of(tool: u32, span: crate::text::Span) -> Stmt {
+    let items = match tool {
+        0 => vec![NcItem::Op(Op::LengthOff)],
+        _ => vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, Expr::Number(f64::from(tool)))],
     };
+    Stmt { kind: StmtKind::Nc(Nc { items }), site: SourceInfo { span, ..SourceInfo::default() } }
+}
+
+/// The tool of a program that takes up the length of one alone, and changes to none.
+fn loaded(program: &Program) -> Option<u32> {
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    let ncs = || stmts.clone().filter_map(|stmt| stmt.kind.nc());
     if ncs().any(|nc| nc.has(Op::ToolChange) || nc.word(Role::Tool).is_some()) {
         return None;
     }
@@ -235,8 +321,8 @@ fn begin(program: &mut Program, tool: u32) {
     put_first(program, vec![Block { labels: SmallVec::new(), stmts: vec![stmt], term }]);
 }
 
-const ELSEWHERE: &str = "a call or a return between a tool change and the block that takes up the tool's length: on the \
-                         target the change brings the length. Take it up before";
+const ELSEWHERE: &str = "a return between a tool change and the block that takes up the tool's length: on the target the change \
+                         brings the length. Take it up before";
 const NOT_ITS_OWN: &str = "this takes up a length whose tool the program has not changed to, or has ended the length of: on the \
                            target only the change to a tool brings its length";
 const MOVED: &str = "a move along Z between a tool change and the block that takes up the tool's length: on the target the change \
@@ -244,14 +330,20 @@ const MOVED: &str = "a move along Z between a tool change and the block that tak
 const COMPUTED: &str =
     "the number of the tool is computed, or no tool was named before its change: write the number";
 
-/// Takes out of a block what the change of its tool has done.
-fn settle(stmt: &mut Stmt, before: &State, after: &State) -> Result<(), &'static str> {
-    let StmtKind::Nc(nc) = &mut stmt.kind else { return Ok(()) };
-    let along = nc.moves() && nc.word(Role::Z).is_some();
+/// Takes out of a block what the change of its tool has done, and puts in what the moves of the block need; what stands
+/// before the block.
+fn settle(
+    stmt: &mut Stmt,
+    (before, after): (&State, &State),
+    sync: Option<Sync>,
+    again: bool,
+) -> Result<Option<Stmt>, &'static str> {
+    let (span, skipped) = (stmt.site.span, stmt.site.skip.is_some());
+    let StmtKind::Nc(nc) = &mut stmt.kind else { return Ok(None) };
     let names = names_tools(nc);
     if nc.has(Op::LengthMinus) {
         // Refused as what the target lacks.
-        return Ok(());
+        return Ok(None);
     }
     if nc.has(Op::ToolChange) {
         let Some(tool) = after.tool else { return Err(COMPUTED) };
@@ -262,22 +354,27 @@ fn settle(stmt: &mut Stmt, before: &State, after: &State) -> Result<(), &'static
         nc.items.retain(|item| !matches!(item, NcItem::Word(Role::Tool, _)));
     }
     let takes = nc.has(Op::LengthPlus) || nc.word(Role::LengthOffset).is_some();
-    if takes {
+    if takes || again {
         nc.items.retain(|item| {
             !matches!(item, NcItem::Op(Op::LengthPlus | Op::LengthOff) | NcItem::Word(Role::LengthOffset, _))
         });
-        match after.ours {
-            Length::Off if nc.has(Op::ToolChange) => return Err(NOT_ITS_OWN),
-            Length::Off if before.theirs != Length::Off => nc.items.insert(0, NcItem::Op(Op::LengthOff)),
-            Length::Of(_) if after.theirs != after.ours => return Err(NOT_ITS_OWN),
-            Length::Unknown | Length::Entry => return Err(NOT_ITS_OWN),
-            _ => {}
-        }
-    } else if nc.has(Op::LengthOff) && before.theirs == Length::Off && stmt.site.skip.is_none() {
+    }
+    if takes && !again && after.ours == Length::Off && before.theirs != Length::Off {
+        nc.items.insert(0, NcItem::Op(Op::LengthOff));
+    }
+    if !takes && !again && nc.has(Op::LengthOff) && before.theirs == Length::Off && !skipped {
         nc.items.retain(|item| *item != NcItem::Op(Op::LengthOff));
+    }
+    let mut first = None;
+    match sync {
+        Some(Sync::Off) if nc.has(Op::ToolChange) => return Err(MOVED),
+        Some(Sync::Off) => nc.items.insert(0, NcItem::Op(Op::LengthOff)),
+        Some(Sync::Bring(_)) if skipped => return Err(MOVED),
+        Some(Sync::Bring(tool)) => first = Some(word_of(tool, span)),
+        None => {}
     }
     if names && nc.items.is_empty() {
         stmt.kind = StmtKind::Comment;
     }
-    if along && !after.agrees() { Err(MOVED) } else { Ok(()) }
+    Ok(first)
 }

@@ -11,17 +11,19 @@ use crate::legalize::calls::{
 use crate::legalize::codes::{
     beside_moves, by_number, forbidden, lookahead, machine_codes, missing, pauses, substitutes, waits,
 };
-use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, tap_leads, tapping};
+use crate::legalize::cycles::{
+    cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves, tap_leads, tapping,
+};
 use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
-use crate::legalize::features::Feature;
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::blanks;
 use crate::legalize::moves::{
     bare_arcs, home, increments, lathe, machine_moves, polar, rapid_once, reference, shaped, shift,
-    unit_checks, units,
+    short_arcs, unit_checks, units,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, offset_rows, position_length,
-    set_position, side_changes, tool_lengths, tool_word,
+    radius_words, set_position, side_changes, tool_lengths, tool_word,
 };
 use crate::legalize::operator::{alarms, formatted, questions};
 use crate::legalize::variables::{
@@ -247,6 +249,23 @@ const MOVES: &[Pass] = &[
     .when(|_, context| tool_lengths::concerns(context.target))
     .changes_flow()
     .needs(&["machine-moves"]),
+    Pass::rewrites(
+        "radius-words",
+        "numbers of cutter radii go to the codes that compensate by them",
+        radius_words::run,
+    )
+    .when(|c, context| {
+        (c.role(Role::RadiusOffset) || c.op(Op::RadiusLeft) || c.op(Op::RadiusRight))
+            && radius_words::concerns(context.source, context.target)
+    })
+    .needs(&["length-radius"]),
+    Pass::rewrites(
+        "short-arcs",
+        "arcs are written by their radius, the long ones in pieces",
+        short_arcs::run,
+    )
+    .when(|c, context| (c.op(Op::ArcCw) || c.op(Op::ArcCcw)) && short_arcs::concerns(context.target))
+    .needs(&["modal-calls", "units", "bare-arcs"]),
 ];
 
 const VARIABLES: &[Pass] = &[
@@ -295,6 +314,11 @@ const VARIABLES: &[Pass] = &[
         .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows", "signals"]),
 ];
 
+/// True if the library drills.
+fn drills(features: &Features) -> bool {
+    features.any_op(|op| op.is_cycle() || matches!(op, Op::CycleHere | Op::ReturnR | Op::ReturnInitial))
+}
+
 const CYCLES: &[Pass] = &[
     Pass::reports("alarms", "checks alarm numbers that the target does not take", alarms::run)
         .when(|c, _| c.has(Feature::Message)),
@@ -305,14 +329,18 @@ const CYCLES: &[Pass] = &[
     Pass::edits("waits", "what is read before the moves are done waits for them", waits::run)
         .when(waits::concerns)
         .needs(&["state", "lookahead"]),
+    Pass::rewrites("hole-moves", "holes become moves, where cycles take no planes", hole_moves::run)
+        .when(|c, context| drills(c) && hole_moves::replaces(context.target))
+        .needs(&["modal-calls", "units", "tool-lengths"])
+        .changes_flow(),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
-        .when(|c, _| c.any_op(|op| op.is_cycle() || op == Op::CycleHere)),
+        .when(|c, context| drills(c) && !hole_moves::replaces(context.target)),
     Pass::rewrites(
         "cycle-ends",
         "cycles that motion does not end there are ended before it",
         cycle_ends::run,
     )
-    .when(cycle_ends::concerns)
+    .when(|c, context| cycle_ends::concerns(c, context) && !hole_moves::replaces(context.target))
     .needs(&["cycle-here"]),
     Pass::rewrites(
         "cycle-planes",
@@ -322,7 +350,9 @@ const CYCLES: &[Pass] = &[
     .when(cycle_planes::concerns)
     .needs(&["cycle-here"]),
     Pass::rewrites("cycle-words", "words last for the cycles that they lasted for", cycle_words::run)
-        .when(|c, _| cycle_words::ROLES.iter().any(|role| c.role(*role)))
+        .when(|c, context| {
+            cycle_words::ROLES.iter().any(|role| c.role(*role)) && !hole_moves::replaces(context.target)
+        })
         .needs(&["dwell", "cycle-here"]),
 ];
 

@@ -13,6 +13,11 @@ pub fn brought(source: &Control, target: &Control) -> bool {
     target.is(Question::ToolWordSelectsLength) && !source.is(Question::ToolWordSelectsLength)
 }
 
+/// True if the word of the tool that is in the spindle changes nothing.
+pub fn skips_same_tool(control: &Control) -> bool {
+    control.behaviour(Question::ToolWordAgain).is_some_and(|row| row.value == "skipped")
+}
+
 /// Leaves the lengths that a program returns with.
 pub fn shown_by_moves(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let is_length = |act: &Act<'_>| matches!(*act.what, EventKind::ToolLength { .. });

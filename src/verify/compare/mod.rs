@@ -1,5 +1,6 @@
 //! Whether two runs amount to the same for who watches the machines.
 
+mod arcs;
 mod differ;
 mod exit_state;
 mod found;

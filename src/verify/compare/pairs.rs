@@ -1,10 +1,11 @@
 //! Whether two runs amount to the same.
 
+use super::arcs::joined;
 use super::differ::{ANOTHER_FEED, differ};
 use super::exit_state::left_differs;
 use super::found::{Comparison, Difference};
 use super::kinds::{is_cut, setting};
-use super::lengths::{brought, shown_by_moves};
+use super::lengths::{brought, shown_by_moves, skips_same_tool};
 use super::letters;
 use super::loose::{Found, farthest};
 use super::observe::{Act, observe};
@@ -41,6 +42,7 @@ pub fn compare<'r>(
             (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
         }
         let found = Comparison::default();
+        (ours, theirs) = (joined(ours), joined(theirs));
         let mut pairs = Pairs {
             target: target.0,
             brings_lengths: brought(source.0.control, target.0.control),
@@ -237,6 +239,16 @@ impl<'r> Pairs<'_, 'r> {
             let text = format!("tool {tool} is changed to before the first move, to bring its length");
             self.found.substituted.insert(text);
             self.moved(side, act);
+            return true;
+        }
+        if side == 0
+            && self.brings_lengths
+            && act.told == Told::SameTool
+            && let EventKind::ToolChange { tool } = what
+            && skips_same_tool(self.target.control)
+        {
+            let text = format!("tool {tool} is in the spindle: the target does not change to it again");
+            self.found.substituted.insert(text);
             return true;
         }
         if side == 1 {

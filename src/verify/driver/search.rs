@@ -2,11 +2,12 @@
 
 use super::verifier::Verifier;
 use crate::assume::Predicate;
+use crate::canon::Role;
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::certificate::Why;
 use crate::verify::compare::{is_cut, returns};
 use crate::verify::explore::{Proposals, inputs_of_both, unit};
-use crate::verify::sides::{Effort, Job};
+use crate::verify::sides::{Effort, Job, Side};
 use crate::verify::triage::telling_numbers;
 
 /// How much longer the first run may be where it comes to no end.
@@ -41,6 +42,11 @@ impl Verifier<'_, '_> {
         let blocks = source.blocks(self.program).len() as u64;
         let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
         let inch = unit(source, target).or(found.inch);
+        let assumed = self.job.assumptions.get(&self.program).into_iter().flatten();
+        let loaded = assumed.rev().find_map(|one| match one.predicate {
+            Predicate::Loaded(tool) => Some(tool),
+            _ => None,
+        });
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
@@ -53,6 +59,8 @@ impl Verifier<'_, '_> {
             scenario.milliseconds = scenario.milliseconds.map(|most| most.min(self.clock.left()));
             scenario.inch = inch;
             scenario.called &= !main;
+            scenario.tool = loaded.unwrap_or(scenario.tool);
+            at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
             self.theirs = proposals.theirs().clone();
             let run = self.run_longer(&mut scenario);
@@ -128,5 +136,14 @@ impl Verifier<'_, '_> {
         }
         scenario.steps = scenario.steps.saturating_mul(LONGER);
         self.run_source(scenario)
+    }
+}
+
+/// Rotary axes that the target does not have stand at their reference position, where a return of all axes leaves them.
+fn at_reference(scenario: &mut Scenario, target: &Side<'_>) {
+    for (axis, role) in [(3, Role::A), (4, Role::B), (5, Role::C)] {
+        if target.control.letter(role, None).is_none() {
+            scenario.start[axis] = scenario.references[0][axis];
+        }
     }
 }

@@ -108,8 +108,8 @@ pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Differen
 /// What a run of the source shows.
 fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> Held {
     match predicate {
-        // The emulated controls go by the tables, and both sides are set to one unit.
-        Predicate::Fact(_) | Predicate::Unit | Predicate::Main => Held::Kept,
+        // The emulated controls go by the tables, and both sides are set to one unit and found with the tool.
+        Predicate::Fact(_) | Predicate::Unit | Predicate::Main | Predicate::Loaded(_) => Held::Kept,
         Predicate::Unseen => Held::Untried,
         Predicate::Subscripts(subscripts) => {
             let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
@@ -131,6 +131,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         }
         Predicate::Nesting { counts, most, .. } => nesting(run, *counts, *most),
         Predicate::Alarms(most) => alarm(run, of, *most),
+        Predicate::ShortArcs(places) => short_arcs(run, of, places),
     }
 }
 
@@ -142,6 +143,8 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         Predicate::Fact(_)
         | Predicate::Unit
         | Predicate::Main
+        | Predicate::Loaded(_)
+        | Predicate::ShortArcs(_)
         | Predicate::Unseen
         | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, domain, .. } => {
@@ -233,6 +236,24 @@ fn nesting(run: &Run, counts: [bool; 2], most: u32) -> Held {
         }
     }
     Held::Kept
+}
+
+/// Whether the arcs of some blocks pass half a turn at the most.
+fn short_arcs(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span]) -> Held {
+    let mut held = Held::Untried;
+    for (before, event) in run.events.iter().enumerate() {
+        let EventKind::Arc { sweep, .. } = event.what else { continue };
+        let block = event.at.span;
+        let here = |place: &Span| block.start <= place.start && place.start < block.end.max(block.start + 1);
+        if !places.iter().any(here) || side.links().at(run, event.at.program) != Some(program) {
+            continue;
+        }
+        if sweep.abs() > 180.0 + 1e-6 {
+            return Held::Broken { before, what: format!("passes an arc of {:.0} degrees", sweep.abs()) };
+        }
+        held = Held::Kept;
+    }
+    held
 }
 
 /// Whether the number of the alarm that a program ended a run with is small enough.

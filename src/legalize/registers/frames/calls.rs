@@ -5,7 +5,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::LiveStatics;
 use crate::ir::analysis::upward_exposed::UpwardExposed;
 use crate::ir::{
-    Block, BlockId, Call, Class, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
+    Block, BlockId, Call, Class, Expr, Module, OF_NO_LEVEL, Place, Program, SourceInfo, Stmt, StmtKind,
+    TermKind, Var,
 };
 use crate::legalize::Context;
 use crate::legalize::rewrite::{Part, highest_temp, rebuild};
@@ -133,7 +134,8 @@ pub(super) fn keep(
         }));
         let mut after: BTreeSet<Var> = needs.after_call(cut, index, id).into_iter().collect();
         after.extend(needs.universe().members(&through[index]));
-        let lost: Vec<Var> = after.into_iter().filter(|var| written.contains(var)).collect();
+        let of_level = |var: &Var| written.contains(var) && var.number < OF_NO_LEVEL;
+        let lost: Vec<Var> = after.into_iter().filter(of_level).collect();
         if lost.is_empty() {
             continue;
         }

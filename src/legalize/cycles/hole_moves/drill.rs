@@ -1,0 +1,288 @@
+//! What a drilling cycle was told, at a place of a program.
+
+use crate::canon::{Group, Op, Role};
+use crate::ir::analysis::Modal;
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::{Class, Expr, Nc, Var};
+
+/// What a cycle is told, by the number that its register has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Told {
+    Retract,
+    Bottom,
+    Peck,
+    Clear,
+    Dwell,
+    Initial,
+}
+
+impl Told {
+    pub const ALL: [Self; 6] =
+        [Self::Retract, Self::Bottom, Self::Peck, Self::Clear, Self::Dwell, Self::Initial];
+
+    /// The register that holds it while a program does not know it.
+    pub const fn register(self, first: u32) -> Var {
+        Var { class: Class::Static, number: first + self as u32 }
+    }
+
+    /// The word that says it; the initial plane has none.
+    pub const fn role(self) -> Option<Role> {
+        match self {
+            Self::Retract => Some(Role::CycleR),
+            Self::Bottom => Some(Role::Z),
+            Self::Peck => Some(Role::CycleQ),
+            Self::Clear => Some(Role::PeckClear),
+            Self::Dwell => Some(Role::CycleDwell),
+            Self::Initial => None,
+        }
+    }
+}
+
+/// A value that a cycle was told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Value {
+    /// None was told.
+    None,
+    /// A number.
+    Is(f64),
+    /// What its register holds.
+    Held,
+    /// Told on some ways only.
+    Lost,
+}
+
+impl Value {
+    fn join(self, other: Self) -> Self {
+        match (self, other) {
+            _ if self == other => self,
+            (Self::Is(_) | Self::Held, Self::Is(_) | Self::Held) => Self::Held,
+            _ => Self::Lost,
+        }
+    }
+}
+
+/// Where the tool stands along Z under a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Height {
+    Initial,
+    Retract,
+    Unknown,
+}
+
+/// A cycle in force.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Drill {
+    /// None where ways disagree.
+    pub op: Option<Op>,
+    pub told: [Value; 6],
+    /// Whether the retract plane and the bottom were told in incremental words; none where ways disagree.
+    pub incremental: [Option<bool>; 2],
+    pub height: Height,
+    /// A word that no moves are known for.
+    pub strange: bool,
+}
+
+impl Drill {
+    fn new(op: Op, initial: Value) -> Self {
+        let mut told = [Value::None; 6];
+        told[Told::Initial as usize] = initial;
+        let incremental = [Some(true), Some(false)];
+        Self { op: Some(op), told, incremental, height: Height::Initial, strange: false }
+    }
+
+    pub fn told(&self, what: Told) -> Value {
+        self.told[what as usize]
+    }
+
+    fn join(&mut self, other: &Self) {
+        if self.op != other.op {
+            self.op = None;
+        }
+        for (mine, theirs) in self.told.iter_mut().zip(other.told) {
+            *mine = mine.join(theirs);
+        }
+        for (mine, theirs) in self.incremental.iter_mut().zip(other.incremental) {
+            if *mine != theirs {
+                *mine = None;
+            }
+        }
+        if self.height != other.height {
+            self.height = Height::Unknown;
+        }
+        self.strange |= other.strange;
+    }
+
+    /// Takes the words of a block. A word that may be vacant is told or not, which its register knows.
+    fn tell(&mut self, nc: &Nc, incremental: Option<bool>) {
+        for what in Told::ALL {
+            let Some(word) = what.role().and_then(|role| nc.word(role)) else { continue };
+            let before = self.told(what);
+            self.told[what as usize] = match word.constant() {
+                Some(number) => Value::Is(number),
+                None if word.may_be_vacant() && before == Value::Lost => Value::Lost,
+                None => Value::Held,
+            };
+            if let Some(kind) = self.incremental.get_mut(what as usize) {
+                *kind = incremental;
+            }
+        }
+        self.strange |= nc.items.iter().any(|item| {
+            use Role::{CycleI, CycleJ, PeckFirst, PeckLeast, PeckLess};
+            matches!(item, crate::ir::NcItem::Word(PeckFirst | PeckLess | PeckLeast | CycleI | CycleJ, _))
+        });
+    }
+}
+
+/// Which cycle is in force.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Cycle {
+    Off,
+    /// What stood before the library ran: the control's own, if any.
+    Outside,
+    On(Drill),
+    /// One of the library on some ways, none or the control's own on others.
+    Mixed,
+}
+
+/// What is known where something leads.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Known {
+    /// The program's coordinate along Z, where it is a number.
+    pub z: Option<f64>,
+    pub cycle: Cycle,
+}
+
+impl Known {
+    pub const OUTSIDE: Self = Self { z: None, cycle: Cycle::Outside };
+
+    /// After something that may do anything.
+    pub fn lose(&mut self) {
+        self.z = None;
+        if matches!(self.cycle, Cycle::On(_)) {
+            self.cycle = Cycle::Mixed;
+        }
+    }
+
+    /// Takes a block. `modal` is what is in force after it.
+    pub fn step(&mut self, nc: &Nc, modal: &Modal, rules: Runs) {
+        let incremental = modal.op(Group::Distance).map(|op| op == Op::Incremental);
+        if let Some(op) = nc.ops().filter(|op| op.is_cycle()).last() {
+            let initial = self.z.map_or(Value::Lost, Value::Is);
+            match &mut self.cycle {
+                Cycle::On(drill) => drill.op = Some(op),
+                Cycle::Mixed => {}
+                cycle => *cycle = Cycle::On(Drill::new(op, initial)),
+            }
+        } else if modal.op(Group::Cycle) == Some(Op::CycleOff) && self.cycle != Cycle::Outside
+            || nc.has(Op::CycleOff)
+        {
+            self.cycle = Cycle::Off;
+        }
+        let Cycle::On(drill) = &mut self.cycle else {
+            let mixed = self.cycle == Cycle::Mixed;
+            return self.stand(nc, incremental, mixed);
+        };
+        drill.tell(nc, incremental);
+        if nc.ops().any(|op| !keeps_height(op)) || nc.word(Role::LengthOffset).is_some() {
+            self.z = None;
+            drill.height = Height::Unknown;
+        }
+        if rules.drills(nc) {
+            let [_, back] = drill.ends(modal);
+            (drill.height, self.z) = back;
+        }
+    }
+
+    /// Where the tool stands after a block that drills nothing.
+    fn stand(&mut self, nc: &Nc, incremental: Option<bool>, mixed: bool) {
+        let shifts = nc.ops().any(|op| !keeps_height(op))
+            || nc.word(Role::LengthOffset).is_some()
+            || nc.word(Role::WorkOffset).is_some();
+        if shifts || mixed {
+            self.z = None;
+        }
+        let lasting =
+            |op: Op| keeps_height(op) || op.group() == Group::LengthComp || op.group() == Group::WorkOffset;
+        if let Some(word) = nc.word(Role::Z) {
+            let known = nc.ops().all(lasting) && !nc.ops().any(Op::takes_axes) && !mixed;
+            self.z = word.constant().filter(|_| known).and_then(|to| match incremental? {
+                true => Some(self.z? + to),
+                false => Some(to),
+            });
+        }
+    }
+}
+
+impl Drill {
+    /// Where the tool stands before the retraction to the initial plane, and after a hole.
+    fn ends(&self, modal: &Modal) -> [(Height, Option<f64>); 2] {
+        let number = |value: Value| if let Value::Is(number) = value { Some(number) } else { None };
+        let initial = number(self.told(Told::Initial));
+        let retract = match (self.told(Told::Retract), self.incremental[0]) {
+            (Value::None, _) => initial,
+            (Value::Is(by), Some(true)) => initial.map(|from| from + by),
+            (Value::Is(at), Some(false)) => Some(at),
+            _ => None,
+        };
+        let after = match modal.op(Group::ReturnPlane) {
+            Some(Op::ReturnR) => (Height::Retract, retract),
+            Some(Op::ReturnInitial) => (Height::Initial, initial),
+            _ => (Height::Unknown, None),
+        };
+        [(Height::Retract, retract), after]
+    }
+}
+
+/// Which blocks drill on the source.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Runs {
+    /// True if a block that begins a cycle drills at the position in it.
+    pub with_place: bool,
+    /// True if one drills where the tool stands, if it has none.
+    pub without: bool,
+}
+
+impl Runs {
+    /// True for a block that drills under a cycle in force.
+    pub fn drills(self, nc: &Nc) -> bool {
+        if nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0) {
+            return false;
+        }
+        let place = nc.word(Role::X).is_some() || nc.word(Role::Y).is_some() || nc.has(Op::CycleHere);
+        let depths = || nc.word(Role::Z).is_some() || nc.word(Role::CycleR).is_some();
+        match (nc.ops().any(Op::is_cycle), place) {
+            (true, true) => self.with_place,
+            (false, true) => true,
+            (true, false) => self.without,
+            (false, false) => depths() && self.without,
+        }
+    }
+}
+
+/// True for what leaves the tool's coordinate along Z alone.
+fn keeps_height(op: Op) -> bool {
+    use Group::*;
+    if matches!(op, Op::Probe | Op::ProbeOther | Op::Thread) {
+        return false;
+    }
+    matches!(
+        op.group(),
+        Motion | Cycle | Distance | FeedMode | ReturnPlane | RadiusComp | Spindle | Coolant | PathMode
+    ) || matches!(op, Op::PlaneXy | Op::CycleHere | Op::Stop | Op::OptionalStop | Op::Dwell)
+}
+
+impl Lattice for Known {
+    fn join(&mut self, other: &Self) -> bool {
+        let before = self.clone();
+        if self.z != other.z {
+            self.z = None;
+        }
+        match (&mut self.cycle, &other.cycle) {
+            (Cycle::On(mine), Cycle::On(theirs)) => mine.join(theirs),
+            (Cycle::Off, Cycle::Off) => {}
+            (Cycle::Off | Cycle::Outside, Cycle::Off | Cycle::Outside) => self.cycle = Cycle::Outside,
+            _ => self.cycle = Cycle::Mixed,
+        }
+        *self != before
+    }
+}
