@@ -7,7 +7,7 @@ use crate::dialect::Question;
 use crate::legalize::assumptions::{facts, runtime};
 use crate::legalize::calls::{chain, jump_chains, link, modal_calls, modal_off, nesting, outline, repeats};
 use crate::legalize::codes::{
-    beside_moves, by_number, lookahead, machine_codes, missing, pauses, substitutes,
+    beside_moves, by_number, code_chains, lookahead, machine_codes, missing, pauses, substitutes,
 };
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_words, dwell, tapping};
 use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
@@ -21,9 +21,10 @@ use crate::legalize::offsets::{
     active_offsets, external, kept_length, length_radius, offset_rows, position_length, set_position,
     tool_lengths, tool_word,
 };
-use crate::legalize::operator::{alarms, ports, questions};
+use crate::legalize::operator::{alarms, omitted, ports, questions};
 use crate::legalize::variables::{
-    banks, computed_numbers, probe_points, state, vacancy, vacancy_flags, vacant_writes,
+    banks, computed_numbers, modal_reads, probe_points, state, subscript_chains, timers, vacancy,
+    vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -101,8 +102,16 @@ const STRUCTURE: &[Pass] = &[
 ];
 
 const BLOCKS: &[Pass] = &[
+    Pass::edits(
+        "code-chains",
+        "codes by a computed number become comparisons with each number",
+        code_chains::run,
+    )
+    .when(code_chains::concerns)
+    .changes_flow(),
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
-        .when(|c, _| c.has(Feature::Code)),
+        .when(|c, _| c.has(Feature::Code))
+        .needs(&["code-chains"]),
     Pass::edits(
         "beside-moves",
         "spindle, coolant and tool change get blocks of their own",
@@ -228,8 +237,16 @@ const MOVES: &[Pass] = &[
 ];
 
 const VARIABLES: &[Pass] = &[
+    Pass::edits(
+        "subscript-chains",
+        "variables by a computed number become comparisons with each number",
+        subscript_chains::run,
+    )
+    .when(subscript_chains::concerns)
+    .changes_flow(),
     Pass::reports("banks", "looks up computed numbers of a space of their own", banks::run)
-        .when(|c, _| c.has(Feature::Indirect)),
+        .when(|c, _| c.has(Feature::Indirect))
+        .needs(&["subscript-chains"]),
     Pass::edits(
         "computed-numbers",
         "computed numbers of variables reach what they reached",
@@ -246,6 +263,11 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("probe-points", "touch points by number are kept in registers", probe_points::run)
         .changes_flow()
         .when(|c, _| c.role(Role::ProbePoint)),
+    Pass::rewrites("modal-reads", "modal codes that are read become constants or tests", modal_reads::run)
+        .when(modal_reads::concerns)
+        .changes_flow(),
+    Pass::rewrites("timers", "a timer that programs set becomes the seconds since the start", timers::run)
+        .when(timers::concerns),
     Pass::edits("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
@@ -264,12 +286,14 @@ const VARIABLES: &[Pass] = &[
     .changes_flow(),
     Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
-        .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows"]),
+        .needs(&["vacant-writes", "modal-reads", "timers", "position-length", "tool-word", "offset-rows"]),
 ];
 
 const CYCLES: &[Pass] = &[
     Pass::reports("alarms", "checks alarm numbers that the target does not take", alarms::run)
         .when(|c, _| c.has(Feature::Message)),
+    Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
+        .when(omitted::concerns),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
     Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)

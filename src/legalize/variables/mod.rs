@@ -2,9 +2,12 @@
 
 pub(in crate::legalize) mod banks;
 pub(in crate::legalize) mod computed_numbers;
+pub(in crate::legalize) mod modal_reads;
 pub(in crate::legalize) mod probe_points;
 pub(in crate::legalize) mod retention;
 pub(in crate::legalize) mod state;
+pub(in crate::legalize) mod subscript_chains;
+pub(in crate::legalize) mod timers;
 pub(in crate::legalize) mod vacancy;
 pub(in crate::legalize) mod vacancy_flags;
 pub(in crate::legalize) mod vacant_writes;

@@ -14,8 +14,8 @@ static MACHINES: LazyLock<[Vec<Control>; 2]> = LazyLock::new(|| {
     };
     let fanuc = include_str!("../../../../machines/fanuc-0i.toml");
     let haas = include_str!("../../../../machines/haas-vf.toml");
-    let (fadal, cc100) = ("dialect = \"fadal\"\nunits = \"inch\"", "dialect = \"cc100\"\nunits = \"inch\"");
-    let inch = [fadal, fanuc, haas, cc100];
+    let cc100 = concat!("units = \"inch\"\n", include_str!("../../../../machines/cc100-mill.toml"));
+    let inch = ["dialect = \"fadal\"\nunits = \"inch\"", fanuc, haas, cc100];
     let metric = inch.map(|text| {
         assert!(text.contains("units = \"inch\""));
         text.replace("units = \"inch\"", "units = \"metric\"")
@@ -29,9 +29,6 @@ pub fn machine(dialect: &str, metric: bool) -> &'static Control {
     MACHINES[usize::from(metric)].iter().find(named).expect("a dialect")
 }
 
-/// Targets that are not finished: all that is written for them is for review.
-const UNFINISHED: &[&str] = &["cc100"];
-
 /// Machines that conversions are written for, but for one dialect: set as `metric` says second, and those whose unit no
 /// program can change as it says first, like the machine that the program is from.
 pub fn targets(from: &str, metric: [bool; 2]) -> impl Iterator<Item = &'static Control> {
@@ -40,7 +37,7 @@ pub fn targets(from: &str, metric: [bool; 2]) -> impl Iterator<Item = &'static C
         let [old, new] = metric;
         machine(target.name(), if selects(target) { new } else { old })
     };
-    let written = |target: &&Control| target.entry().emit.is_some() && !UNFINISHED.contains(&target.name());
+    let written = |target: &&Control| target.entry().emit.is_some();
     let of = &MACHINES[usize::from(metric[1])];
     of.iter()
         .filter(move |target| target.name() != from && written(target))
