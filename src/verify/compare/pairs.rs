@@ -12,7 +12,8 @@ use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
 use super::shown::{as_messages, lacks_messages};
 use super::substitutes::{
-    cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
+    cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
+    stands_for,
 };
 use super::tolerance::Tolerance;
 use super::variables::variables_differ;
@@ -275,7 +276,7 @@ impl<'r> Pairs<'_, 'r> {
         }
         let leaves = returns_to_caller(what);
         self.left |= leaves.is_some();
-        let left_out = is_left_out(self.target, what).or(leaves);
+        let left_out = is_left_out(self.target, what).or_else(|| makes_ready(self.target, what)).or(leaves);
         self.found.substituted.extend(left_out.clone());
         left_out.is_some()
     }
