@@ -191,3 +191,17 @@ fn a_lock_of_before_is_read() {
     let wants = ("main.nc", "O1000\nG21\n#103=50.\nM98 P9000\nG0 X#103\nM30\n");
     assert_eq!(refused(&to_haas(&[wants, MACRO], lock)), [true, false]);
 }
+
+#[test]
+fn the_lock_says_which_programs_hold_copies_of_which() {
+    let [source, target] = ["fanuc", "cc100"].map(|name| Control::plain(name).unwrap());
+    let main = ("a.nc", "O1\nG90\nM98 P9010\nM30\n");
+    let subs = ("b.nc", "O9010\nM98 P9020\nM99\nO9020\nG91\nM99\n");
+    let lock = Lock::new("fanuc", "cc100");
+    let made = convert(&inputs(&[main, subs]), &source, &target, lock, Options::default());
+    let held = |name: &str| made.lock.parts[name].iter().map(String::as_str).collect::<Vec<_>>();
+    assert_eq!(held("O9010"), ["O1"]);
+    assert_eq!(held("O9020"), ["O1", "O9010"]);
+    let text = made.lock.print();
+    assert!(text.contains("[parts]") && text.contains("after their M30"), "{text}");
+}

@@ -67,6 +67,8 @@ super::vocabulary! {
         ToolTable = "tool.table",
         /// The modal code of a group: group, by the common numbers of groups.
         Modal = "modal",
+        /// Whether a G code is in force: 0 if it is, by its number.
+        CodeTest = "modal.test",
         /// The modal code of a group in the running block: group.
         ModalNow = "modal.now",
         /// Modal G code of the motion group, plus one.

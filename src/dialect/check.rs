@@ -90,6 +90,7 @@ pub const STATEMENTS: &[&str] = &[
     "table.transfer",
     "test.unit",
     "assign.sign",
+    "variable.computed",
     "call.macro",
     "call.modal",
     "call.program",

@@ -46,7 +46,9 @@ pub use load::load;
 pub use matrix::matrix;
 pub use model::*;
 pub use page::page;
-pub use profile::{Axis, DecimalPoint, Machine, Plain, Profile, Signal, SiteCode, Units, VariableRun};
+pub use profile::{
+    Axis, DecimalPoint, Machine, Outputs, Plain, Profile, Signal, SiteCode, Units, VariableRun,
+};
 pub use questions::{Answers, Question};
 pub use reader::{faults_as_text, faults_of_files};
 pub use registry::Entry;

@@ -22,6 +22,7 @@ impl Control {
         overlay.keep_present(&mut dialect, &settings);
         overlay.doubt(&mut dialect);
         overlay.behaviours(&mut dialect);
+        overlay.limits(&mut dialect);
         extents::clamp(&mut dialect, &overlay.profile);
         overlay.axes(&mut dialect);
         let reserved = overlay.runs("reserved", &overlay.profile.reserved.clone());

@@ -19,6 +19,8 @@ pub struct Profile {
     pub title: Option<String>,
     /// The kind of machine.
     pub machine: Option<Machine>,
+    /// What becomes of output that the machine has no way to send; absent where a program with output is refused.
+    pub outputs: Option<Outputs>,
     /// The units its programs are in where no code says so.
     pub units: Option<Units>,
     /// What a number without a decimal point counts.
@@ -38,6 +40,8 @@ pub struct Profile {
     /// Answers to questions of behaviour, found on the machine: `divide.by.zero = "alarm"`. They count instead of the
     /// table's, and as confirmed.
     pub behaviours: BTreeMap<String, Plain>,
+    /// Limits, found on the machine: `call.all = 8`. They count instead of the table's, and as confirmed.
+    pub limits: BTreeMap<String, u32>,
     /// Variables that programs must not be given: `#149`, `#500-#549`, `VX`.
     pub reserved: Vec<String>,
     /// The variables that there are; absent where the table's classes all are.
@@ -51,6 +55,14 @@ pub struct Profile {
     /// Where the file's `confirm`, `parameters`, ... stand, for reports.
     #[serde(skip)]
     pub(super) places: BTreeMap<String, std::ops::Range<usize>>,
+}
+
+/// What becomes of output that a machine has no way to send.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outputs {
+    /// It is left out: nobody reads it.
+    Omit,
 }
 
 /// The kind of machine.
@@ -269,7 +281,7 @@ impl Profile {
     pub fn read(text: &str) -> Result<Self, Vec<Diagnostic>> {
         let mut reader = Reader::new(Code::MachineProfile);
         let mut document = reader.document(text);
-        for key in ["parameters", "settings", "behaviours"] {
+        for key in ["parameters", "settings", "behaviours", "limits"] {
             if let Some(DeValue::Table(table)) = document.get_mut(key).map(|value| value.get_mut()) {
                 flatten(table, 0);
             }

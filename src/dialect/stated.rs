@@ -32,6 +32,24 @@ impl Overlay {
         }
     }
 
+    /// Puts the limits that the profile states in place of the table's.
+    pub(super) fn limits(&mut self, dialect: &mut Dialect) {
+        for (name, most) in self.profile.limits.clone() {
+            match dialect.limits.iter_mut().find(|row| row.name == name) {
+                Some(row) => {
+                    row.max = Some(most);
+                    row.origin.confirmed = true;
+                    row.origin.source = "machine profile".into();
+                }
+                None => {
+                    let names: Vec<&str> = dialect.limits.iter().map(|row| row.name.as_str()).collect();
+                    let help = format!("its limits are {}", names.join(", "));
+                    self.fault(&format!("limits:{name}"), format!("the table has no limit '{name}'"), help);
+                }
+            }
+        }
+    }
+
     /// The setting that the profile states and that answers the question in another way.
     fn contradicted(&self, dialect: &Dialect, question: Question, value: &str) -> Option<String> {
         let says = |name: &String| {

@@ -41,6 +41,8 @@ pub struct Context<'a> {
     pub(super) analyses: Analyses,
     /// How much is optimized.
     pub level: Level,
+    /// True where a G code by a computed number was written out: a run may come in any that its number can be.
+    pub(super) chained: bool,
     /// What earlier runs chose.
     pub locked: Locked<'a>,
     /// The temporaries and statics that are needed after calls, from the pass `temporaries` on.
@@ -124,6 +126,7 @@ impl<'a> Context<'a> {
             features: Features::default(),
             analyses: Analyses::default(),
             level: Level::default(),
+            chained: false,
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
             copied: Vec::new(),

@@ -7,7 +7,7 @@ use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::{Emitted, Writer};
 use crate::ir::validate::Invalid;
-use crate::ir::{Module, Valid};
+use crate::ir::{Module, Program, Valid};
 use crate::legalize::{Context, Locked, Modal, pipeline};
 use crate::opt;
 use crate::syntax::parse_faults;
@@ -35,6 +35,8 @@ pub(super) fn make(
     entry: Modal,
 ) -> Made {
     let count = module.programs.len();
+    let short = |program: &Program| Some(program.name.as_ref()?.short().into_owned());
+    let names: Vec<Option<String>> = module.programs.iter().map(short).collect();
     let mut context = context(&found, source, target, level, lock.locked(), entry);
     let fault = pipeline::run(&mut module, &mut context).err();
     let registers = std::mem::take(&mut context.registers);
@@ -43,6 +45,10 @@ pub(super) fn make(
     let copied = std::mem::take(&mut context.copied);
     let legal = context.into_findings();
     lock.take(&registers, numbers.chosen);
+    lock.hold(copied.iter().filter_map(|copy| {
+        // What a program without a name holds, its file says.
+        Some((copy.name.clone(), names.get(copy.caller)?.clone()?))
+    }));
     let taken = registers.taken_in_words();
     let mut naming = naming(&module, &registers, &numbers.of);
     found.resize_with(count, Vec::new);

@@ -45,6 +45,9 @@ pub struct Lock {
     /// Program numbers on the target, by what names the program on the source.
     #[serde(default)]
     pub programs: BTreeMap<String, u32>,
+    /// Where calls reach no other file: the programs that hold a copy of a program, by its name on the source.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub parts: BTreeMap<String, BTreeSet<String>>,
 }
 
 /// Why a lock could not be used.
@@ -83,6 +86,13 @@ const HEAD: &str = "\
 
 ";
 
+const PARTS: &str = "\
+# Calls of the target reach no other file. So each program that is called stands
+# in the files of those that call it, after their M30: [parts] says in which. A
+# change of such a program must be made in each of them, or here and converted again.
+
+";
+
 impl Lock {
     /// The file's name.
     pub const NAME: &'static str = "macroglot.lock";
@@ -104,6 +114,7 @@ impl Lock {
         };
         if self.others.is_empty() {
             (self.own, self.reached, self.over_calls) = Default::default();
+            self.parts.clear();
         }
         let named = self.others.iter().filter(|file| *file != UNNAMED).cloned();
         self.files = named.chain(names.into_iter().map(str::to_owned)).collect();
@@ -128,6 +139,13 @@ impl Lock {
         self.own = own.into_iter().collect();
         let reached = self.reached.iter().chain(registers.reached.runs()).copied();
         self.reached = Numbers::of(reached).runs().to_vec();
+    }
+
+    /// Takes over which programs hold copies of which.
+    pub fn hold(&mut self, copies: impl Iterator<Item = (String, String)>) {
+        for (part, holder) in copies {
+            self.parts.entry(part).or_default().insert(holder);
+        }
     }
 
     /// What the passes are told of it.
@@ -164,6 +182,7 @@ impl Lock {
 
     /// Its text.
     pub fn print(&self) -> String {
-        format!("{HEAD}{}", toml::to_string(self).unwrap_or_default())
+        let parts = if self.parts.is_empty() { "" } else { PARTS };
+        format!("{HEAD}{parts}{}", toml::to_string(self).unwrap_or_default())
     }
 }

@@ -28,7 +28,6 @@ impl Machine {
     /// What only an interpreter knows (modal codes as its control numbers them, the last
     /// words, variables) it answers itself. Reading a timer lets it move on.
     pub fn read(&mut self, state: Sys, subscripts: &[u32], trace: &mut Trace) -> Option<f64> {
-        let passed = self.clock;
         if matches!(state, Sys::MachinePosition | Sys::ProbePoint) {
             self.round_read();
         }
@@ -46,18 +45,8 @@ impl Machine {
             }
         }
         match state {
-            Sys::TimerMs => {
-                self.clock += self.tick;
-                return Some(passed - self.timer_ms_from);
-            }
-            Sys::TimerHours => {
-                self.clock += self.tick;
-                return Some((passed - self.timer_hours_from) / 3_600_000.0);
-            }
-            Sys::CycleSeconds => {
-                self.clock += self.tick;
-                return Some(passed / 1000.0);
-            }
+            // Time passes first: what is read to set a timer by is then no part of what it counts.
+            Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds => self.clock += self.tick,
             Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
                 self.rules.radius_table.ask(trace);
             }

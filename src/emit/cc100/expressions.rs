@@ -129,7 +129,7 @@ impl Emitter<'_> {
     }
 
     /// The row and the cell of a state: `TRF=G54 X`, `COR=T01 R`; without a cell where it has none.
-    fn place(&mut self, state: Sys, subscripts: &[Expr], mode: char) -> Option<String> {
+    pub(super) fn place(&mut self, state: Sys, subscripts: &[Expr], mode: char) -> Option<String> {
         let whole =
             |value: &Expr| value.constant().filter(|v| *v >= 0.0 && v.fract() == 0.0).map(|v| v as u32);
         let constants: Option<Vec<u32>> = subscripts.iter().map(whole).collect();

@@ -12,6 +12,10 @@ use crate::text::Span;
 /// Characters of a comment: the longest that the course prints has 63 (seed 004:1570).
 const COMMENT: usize = 60;
 
+/// No source says that the control has a switch for it.
+pub(super) const SKIP: &str = "a block skip: no source says that it has one. Put a jump on a variable round the block, \
+                               and let the operator set the variable";
+
 /// The line that is being written, and what waits for the next one.
 #[derive(Default)]
 pub(super) struct Page<'p> {
@@ -68,7 +72,7 @@ impl<'p> Emitter<'p> {
         self.out.span = site.span;
         self.carry(site);
         if site.skip.is_some() {
-            self.out.unmapped("a block skip: no source says that it has one");
+            self.out.unmapped(SKIP);
         }
         self.open();
     }

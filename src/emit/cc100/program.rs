@@ -2,8 +2,8 @@
 
 use super::Emitter;
 use super::labels::Labels;
-use super::lines::plain;
-use crate::canon::Op;
+use super::lines::{SKIP, plain};
+use crate::canon::{Op, Sys};
 use crate::diag::Code;
 use crate::dialect::Compares;
 use crate::dialect::OperandPlace;
@@ -157,7 +157,7 @@ impl<'p> Emitter<'p> {
             }
             Form::Skip(_) | Form::SkipGoto { .. } => {
                 self.out.span = site.span;
-                self.out.unmapped("a block skip: no source says that it has one");
+                self.out.unmapped(SKIP);
             }
             Form::Then | Form::While { .. } | Form::EndDo(_) => self.out.unmapped("a statement round others"),
             Form::Own(then) => {
@@ -184,12 +184,26 @@ impl<'p> Emitter<'p> {
             other => (other, negated),
         };
         self.begin(site);
-        let (Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0)), true) = (condition, zero) else {
+        let (Cond::Compare(relation, tested, Expr::Number(0.0)), true) = (condition, zero) else {
             return self.out.unmapped("a condition of that kind");
         };
         let relation = if negated { relation.negated() } else { *relation };
-        self.out.push_str("TST ");
-        self.variable(*var);
+        match tested {
+            Expr::Var(var) => {
+                self.out.push_str("TST ");
+                self.variable(*var);
+            }
+            // Of the test of a code only zero or not zero is known.
+            Expr::System(state @ Sys::CodeTest, code)
+                if matches!(relation, Relation::Equal | Relation::NotEqual) =>
+            {
+                match self.place(*state, code, 'r') {
+                    Some(test) => self.out.push_str(&test),
+                    None => return,
+                }
+            }
+            _ => return self.out.unmapped("a condition of that kind"),
+        }
         self.finish();
         self.open();
         self.out.push_str(match relation {

@@ -93,6 +93,11 @@ impl<'p> Emitter<'p> {
 
     /// Writes the end of a block that leaves it.
     pub(super) fn leave(&mut self, block: &'p Block) {
+        let alarm = block.stmts.last().is_some_and(|last| matches!(last.kind, StmtKind::Alarm { .. }));
+        if alarm && matches!(block.term.kind, TermKind::End { .. }) {
+            // Nothing comes here.
+            return self.carry(&block.term.site);
+        }
         self.begin(&block.term.site);
         match &block.term.kind {
             TermKind::Call { call, .. } => self.call(call),

@@ -22,8 +22,7 @@ impl<'p> Emitter<'p> {
             }
             return;
         }
-        let by_variable =
-            |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.constant().is_none());
+        let by_variable = |item: &NcItem| matches!(item, NcItem::Word(_, value) | NcItem::Code(_, value) if value.constant().is_none());
         if nc.items.iter().any(by_variable) {
             let (first, rest): (Vec<NcItem>, Vec<NcItem>) =
                 nc.items.iter().cloned().partition(|item| !by_variable(item));
@@ -84,6 +83,13 @@ impl<'p> Emitter<'p> {
                     text.into_iter().for_each(|text| self.word(text));
                 }
                 NcItem::Word(role, value) => self.role_word(*role, value, &known, &mut used),
+                // `G=V19`: its numbers are the same on both controls (seed 004:1632).
+                NcItem::Code(letter, Expr::Var(var)) => {
+                    self.space();
+                    self.out.push(*letter);
+                    self.out.push('=');
+                    self.variable(*var);
+                }
                 NcItem::Code(letter, _) => self.out.unmapped(format_args!("a computed {letter} code")),
             }
         }

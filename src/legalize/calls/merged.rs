@@ -14,6 +14,7 @@ use crate::ir::{
     Block, BlockId, Callee, Class, Comment, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind,
     TermKind, Var,
 };
+use crate::legalize::calls::inlined;
 use crate::legalize::context::Copied;
 use crate::legalize::registers::frames::repeats;
 use crate::legalize::rewrite::highest_temp;
@@ -46,7 +47,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, program.site.span, what));
             continue;
         }
+        let own = program.blocks.len();
         merge(program, &all, &before, &names);
+        if let Some(most) = context.target.limit("call.all")
+            && !inlined::run(program, most, own)
+        {
+            let what = format!(
+                "calls nest deeper than the {most} levels that the target takes, and the program grows too large where \
+                 they are written out: move one of the calls up to a program nearer the main program"
+            );
+            let span = program.site.span;
+            context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()));
+        }
         for (callee, span) in all {
             let name = before[callee].name.as_ref().map(|name| name.short().into_owned()).unwrap_or_default();
             let [caller, callee] = [index, callee].map(|at| context.origins[at]);

@@ -4,7 +4,8 @@
 //! programs. Where a chain of calls outside of circles is longer, the target stops with an alarm that the source does not
 //! raise: it is refused. Where programs call each other in a circle, or a call is computed, how deep they nest is for
 //! data to decide: then the limit is a condition. Side condition: a call that leaves the library counts as one level;
-//! `link` reports those.
+//! `link` reports those. Where calls reach parts of the same program alone, [`super::inlined`] writes out what nests
+//! deeper.
 
 mod routines;
 
@@ -13,6 +14,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Limit, Side, to_confirm};
 use crate::ir::Module;
 use crate::legalize::Context;
+use crate::legalize::calls::merged;
 use crate::text::Span;
 use routines::{Edge, Routines};
 
@@ -23,6 +25,9 @@ const LIMITS: [(&str, [bool; 2]); 3] =
 /// Reports programs whose calls may nest too deep.
 pub fn run(module: &Module, context: &mut Context<'_>) {
     let target = context.target;
+    if merged::concerns(target) {
+        return;
+    }
     let known = |name: &str| context.source.limit_row(name).filter(|row| row.origin.confirmed)?.max;
     // A source that takes no more stops first.
     let here: Vec<Option<u32>> = LIMITS.iter().map(|(name, _)| known(name)).collect();

@@ -149,7 +149,7 @@ pub(in crate::legalize) fn renumbered(group: f64, source: &Control, target: &Con
 }
 
 /// True for a code that means the same on both controls.
-fn is_same(letter: char, number: f64, source: &Control, target: &Control) -> bool {
+pub(in crate::legalize) fn is_same(letter: char, number: f64, source: &Control, target: &Control) -> bool {
     let (here, there) = (source.code(letter, number, &[]), target.code(letter, number, &[]));
     let unnamed = |op: Op| {
         matches!(op, Op::Builder | Op::MachineSpecific | Op::CycleOther | Op::ProbeOther | Op::PlaneOther)

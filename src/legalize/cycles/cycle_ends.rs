@@ -10,11 +10,12 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
-use crate::legalize::features::Features;
+use crate::legalize::features::{Feature, Features};
 
-/// True if the library has cycles, and the target does not end them by motion.
+/// True if the library has cycles, or codes that may be one, and the target does not end them by motion.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    features.any_op(Op::is_cycle) && ends(context.source) && !ends(context.target)
+    let may_drill = features.any_op(Op::is_cycle) || features.has(Feature::Code) || context.chained;
+    may_drill && ends(context.source) && !ends(context.target)
 }
 
 /// True if a motion code is sure to end the cycle in force.

@@ -2,8 +2,8 @@
 //!
 //! Law: a second is a thousand milliseconds. A constant is converted here; a computed value goes
 //! to the seconds word where the target has one, since its milliseconds word takes whole
-//! numbers only. A target may have one time that means something else: one control waits for START at 66 seconds. Two
-//! dwells of half the time are written for it.
+//! numbers only. A target may have one time that means something else, a wait for START: two dwells of half the time are
+//! written for it.
 
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};

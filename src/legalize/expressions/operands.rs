@@ -19,6 +19,7 @@ use crate::legalize::context::Context;
 use crate::legalize::expressions::split::{is_free_all, is_leaf, place_of};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{self, Position, highest_temp};
+use crate::legalize::variables::modal_reads::is_test;
 
 /// True where the target has places that do not take everything, and the library may have something there.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -110,7 +111,9 @@ impl Taker<'_> {
     /// A whole expression, where it stands.
     fn whole(&mut self, e: &mut Expr, place: OperandPlace) {
         let (target, word) = (self.target, place == OperandPlace::Word);
-        let Some(form) = target.form(place) else { return };
+        // Where calls have no arguments, one becomes an assignment.
+        let assigned = || target.form(OperandPlace::Assignment).filter(|_| place == OperandPlace::Argument);
+        let Some(form) = target.form(place).or_else(assigned) else { return };
         if !self.takes(form, e) {
             self.take_out(e, word);
         }
@@ -124,6 +127,7 @@ impl Taker<'_> {
         const PLACE: OperandPlace = OperandPlace::Condition;
         let zero = self.target.form(PLACE).is_some_and(|form| form.compares == Compares::Zero);
         match cond {
+            cond if is_test(cond) => {}
             Cond::Compare(_, a, b) if zero => {
                 let movable = |side: &Expr| self.is_movable(side, false);
                 if *b != Expr::Number(0.0) && movable(a) && movable(b) {

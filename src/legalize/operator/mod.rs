@@ -4,5 +4,6 @@ pub(in crate::legalize) mod alarms;
 pub(in crate::legalize) mod formatted;
 pub(in crate::legalize) mod letters;
 pub(in crate::legalize) mod messages;
+pub(in crate::legalize) mod omitted;
 pub(in crate::legalize) mod ports;
 pub(in crate::legalize) mod questions;

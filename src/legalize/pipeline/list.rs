@@ -9,7 +9,8 @@ use crate::legalize::calls::{
     chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
 };
 use crate::legalize::codes::{
-    beside_moves, by_number, forbidden, lookahead, machine_codes, missing, pauses, substitutes, waits,
+    beside_moves, by_number, code_chains, forbidden, lookahead, machine_codes, missing, pauses, substitutes,
+    waits,
 };
 use crate::legalize::cycles::{
     cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves, tap_leads, tapping,
@@ -25,9 +26,10 @@ use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, offset_rows, position_length,
     radius_words, set_position, side_changes, tool_lengths, tool_word,
 };
-use crate::legalize::operator::{alarms, formatted, questions};
+use crate::legalize::operator::{alarms, formatted, omitted, questions};
 use crate::legalize::variables::{
-    banks, computed_numbers, probe_points, signals, state, touch_points, vacancy_flags, vacant_writes,
+    banks, computed_numbers, modal_reads, probe_points, signals, state, subscript_chains, timers,
+    touch_points, vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -105,8 +107,16 @@ const STRUCTURE: &[Pass] = &[
 ];
 
 const BLOCKS: &[Pass] = &[
+    Pass::edits(
+        "code-chains",
+        "codes by a computed number become comparisons with each number",
+        code_chains::run,
+    )
+    .when(code_chains::concerns)
+    .changes_flow(),
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
-        .when(|c, _| c.has(Feature::Code)),
+        .when(|c, _| c.has(Feature::Code))
+        .needs(&["code-chains"]),
     Pass::edits(
         "beside-moves",
         "spindle, coolant and tool change get blocks of their own",
@@ -269,8 +279,16 @@ const MOVES: &[Pass] = &[
 ];
 
 const VARIABLES: &[Pass] = &[
+    Pass::edits(
+        "subscript-chains",
+        "variables by a computed number become comparisons with each number",
+        subscript_chains::run,
+    )
+    .when(subscript_chains::concerns)
+    .changes_flow(),
     Pass::reports("banks", "looks up computed numbers of a space of their own", banks::run)
-        .when(|c, _| c.has(Feature::Indirect)),
+        .when(|c, _| c.has(Feature::Indirect))
+        .needs(&["subscript-chains"]),
     Pass::edits(
         "computed-numbers",
         "computed numbers of variables reach what they reached",
@@ -290,6 +308,11 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("touch-points", "places where the probe touched are kept as point 1", touch_points::run)
         .when(touch_points::concerns)
         .needs(&["computed-numbers"]),
+    Pass::rewrites("modal-reads", "modal codes that are read become constants or tests", modal_reads::run)
+        .when(modal_reads::concerns)
+        .changes_flow(),
+    Pass::rewrites("timers", "a timer that programs set becomes the seconds since the start", timers::run)
+        .when(timers::concerns),
     Pass::edits("position-length", "positions hold the tool length as they did", position_length::run)
         .when(|c, _| c.has(Feature::System) || c.has(Feature::Indirect))
         .needs(&["computed-numbers"]),
@@ -311,7 +334,15 @@ const VARIABLES: &[Pass] = &[
         .needs(&["computed-numbers"]),
     Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
-        .needs(&["vacant-writes", "position-length", "tool-word", "offset-rows", "signals"]),
+        .needs(&[
+            "vacant-writes",
+            "modal-reads",
+            "timers",
+            "position-length",
+            "tool-word",
+            "offset-rows",
+            "signals",
+        ]),
 ];
 
 /// True if the library drills.
@@ -322,6 +353,8 @@ fn drills(features: &Features) -> bool {
 const CYCLES: &[Pass] = &[
     Pass::reports("alarms", "checks alarm numbers that the target does not take", alarms::run)
         .when(|c, _| c.has(Feature::Message)),
+    Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
+        .when(omitted::concerns),
     Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
         .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
     Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)

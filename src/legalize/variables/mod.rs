@@ -3,10 +3,13 @@
 pub(in crate::legalize) mod banks;
 pub(in crate::legalize) mod computed_numbers;
 mod cycle_seconds;
+pub(in crate::legalize) mod modal_reads;
 pub(in crate::legalize) mod probe_points;
 pub(in crate::legalize) mod retention;
 pub(in crate::legalize) mod signals;
 pub(in crate::legalize) mod state;
+pub(in crate::legalize) mod subscript_chains;
+pub(in crate::legalize) mod timers;
 pub(in crate::legalize) mod touch_points;
 pub(in crate::legalize) mod vacancy;
 pub(in crate::legalize) mod vacancy_flags;

@@ -13,7 +13,8 @@ use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
 use super::shown::{as_messages, lacks_messages};
 use super::substitutes::{
-    cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, returns_to_caller, stands_for,
+    cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
+    stands_for,
 };
 use super::tolerance::Tolerance;
 use super::variables::variables_differ;
@@ -24,6 +25,17 @@ use crate::verify::sides::{Side, SymbolMap};
 /// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
 /// the end, and the centre in two axes, each by a half.
 const ARC_ROUNDINGS: f64 = 2.0;
+
+/// Without the output that the target's profile says to leave out. What stands before a question is its text.
+fn without_outputs(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+    let asks = |act: Option<&Act<'_>>| act.is_some_and(|act| matches!(*act.what, EventKind::Asked { .. }));
+    let stays: Vec<bool> = acts
+        .iter()
+        .enumerate()
+        .map(|(at, act)| !matches!(*act.what, EventKind::Output { .. }) || asks(acts.get(at + 1)))
+        .collect();
+    acts.into_iter().zip(stays).filter_map(|(act, stays)| stays.then_some(act)).collect()
+}
 
 /// Compares what an observer could tell of two runs, and the variables that outlive them.
 pub fn compare<'r>(
@@ -37,6 +49,9 @@ pub fn compare<'r>(
         let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
         if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
             (ours, theirs) = (as_messages(ours), as_messages(theirs));
+        }
+        if target.0.control.profile().outputs.is_some() {
+            (ours, theirs) = (without_outputs(ours), without_outputs(theirs));
         }
         if brought(source.0.control, target.0.control) {
             (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
@@ -52,6 +67,7 @@ pub fn compare<'r>(
             at: [None; 2],
             runs: [Runs::new(), Runs::new()],
             uncancelled: false,
+            left: false,
         };
         let far = pairs.walk(&ours, &theirs, cut);
         let what = pairs.found;
@@ -105,6 +121,9 @@ struct Pairs<'p, 'r> {
     runs: [Runs; 2],
     /// True where the source returns without a work offset, which the target cannot.
     uncancelled: bool,
+    /// True where the source has left for a block of its caller. Where there is none it is a main program, which may go on
+    /// at a block of its own: what it does there only a run that goes on there shows.
+    left: bool,
 }
 
 impl<'r> Pairs<'_, 'r> {
@@ -114,6 +133,9 @@ impl<'r> Pairs<'_, 'r> {
         let (mut i, mut j) = (0, 0);
         loop {
             let (a, b) = (ours.get(i), theirs.get(j));
+            if self.left && b.is_some_and(|b| !matches!(*b.what, EventKind::End { .. })) {
+                return i + j;
+            }
             let what = match (a, b) {
                 (None, None) => return i + j,
                 (Some(a), Some(b)) => match self.differ(a, b, self.near(a, b)) {
@@ -264,7 +286,9 @@ impl<'r> Pairs<'_, 'r> {
             self.moved(0, act);
             return true;
         }
-        let left_out = is_left_out(self.target, what).or_else(|| returns_to_caller(what));
+        let leaves = returns_to_caller(what);
+        self.left |= leaves.is_some();
+        let left_out = is_left_out(self.target, what).or_else(|| makes_ready(self.target, what)).or(leaves);
         self.found.substituted.extend(left_out.clone());
         left_out.is_some()
     }

@@ -7,6 +7,7 @@
 use super::kinds::is_mode;
 use crate::canon::Op;
 use crate::control::trace::EventKind;
+use crate::dialect::Question;
 use crate::verify::sides::Side;
 use std::collections::BTreeMap;
 
@@ -37,6 +38,14 @@ pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<String> {
     let EventKind::Other { operation, .. } = source else { return None };
     (is_mode(source) && lacks(target, *operation))
         .then(|| format!("the target has no {operation}: it is dropped"))
+}
+
+/// A tool that is made ready, where a tool word of the target changes the tool. Each change is compared by its tool.
+pub fn makes_ready(target: &Side<'_>, source: &EventKind) -> Option<String> {
+    let EventKind::ToolReady { tool } = source else { return None };
+    let row = target.control.behaviour(Question::ToolChangeWord);
+    row.is_some_and(|row| row.value == "t")
+        .then(|| format!("the source makes tool {tool} ready: the target has no word for that"))
 }
 
 /// A return with no work offset in force, where the target always has one. The conversion marks the moves of the

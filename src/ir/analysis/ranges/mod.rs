@@ -9,6 +9,7 @@
 //! Counter-example: a variable that an operator changes by hand while the program stands in a stop.
 
 mod evaluate;
+mod followed;
 mod numbers;
 mod values;
 
@@ -21,17 +22,13 @@ pub use values::Values;
 
 use super::Cfg;
 use super::cfg::labelled;
-use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, reached, solve_within};
+use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve_within};
 use super::effects::{Summaries, Vars};
-use crate::ir::{
-    Bank, Block, BlockId, Call, Callee, Cond, Expr, NcItem, Place, Program, Stmt, StmtKind, TermKind, Var,
-};
+use crate::ir::{Bank, Block, BlockId, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
+use followed::{followed, in_codes, in_numbers, in_whole_words, stops};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Most variables that are followed.
-const VARS: usize = 64;
 
 /// Most visits to blocks, a variable each; beyond, everything may be anything.
 const STEPS: usize = 400_000;
@@ -173,6 +170,17 @@ impl<'p> Ranges<'p> {
         Self::following(program, summaries, inputs, in_whole_words(program))
     }
 
+    /// As [`Ranges::of_any_inputs`], of the numbers of codes too.
+    pub fn of_any_inputs_and_codes(program: &'p Program, summaries: &'p Summaries) -> Self {
+        let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
+        Self::following(program, summaries, inputs.collect(), in_codes(program))
+    }
+
+    /// As [`Ranges::of_any_inputs_and_codes`], where every literal is taken for what it is: nobody edits one.
+    pub fn of_constants_and_codes(program: &'p Program, summaries: &'p Summaries) -> Self {
+        Self::following(program, summaries, BTreeSet::new(), in_codes(program))
+    }
+
     fn with(program: &'p Program, summaries: &'p Summaries, inputs: BTreeSet<(BlockId, usize)>) -> Self {
         Self::following(program, summaries, inputs, in_numbers(program))
     }
@@ -286,113 +294,4 @@ fn head_literals(program: &Program) -> Vec<(BlockId, usize, Var)> {
 fn assigned(program: &Program, var: Var) -> usize {
     let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
     stmts.filter(|stmt| matches!(stmt.kind.target(), Some(Place::Var(other)) if *other == var)).count()
-}
-
-/// The variables in words that are whole numbers.
-fn in_whole_words(program: &Program) -> BTreeSet<Var> {
-    let mut found = BTreeSet::new();
-    for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
-        let StmtKind::Nc(nc) = &stmt.kind else { continue };
-        for item in &nc.items {
-            if let NcItem::Word(role, value) = item
-                && role.is_integer()
-            {
-                add(value, &mut found);
-            }
-        }
-    }
-    found
-}
-
-/// The variables in computed numbers.
-fn in_numbers(program: &Program) -> BTreeSet<Var> {
-    let mut found = BTreeSet::new();
-    for block in &program.blocks {
-        let mut note = |e: &Expr| {
-            e.walk(&mut |e| {
-                if let Expr::Indirect(_, index) = e {
-                    add(index, &mut found);
-                }
-            });
-        };
-        for stmt in &block.stmts {
-            stmt.kind.exprs(&mut note);
-            stmt.kind.target().iter().for_each(|place| note(&place.read()));
-        }
-        block.term.kind.exprs(&mut note);
-        match &block.term.kind {
-            TermKind::Computed { value, .. } | TermKind::Return { to: Some(value) } => add(value, &mut found),
-            TermKind::Call { call, .. } => numbered(call, &mut found),
-            _ => {}
-        }
-    }
-    found
-}
-
-/// These variables, and those that they depend on: what they are made of, and what they are compared with.
-fn followed(program: &Program, found: BTreeSet<Var>) -> BTreeSet<Var> {
-    if found.is_empty() {
-        return found;
-    }
-    let mut others: BTreeMap<Var, BTreeSet<Var>> = BTreeMap::new();
-    for block in &program.blocks {
-        for stmt in &block.stmts {
-            if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
-                add(value, others.entry(*var).or_default());
-            }
-        }
-        if let TermKind::Branch { cond, .. } = &block.term.kind {
-            compared(cond, &mut |a, b| {
-                for (a, b) in [(a, b), (b, a)] {
-                    if let Expr::Var(var) = a {
-                        add(b, others.entry(*var).or_default());
-                    }
-                }
-            });
-        }
-    }
-    let found = reached(found, |var, go| others.get(&var).into_iter().flatten().for_each(|other| go(*other)));
-    if found.len() > VARS { BTreeSet::new() } else { found }
-}
-
-fn add(e: &Expr, found: &mut BTreeSet<Var>) {
-    e.variables(&mut |var| {
-        found.insert(var);
-    });
-}
-
-fn numbered(call: &Call, found: &mut BTreeSet<Var>) {
-    if let Callee::Computed(number) = &call.callee {
-        add(number, found);
-    }
-}
-
-/// Calls `f` on the operands of each comparison.
-fn compared(cond: &Cond, f: &mut dyn FnMut(&Expr, &Expr)) {
-    let mut work = vec![cond];
-    while let Some(cond) = work.pop() {
-        match cond {
-            Cond::Compare(_, a, b) => f(a, b),
-            Cond::And(parts) | Cond::Or(parts) => work.extend(parts),
-            Cond::Not(inner) => work.push(inner),
-            Cond::Switch(_) => {}
-        }
-    }
-}
-
-/// The constants that conditions compare with, and their neighbours: where loops end.
-fn stops(program: &Program) -> Vec<f64> {
-    let mut all = Vec::new();
-    for block in &program.blocks {
-        if let TermKind::Branch { cond, .. } = &block.term.kind {
-            compared(cond, &mut |a, b| {
-                for number in [a, b].into_iter().filter_map(Expr::constant) {
-                    all.extend([number - 1.0, number, number + 1.0]);
-                }
-            });
-        }
-    }
-    all.sort_unstable_by(f64::total_cmp);
-    all.dedup();
-    all
 }

@@ -16,7 +16,7 @@ static MACHINES: LazyLock<[Vec<Control>; 2]> = LazyLock::new(|| {
     let haas = include_str!("../../../../machines/haas-vf.toml");
     // In the maker's own format where it is set to inches, and in the one like Fanuc's where it is set to millimetres.
     let fadal = "dialect = \"fadal\"\nunits = \"inch\"\n[settings]\nformat = \"1\"";
-    let cc100 = "dialect = \"cc100\"\nunits = \"inch\"";
+    let cc100 = concat!("units = \"inch\"\n", include_str!("../../../../machines/cc100-mill.toml"));
     let inch = [fadal, fanuc, haas, cc100];
     let metric = inch.map(|text| {
         assert!(text.contains("units = \"inch\""));
@@ -31,9 +31,6 @@ pub fn machine(dialect: &str, metric: bool) -> &'static Control {
     MACHINES[usize::from(metric)].iter().find(named).expect("a dialect")
 }
 
-/// Targets that are not finished: all that is written for them is for review.
-const UNFINISHED: &[&str] = &["cc100"];
-
 /// Machines that conversions are written for, but for one dialect: set as `metric` says second, and those whose unit no
 /// program can change as it says first, like the machine that the program is from.
 pub fn targets(from: &str, metric: [bool; 2]) -> impl Iterator<Item = &'static Control> {
@@ -42,7 +39,7 @@ pub fn targets(from: &str, metric: [bool; 2]) -> impl Iterator<Item = &'static C
         let [old, new] = metric;
         machine(target.name(), if selects(target) { new } else { old })
     };
-    let written = |target: &&Control| target.entry().emit.is_some() && !UNFINISHED.contains(&target.name());
+    let written = |target: &&Control| target.entry().emit.is_some();
     let of = &MACHINES[usize::from(metric[1])];
     of.iter()
         .filter(move |target| target.name() != from && written(target))

@@ -1,0 +1,162 @@
+//! Modal codes that are read, where the target has no variable for them.
+//!
+//! Laws: what is in force of a group is a constant where every way to the place names the same operation; else, on a
+//! target that tests codes, it is the number on the source of the code that the target finds in force. Side conditions of
+//! the second: the group is one whose codes stay as the source wrote them, so no motion codes where cycles are written
+//! out; and what the program may find in force at its start is in force on the target too, which the code that the
+//! operator's machine starts in says. Counter-example: `#1=#4001` under G81, where the target stands in G0 or G1.
+
+use crate::canon::{Group, Op, Sys};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::analysis::Setting;
+use crate::ir::{Cond, Expr, Module, Relation};
+use crate::legalize::features::{Feature, Features};
+use crate::legalize::{Context, Modal, Position, PreStatement, Rewriter, rewrite_program};
+use crate::text::Span;
+
+/// True if the library reads state.
+pub fn concerns(features: &Features, _: &Context<'_>) -> bool {
+    features.has(Feature::System)
+}
+
+/// Replaces modal codes that are read.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    known(module, context);
+    if context.target.system_run(Sys::CodeTest).is_some() {
+        tested(module, context);
+    }
+}
+
+/// The group that is read, by its common number, and what is added to its code; none for one that the target can read.
+fn group_of(e: &Expr, target: &Control) -> Option<(Group, f64)> {
+    let (number, more) = match e {
+        Expr::System(Sys::Modal, subscripts) => (subscripts.first()?.constant()?, 0.0),
+        Expr::System(Sys::ModalMotionPlus1, _) => (1.0, 1.0),
+        _ => return None,
+    };
+    let there = target.system_address(Sys::Modal, &[number as u32]).is_some();
+    if there || (more > 0.0 && target.system_run(Sys::ModalMotionPlus1).is_some()) {
+        return None;
+    }
+    let group = Group::ALL.iter().find(|group| group.number().is_some_and(|n| f64::from(n) == number))?;
+    Some((*group, more))
+}
+
+/// The codes of a group: their operations and numbers on the source, and the work offset that they select.
+fn codes(group: Group, source: &Control) -> Vec<(Op, Option<u32>, f64)> {
+    let mut found = Vec::new();
+    for row in source.dialect().codes.iter().filter(|row| row.op.group() == group && row.preferred) {
+        let Some(head) = row.head().filter(|head| head.letter == 'G') else { continue };
+        if row.code.contains(' ') {
+            continue;
+        }
+        let first = row.fixed.values().next().map(|number| *number as u32);
+        let last = row.through.unwrap_or(head.number() as u32);
+        match row.op {
+            Op::SelectWork => {
+                let numbers = head.number() as u32..=last;
+                found.extend(
+                    (0..)
+                        .zip(numbers)
+                        .map(|(at, number)| (row.op, first.map(|first| first + at), f64::from(number))),
+                );
+            }
+            op => found.push((op, None, head.number())),
+        }
+    }
+    found
+}
+
+/// The number of what is in force, where the text says it.
+fn number_of(state: &Modal, group: Group, source: &Control) -> Option<f64> {
+    let Setting::Known(op, offset) = state.of(group) else { return None };
+    let mut all = codes(group, source).into_iter();
+    let (_, _, number) = all.find(|(other, selects, _)| {
+        *other == op && (op != Op::SelectWork || (offset.is_some() && *selects == offset))
+    })?;
+    Some(number)
+}
+
+/// Puts constants where the text says what is in force.
+fn known(module: &mut Module, context: &Context<'_>) {
+    let facts = context.modal_facts(module);
+    let (source, target) = (context.source, context.target);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (id, block) in (0..).map(crate::ir::BlockId).zip(&mut program.blocks) {
+            let mut state = facts.at(index, id);
+            let put = |e: &mut Expr, state: &Modal| {
+                e.walk_mut(&mut |e| {
+                    if let Some((group, more)) = group_of(e, target)
+                        && let Some(number) = number_of(state, group, source)
+                    {
+                        *e = Expr::Number(number + more);
+                    }
+                });
+            };
+            for stmt in &mut block.stmts {
+                stmt.kind.exprs_mut(&mut |e| put(e, &state));
+                state.step(stmt);
+            }
+            block.term.kind.exprs_mut(&mut |e| put(e, &state));
+        }
+    }
+}
+
+/// Puts tests where it does not.
+fn tested(module: &mut Module, context: &mut Context<'_>) {
+    let (source, target) = (context.source, context.target);
+    let cycles = Features::of(&module.programs).any_op(Op::is_cycle);
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut found: Vec<Span> = Vec::new();
+        rewrite_program(
+            program,
+            |e| matches!(e, Expr::System(Sys::Modal | Sys::ModalMotionPlus1, _)),
+            &mut |e, _: Position, rewriter: &mut Rewriter<'_>| {
+                let Some((group, more)) = group_of(&e, target) else { return e };
+                if !matches!(group, Group::Distance | Group::WorkOffset) && (group != Group::Motion || cycles)
+                {
+                    return e;
+                }
+                let Some((last, tests)) = tests(group, source, target) else { return e };
+                found.push(rewriter.span);
+                let value = rewriter.materialize(Expr::Number(last + more));
+                for (number, code) in tests {
+                    let test = Expr::System(Sys::CodeTest, [Expr::Number(code)].into());
+                    let cond = Cond::Compare(Relation::Equal, test, Expr::Number(0.0));
+                    rewriter.first(PreStatement::When(cond, value, Expr::Number(number + more)));
+                }
+                Expr::Var(value)
+            },
+        );
+        for span in found {
+            let what = "a modal code that the program may have found in force is read: what is in force on the target \
+                        when the program starts must be what would be in force on the source";
+            context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
+        }
+    }
+}
+
+/// The number on the source that is left if no test holds, and those of the tests with the numbers that they test.
+fn tests(group: Group, source: &Control, target: &Control) -> Option<(f64, Vec<(f64, f64)>)> {
+    let there = codes(group, target);
+    let mut tests = Vec::new();
+    let mut left = None;
+    for (op, offset, number) in codes(group, source) {
+        let same = there.iter().find(|(other, selects, _)| *other == op && *selects == offset);
+        // What the target lacks is never in force there.
+        let Some((.., code)) = same else { continue };
+        match target.system_address(Sys::CodeTest, &[*code as u32]) {
+            Some(_) => tests.push((number, *code)),
+            None if left.is_none() => left = Some(number),
+            None => return None,
+        }
+    }
+    let left = left.or_else(|| tests.pop().map(|(number, _)| number))?;
+    Some((left, tests))
+}
+
+/// True for a condition that tests a code, which such a target takes as it stands.
+pub(in crate::legalize) fn is_test(cond: &Cond) -> bool {
+    matches!(cond, Cond::Compare(_, Expr::System(Sys::CodeTest, _), b) if b.constant() == Some(0.0))
+}
