@@ -24,7 +24,7 @@ fn totals_are_fresh() {
     let mut out = String::from(HEAD);
     reading(&mut out);
     let pairs = pairs();
-    assert_eq!(pairs.len(), 6, "the project file names six pairs");
+    assert_eq!(pairs.len(), 12, "the project file names all pairs");
     conversions(&mut out, &pairs);
     codes(&mut out, &pairs);
     refusals(&mut out, &pairs);

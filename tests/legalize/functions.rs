@@ -320,13 +320,19 @@ fn directions(module: &Module, range: std::ops::RangeInclusive<f64>) {
     }
 }
 
+/// What is said of a series: that it is nearly equal, and where a target may refuse small numbers that they come up.
+fn of_series(target: &Control) -> Vec<Code> {
+    let small = target.numbers().least.map(|_| Code::Conditional);
+    small.into_iter().chain([Code::NearlyEqual]).collect()
+}
+
 #[test]
 fn exp() {
     let operands: Vec<Option<f64>> =
         (-200..=200).map(|n| Some(f64::from(n) / 10.0)).chain([None, Some(1e-9)]).collect();
     for target in lacking("exp") {
         let (module, found) = emulated("exp(local.1)", &control("fanuc"), &target);
-        assert_eq!(codes(&found), [Code::NearlyEqual]);
+        assert_eq!(codes(&found), of_series(&target));
         one(&module, &operands, Bound::Part(1e-12), |a| Some(a.exp()));
     }
 }
@@ -338,7 +344,7 @@ fn ln() {
     operands.extend([Some(-0.5), Some(-1.0)]);
     for target in lacking("ln") {
         let (module, found) = emulated("ln(local.1)", &control("fanuc"), &target);
-        assert_eq!(codes(&found), [Code::NearlyEqual]);
+        assert_eq!(codes(&found), of_series(&target));
         one(&module, &operands, Bound::Off(1e-11), |a| (a > 0.0).then(|| a.ln()));
     }
 }
@@ -348,11 +354,11 @@ fn pow() {
     for target in lacking("pow") {
         for n in [1, 2, 3, 8] {
             let (module, found) = emulated(&format!("pow(local.1, {n})"), &control("fanuc"), &target);
-            assert_eq!(codes(&found), [Code::NearlyEqual]);
+            assert_eq!(codes(&found), of_series(&target));
             one(&module, &operands(), Bound::Ulps(8.0), |a| Some(a.powi(n)));
         }
         let (module, found) = emulated("pow(local.1, local.2)", &control("fanuc"), &target);
-        assert_eq!(codes(&found), [Code::NearlyEqual]);
+        assert_eq!(codes(&found), of_series(&target));
         for a in [0.5, 1.0, 1.5, 2.5, 10.0, 359.9] {
             for b in [None, Some(-2.5), Some(-1.0), Some(0.0), Some(0.5), Some(1.0), Some(3.0)] {
                 let (got, wanted) = (result(&module, &[Some(a), b]).unwrap(), a.powf(b.unwrap_or(0.0)));

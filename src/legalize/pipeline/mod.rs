@@ -6,6 +6,7 @@
 
 mod late;
 mod list;
+mod moves;
 mod pass;
 
 pub use list::GROUPS;

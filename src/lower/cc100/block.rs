@@ -85,9 +85,15 @@ impl Lowering<'_> {
         let otherwise = self.build.fresh();
         for number in unless {
             let then = self.build.fresh();
+            // The word is a whole number, and so is the tool in the spindle.
+            let tool = match number {
+                Expr::System(..) if tool.constant().is_none() => {
+                    Expr::Call(Func::Round, [tool.clone()].into())
+                }
+                _ => tool.clone(),
+            };
             // A reader looks for what may change on the left.
-            let pair =
-                if tool.constant().is_some() { (number, tool.clone()) } else { (tool.clone(), number) };
+            let pair = if tool.constant().is_some() { (number, tool) } else { (tool, number) };
             let cond = Cond::Compare(Relation::NotEqual, pair.0, pair.1);
             self.build.end(TermKind::Branch { cond, then, otherwise }, site.clone());
             self.build.start(then);

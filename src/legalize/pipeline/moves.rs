@@ -1,0 +1,118 @@
+//! The passes of moves, coordinates and units, in the order they run in.
+
+use super::Pass;
+use crate::canon::{Op, Role};
+use crate::legalize::cycles::{tap_leads, tapping};
+use crate::legalize::features::Feature;
+use crate::legalize::moves::{
+    bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, shaped, shift, short_arcs,
+    unit_checks, units,
+};
+use crate::legalize::offsets::{
+    active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
+    tool_lengths,
+};
+
+pub(super) const MOVES: &[Pass] = &[
+    Pass::rewrites("polar", "polar words become rectangular ones", polar::run)
+        .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
+    Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
+        .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
+    Pass::reports(
+        "active-offsets",
+        "checks work offsets that are written while selected",
+        active_offsets::run,
+    )
+    .when(|c, _| c.has(Feature::System)),
+    Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
+        .when(set_position::concerns),
+    Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
+        .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
+    Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
+        .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
+    Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
+        .when(|c, _| c.has(Feature::Increments)),
+    Pass::edits("units", "programs that name no unit get one", units::run)
+        .when(units::concerns)
+        .needs(&["increments", "modal-calls"]),
+    Pass::rewrites("unit-checks", "a unit that the target cannot select is checked", unit_checks::run)
+        .when(unit_checks::concerns)
+        .needs(&["units"]),
+    Pass::rewrites(
+        "rapid-once",
+        "the interpolation is written again after a rapid move that keeps it",
+        rapid_once::run,
+    )
+    .when(|c, _| c.op(Op::RapidOnce)),
+    Pass::rewrites(
+        "length-radius",
+        "radii that a tool length picks stay where they count",
+        length_radius::run,
+    )
+    .when(|c, _| c.role(Role::RadiusOffset)),
+    Pass::rewrites(
+        "kept-radius",
+        "radii that a tool length takes the place of are named again",
+        kept_radius::run,
+    )
+    .when(kept_radius::concerns)
+    .needs(&["length-radius"]),
+    Pass::rewrites("tapping", "taps by lead get a feed", tapping::run).when(|c, _| c.role(Role::Lead)),
+    Pass::rewrites("tap-leads", "taps by feed get a lead", tap_leads::run).when(tap_leads::concerns),
+    Pass::rewrites("reference", "returns to the reference position name their axes", reference::run)
+        .when(|c, _| c.op(Op::ReferenceReturn)),
+    Pass::rewrites("kept-length", "the tool length after a return is written out", kept_length::run)
+        .when(|c, _| {
+            c.role(Role::LengthOffset)
+                && c.any_op(|op| {
+                    matches!(op, Op::ReferenceReturn | Op::Reference2 | Op::MachineOnce | Op::ToolChange)
+                })
+        })
+        .needs(&["reference", "increments"]),
+    Pass::rewrites(
+        "shift",
+        "moves under a cancelled zero shift become moves in machine coordinates",
+        shift::run,
+    )
+    .when(|c, _| c.op(Op::ShiftCancel))
+    .needs(&["modal-calls"]),
+    Pass::rewrites(
+        "home",
+        "returns to the reference position become moves in machine coordinates",
+        home::run,
+    )
+    .when(|c, context| c.op(Op::ReferenceReturn) && home::concerns(context.target))
+    .needs(&["reference", "kept-length"]),
+    Pass::rewrites(
+        "machine-moves",
+        "moves in machine coordinates cancel the zero shifts, and select them again",
+        machine_moves::run,
+    )
+    .when(|c, context| c.op(Op::MachineOnce) && machine_moves::concerns(context.target))
+    .needs(&["home", "shift", "kept-length"]),
+    Pass::rewrites(
+        "tool-lengths",
+        "lengths come with the tools, where the tool word brings them",
+        tool_lengths::run,
+    )
+    .when(|_, context| tool_lengths::concerns(context.target))
+    .changes_flow()
+    .needs(&["machine-moves"]),
+    Pass::rewrites(
+        "radius-words",
+        "numbers of cutter radii go to the codes that compensate by them",
+        radius_words::run,
+    )
+    .when(|c, context| {
+        (c.role(Role::RadiusOffset) || c.op(Op::RadiusLeft) || c.op(Op::RadiusRight))
+            && radius_words::concerns(context.source, context.target)
+    })
+    .needs(&["length-radius"]),
+    Pass::rewrites(
+        "short-arcs",
+        "arcs are written by their radius, the long ones in pieces",
+        short_arcs::run,
+    )
+    .when(|c, context| (c.op(Op::ArcCw) || c.op(Op::ArcCcw)) && short_arcs::concerns(context.target))
+    .needs(&["modal-calls", "units", "bare-arcs"]),
+];
