@@ -147,8 +147,8 @@ fn chain(
         .filter(|numbers| {
             (1..=MOST).contains(&numbers.len()) && numbers.iter().all(|n| n.fract() == 0.0 && *n >= 0.0)
         })?;
-    // The target takes the number as it is, and so much is known without supposing anything of constants.
-    let taken = target.form(OperandPlace::Code).is_some() && is_listed;
+    // The target takes the number as it is: all that it may be are known, or both controls number their codes alike.
+    let taken = target.form(OperandPlace::Code).is_some() && (is_listed || context.number_alike(letter));
     if taken && numbers.iter().all(|number| is_same(letter, *number, source, target)) {
         return None;
     }
