@@ -1,28 +1,36 @@
 //! Arcs about one centre, one after the other, which are one arc for whoever watches the tool.
 
 use super::observe::Act;
-use super::paths::apart;
-use crate::control::trace::EventKind;
+use super::paths::{apart, axes};
+use crate::control::trace::{EventKind, Plane, Position};
 use std::borrow::Cow;
 
-/// How far the centres of two pieces may lie apart, millimetres: what the rounding of their ends makes of one centre.
-const CENTRES: f64 = 0.005;
+/// How far the centres of two pieces may lie apart, millimetres: what five digits of their ends make of one centre.
+const CENTRES: f64 = 1e-4;
+
+/// By how many roundings of their words they may lie farther apart.
+const ROUNDINGS: f64 = 2.0;
 
 /// Joins the pieces of arcs.
 pub fn joined(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
     for act in acts {
-        let whole = out.last().and_then(|last| both(&last.what, &act.what));
+        let whole = out.last().and_then(|last| {
+            both(&last.what, &act.what, CENTRES + ROUNDINGS * last.rounded.max(act.rounded))
+        });
         match (whole, out.last_mut()) {
-            (Some(whole), Some(last)) => last.what = Cow::Owned(whole),
+            (Some(whole), Some(last)) => {
+                last.what = Cow::Owned(whole);
+                last.rounded = last.rounded.max(act.rounded);
+            }
             _ => out.push(act),
         }
     }
     out
 }
 
-/// The arc that two are; none if they are none.
-fn both(first: &EventKind, second: &EventKind) -> Option<EventKind> {
+/// The arc that two are, whose centres lie at most so far apart; none if they are none.
+fn both(first: &EventKind, second: &EventKind, centres: f64) -> Option<EventKind> {
     use EventKind::Arc;
     let Arc { from, to, centre, radius, plane, sweep, feed, mode, .. } = first else { return None };
     let Arc {
@@ -40,7 +48,7 @@ fn both(first: &EventKind, second: &EventKind) -> Option<EventKind> {
         return None;
     };
     let one = plane == plane2 && feed == feed2 && mode == mode2 && (*sweep > 0.0) == (*more > 0.0);
-    if !one || apart(to, from2) > 1e-9 || apart_in_plane(centre, centre2, *plane) > CENTRES {
+    if !one || apart(to, from2) > 1e-9 || apart_in_plane(centre, centre2, *plane) > centres {
         return None;
     }
     Some(Arc {
@@ -50,23 +58,22 @@ fn both(first: &EventKind, second: &EventKind) -> Option<EventKind> {
         radius: *radius,
         off: r2 + off2 - radius,
         plane: *plane,
-        sweep: sweep + more,
+        sweep: ending(sweep + more, [from, to2, centre], *plane),
         feed: *feed,
         mode: *mode,
     })
 }
 
+/// The sweep about the first centre that ends where the arc does: each piece turned about a centre of its own, a hair off.
+fn ending(sum: f64, [from, to, centre]: [&Position; 3], plane: Plane) -> f64 {
+    let [first, second] = axes(plane);
+    let angle =
+        |at: &Position| (at.0[second] - centre.0[second]).atan2(at.0[first] - centre.0[first]).to_degrees();
+    let off = angle(to) - angle(from) - sum;
+    sum + off - 360.0 * (off / 360.0).round()
+}
+
 /// How far two places lie apart in the plane of an arc: its centre says nothing of the third axis.
-fn apart_in_plane(
-    a: &crate::control::trace::Position,
-    b: &crate::control::trace::Position,
-    plane: crate::control::trace::Plane,
-) -> f64 {
-    use crate::control::trace::Plane::{Xy, Yz, Zx};
-    let axes = match plane {
-        Xy => [0, 1],
-        Zx => [2, 0],
-        Yz => [1, 2],
-    };
-    axes.into_iter().map(|axis| (a.0[axis] - b.0[axis]).abs()).fold(0.0, f64::max)
+fn apart_in_plane(a: &Position, b: &Position, plane: Plane) -> f64 {
+    axes(plane).into_iter().map(|axis| (a.0[axis] - b.0[axis]).abs()).fold(0.0, f64::max)
 }

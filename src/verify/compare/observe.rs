@@ -17,6 +17,8 @@ pub struct Act<'r> {
     pub event: &'r Event,
     /// What the observer tells of it: a stop at which the operator enters a value is a text and a question.
     pub what: Cow<'r, EventKind>,
+    /// By how much words rounded put it off, millimetres; of an arc in pieces the most of any.
+    pub rounded: f64,
     /// What is known of the event.
     pub told: Told,
     /// Of a text, how many characters more the control would have shown; none if it knows no limit.
@@ -121,7 +123,13 @@ impl<'r> Observer<'_, 'r> {
                 Some((_, what)) => *what = event.what.clone(),
                 None => self.held.push((kind, event.what.clone())),
             }
-            self.out.push(Act { event, what: Cow::Borrowed(&event.what), told: event.told, room: None });
+            self.out.push(Act {
+                event,
+                what: Cow::Borrowed(&event.what),
+                rounded: event.rounded,
+                told: event.told,
+                room: None,
+            });
         }
     }
 
@@ -143,7 +151,7 @@ impl<'r> Observer<'_, 'r> {
             EventKind::Alarm(stop) => (Cow::Borrowed(&event.what), room("message.alarm", &stop.text)),
             what => (Cow::Borrowed(what), None),
         };
-        self.out.push(Act { event, what, told: event.told, room });
+        self.out.push(Act { event, what, rounded: event.rounded, told: event.told, room });
         if is_pause(&event.what) {
             self.open = event.open;
         }

@@ -224,7 +224,7 @@ impl<'r> Pairs<'_, 'r> {
 
     fn moved(&mut self, side: usize, act: &Act<'r>) {
         if let Some(to) = leaves(&act.what) {
-            self.at[side] = Some((to, act.event.rounded));
+            self.at[side] = Some((to, act.rounded));
         }
         self.runs[side].take(act);
     }
@@ -232,7 +232,7 @@ impl<'r> Pairs<'_, 'r> {
     /// How far apart two acts may lie that count as the same: what their words rounded, a least increment at the
     /// most.
     fn near(&self, source: &Act<'r>, target: &Act<'r>) -> f64 {
-        self.tolerance.between(source.event.rounded, target.event.rounded).min(self.tolerance.rounded)
+        self.tolerance.between(source.rounded, target.rounded).min(self.tolerance.rounded)
     }
 
     /// True where one side's act has no counterpart and needs none: a move within the least increment that
@@ -244,7 +244,7 @@ impl<'r> Pairs<'_, 'r> {
             // Before its first move a side stands where the other began.
             let began = self.at[side].is_none().then_some((from, 0.0));
             let near = self.at[1 - side].or(began).is_some_and(|(other, rounded)| {
-                let allowed = self.tolerance.between(act.event.rounded, rounded);
+                let allowed = self.tolerance.between(act.rounded, rounded);
                 apart(&to, &other) <= allowed.min(self.tolerance.rounded)
             });
             let passes = near && goes_nowhere(what, self.tolerance.rounded);
@@ -295,7 +295,7 @@ impl<'r> Pairs<'_, 'r> {
 
     /// True where two acts are the same but for what incremental words rounded, one move after the other.
     fn drifts(&mut self, source: &Act<'r>, target: &Act<'r>) -> bool {
-        let allowed = self.tolerance.between(source.event.rounded, target.event.rounded);
+        let allowed = self.tolerance.between(source.rounded, target.rounded);
         let same = allowed > self.tolerance.rounded && self.differ(source, target, allowed).is_none();
         if same {
             let what = "positions drift apart by more than a least increment: the rounding of incremental moves \
@@ -327,7 +327,7 @@ impl<'r> Pairs<'_, 'r> {
             _ => allowed,
         };
         let mut largest = self.found.largest;
-        let paths = match source.event.rounded.max(target.event.rounded) {
+        let paths = match source.rounded.max(target.rounded) {
             // What the words of an arc rounded moves its middle farther than its ends.
             rounded if rounded > 0.0 => ARC_ROUNDINGS * allowed.max(self.tolerance.rounded),
             _ => ARC_ROUNDINGS * allowed,

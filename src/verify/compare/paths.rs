@@ -6,6 +6,15 @@ use crate::control::trace::{EventKind, Plane, Position};
 /// Places at which two arcs are held against each other, their ends included.
 const PLACES: u32 = 24;
 
+/// The two axes of a plane.
+pub fn axes(plane: Plane) -> [usize; 2] {
+    match plane {
+        Plane::Xy => [0, 1],
+        Plane::Zx => [2, 0],
+        Plane::Yz => [1, 2],
+    }
+}
+
 /// The largest distance along any axis.
 pub fn apart(a: &Position, b: &Position) -> f64 {
     let differences = a.0.iter().zip(b.0).map(|(a, b)| (a - b).abs());
@@ -61,11 +70,7 @@ fn arc_place(what: &EventKind, at: u32) -> Option<Position> {
         return Some(if at == 0 { *from } else { *to });
     }
     let part = f64::from(at) / f64::from(PLACES);
-    let (first, second) = match plane {
-        Plane::Xy => (0, 1),
-        Plane::Zx => (2, 0),
-        Plane::Yz => (1, 2),
-    };
+    let [first, second] = axes(*plane);
     let mut place: Axes = std::array::from_fn(|axis| from.0[axis] + (to.0[axis] - from.0[axis]) * part);
     let start = (from.0[second] - centre.0[second]).atan2(from.0[first] - centre.0[first]);
     let (sin, cos) = (start + (sweep * part).to_radians()).sin_cos();
