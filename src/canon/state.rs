@@ -146,6 +146,25 @@ super::vocabulary! {
 }
 
 impl Sys {
+    /// True for state that moves change, or that changes while they are made: read too early, it is what it was before.
+    pub const fn is_changed_by_moves(self) -> bool {
+        use Sys::*;
+        matches!(
+            self,
+            AxisPosition
+                | WorkPosition
+                | MachinePosition
+                | EndPosition
+                | SkipPosition
+                | ProbePoint
+                | Input
+                | InputInverted
+                | ToolTimeUsed
+                | Clock
+                | CyclePlane
+        )
+    }
+
     /// True for a length or a position, which is read and written in the unit in force.
     pub const fn is_length(self) -> bool {
         use Sys::*;

@@ -45,7 +45,7 @@ impl Machine {
             }
         }
         match state {
-            // Time passes first: what is read to set a timer by is then no part of what it counts.
+            // Reading takes a tick, before the answer: a timer that is set from this reading starts at 0.
             Sys::TimerMs | Sys::TimerHours | Sys::CycleSeconds => self.clock += self.tick,
             Sys::DiameterOrRadius | Sys::DiameterOrRadiusWear => {
                 self.rules.radius_table.ask(trace);

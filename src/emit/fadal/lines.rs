@@ -186,13 +186,13 @@ impl<'p> Emitter<'p> {
         }
     }
 
-    /// A block with something else in it stands behind the comments: those that were too many follow it.
+    /// At most so many comments stand in a row. A block follows them, and the rest of the comments comes after it.
     fn end_row(&mut self) {
         self.page.row = 0;
         self.write_comments(bound(self.control.text().comments_in_a_row));
     }
 
-    /// Writes all comments that are left, behind the last block.
+    /// Writes the comments that are left after the last block.
     pub(super) fn end_comments(&mut self) {
         self.flush_comments();
         self.write_comments(usize::MAX);

@@ -1,7 +1,7 @@
 //! What is known at every block of a library, with what callers know when they call and callees leave when they return.
 //!
-//! A program that nothing calls, and one that ends the run, begin as the outside leaves things. Every other part is looked
-//! at with what its callers know, all of them joined; where nothing leads, nothing is known.
+//! A program that nothing calls, and one that ends the run, begin as the outside leaves things. Every other program begins
+//! with what all of its callers know in common. A block that no run reaches knows nothing.
 
 use super::dataflow::{Analysis, Direction, Lattice, States, solve};
 use super::{Cfg, calls_of, reachable};
@@ -24,7 +24,7 @@ pub trait Follow {
     fn lose(&self, known: &mut Self::Known);
 }
 
-/// What is known at a place, or none where nothing leads.
+/// What is known at a place; none if no run reaches it.
 #[derive(Clone, Debug)]
 struct Reach<K>(Option<K>);
 
@@ -143,7 +143,7 @@ impl<K: Lattice + Clone> OverCalls<K> {
         Self { states }
     }
 
-    /// What is known at the start of a block; none where nothing leads.
+    /// What is known at the start of a block; none if no run reaches it.
     pub fn at(&self, program: usize, id: BlockId) -> Option<&K> {
         self.states.get(program)?.at(id)?.0.as_ref()
     }

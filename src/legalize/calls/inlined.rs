@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const MOST: usize = 2_000;
 
 /// Writes calls out until none nests deeper than `most`; false where the program would grow too large. Parts stand
-/// behind the first `own` blocks.
+/// after the first `own` blocks.
 pub fn run(program: &mut Program, most: u32, own: usize) -> bool {
     let most = most.max(1);
     let mut changed = false;

@@ -82,7 +82,7 @@ struct Chain {
 
 struct Choice {
     number: f64,
-    /// What stands in the place of the code; none where it ends the program.
+    /// What stands in the place of the code; none if it ends the program.
     items: Option<Vec<NcItem>>,
     rewinds: bool,
 }
@@ -160,7 +160,7 @@ fn chain(
     Some(Chain { letter, item, value: value.clone(), choices, may_be_vacant, may_miss, doubts })
 }
 
-/// The block with a constant code; none where that is another kind of block.
+/// The block with a constant code; none if that is another kind of block.
 fn choice(
     nc: &Nc,
     letter: char,
@@ -220,13 +220,13 @@ fn write_out(program: &mut Program, mut chains: BTreeMap<(BlockId, usize), Chain
 /// One branch for each code, and the block with the code after it.
 fn lay(builder: &mut Builder, chain: Chain, nc: &Nc, site: SourceInfo) {
     let place = SourceInfo { span: site.span, ..SourceInfo::default() };
-    let behind = builder.fresh();
+    let after = builder.fresh();
     // Comments and number stand at the head.
     let kept = SourceInfo { skip: None, ..site.clone() };
     if !kept.comments.is_empty() || kept.sequence.is_some() {
         builder.push(StmtKind::Comment, kept);
     }
-    unless_skipped(builder, site.skip, behind);
+    unless_skipped(builder, site.skip, after);
     let without = |items: Option<&[NcItem]>| {
         let mut all = nc.items.clone();
         all.splice(chain.item..=chain.item, items.unwrap_or_default().iter().cloned());
@@ -242,7 +242,7 @@ fn lay(builder: &mut Builder, chain: Chain, nc: &Nc, site: SourceInfo) {
             Some(Choice { items: None, rewinds, .. }) => {
                 builder.end(TermKind::End { rewind: *rewinds }, place.clone());
             }
-            _ => builder.end(TermKind::Jump(behind), SourceInfo::default()),
+            _ => builder.end(TermKind::Jump(after), SourceInfo::default()),
         }
     };
     let branch = |builder: &mut Builder, with: Expr, choice: Option<&Choice>| {
@@ -269,5 +269,5 @@ fn lay(builder: &mut Builder, chain: Chain, nc: &Nc, site: SourceInfo) {
             builder.end(TermKind::End { rewind: false }, place.clone());
         }
     }
-    builder.start(behind);
+    builder.start(after);
 }

@@ -61,26 +61,8 @@ fn is_early(kind: &StmtKind) -> bool {
 
 fn reads(e: &Expr) -> bool {
     let mut found = false;
-    e.walk(&mut |e| found |= matches!(e, Expr::System(state, _) if is_moved(*state)));
+    e.walk(&mut |e| found |= matches!(e, Expr::System(state, _) if state.is_changed_by_moves()));
     found
-}
-
-/// True for state that moves change, or that changes while they are made.
-fn is_moved(state: Sys) -> bool {
-    matches!(
-        state,
-        Sys::AxisPosition
-            | Sys::WorkPosition
-            | Sys::MachinePosition
-            | Sys::EndPosition
-            | Sys::SkipPosition
-            | Sys::ProbePoint
-            | Sys::Input
-            | Sys::InputInverted
-            | Sys::ToolTimeUsed
-            | Sys::Clock
-            | Sys::CyclePlane
-    )
 }
 
 fn wait(site: &SourceInfo) -> Stmt {

@@ -24,34 +24,34 @@ pub(super) fn lay(builder: &mut Builder, prelude: Vec<PreStatement>, site: &Sour
                 builder.start(otherwise);
             }
             PreStatement::While(cond, steps) => {
-                let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
-                unless_skipped(builder, site().skip, behind);
+                let (head, body, after) = (builder.fresh(), builder.fresh(), builder.fresh());
+                unless_skipped(builder, site().skip, after);
                 builder.end(TermKind::Jump(head), SourceInfo::default());
                 builder.start(head);
-                let kind = TermKind::Branch { cond, then: body, otherwise: behind };
+                let kind = TermKind::Branch { cond, then: body, otherwise: after };
                 builder.end(kind, SourceInfo::default());
                 builder.start(body);
                 lay(builder, steps, &site());
                 builder.end(TermKind::Jump(head), SourceInfo::default());
-                builder.start(behind);
+                builder.start(after);
             }
             PreStatement::Call(call) => {
-                let behind = builder.fresh();
-                unless_skipped(builder, site().skip, behind);
-                builder.end(TermKind::Call { call: Box::new(call), next: behind }, SourceInfo::default());
-                builder.start(behind);
+                let after = builder.fresh();
+                unless_skipped(builder, site().skip, after);
+                builder.end(TermKind::Call { call: Box::new(call), next: after }, SourceInfo::default());
+                builder.start(after);
             }
         }
     }
 }
 
-/// Goes on at `behind` while the switch of a skipped block is on: a terminator cannot be skipped itself.
-pub(in crate::legalize) fn unless_skipped(builder: &mut Builder, skip: Option<u8>, behind: BlockId) {
+/// Goes on at `after` while the switch of a skipped block is on: a terminator cannot be skipped itself.
+pub(in crate::legalize) fn unless_skipped(builder: &mut Builder, skip: Option<u8>, after: BlockId) {
     if let Some(level) = skip {
         let cond = Cond::Switch(level);
         builder.end_then(SourceInfo::default(), |otherwise| TermKind::Branch {
             cond,
-            then: behind,
+            then: after,
             otherwise,
         });
     }

@@ -108,7 +108,7 @@ fn variable(bank: Bank, number: u32, source: &Control) -> Option<Var> {
     exists.then_some(Var { class, number })
 }
 
-/// The one computed variable of a statement; none where there are more, or the number itself has one in it.
+/// The one computed variable of a statement; none if there are more, or the number itself has one in it.
 fn one(all: Vec<Computed>) -> Option<Computed> {
     let first = all.first()?.clone();
     let mut nested = false;
@@ -230,20 +230,20 @@ fn branches(
 fn statement(builder: &mut Builder, chain: &Chain, temp: Var, stmt: Stmt) {
     let Stmt { kind, mut site } = stmt;
     let place = SourceInfo { span: site.span, ..SourceInfo::default() };
-    let behind = builder.fresh();
+    let after = builder.fresh();
     let skip = site.skip.take();
     // Comments and number stand at the head.
     if !site.comments.is_empty() || site.sequence.is_some() {
         builder.push(StmtKind::Comment, site);
     }
-    unless_skipped(builder, skip, behind);
+    unless_skipped(builder, skip, after);
     branches(builder, chain, temp, &place, &mut |builder, var| {
         let mut kind = kind.clone();
         put_in_stmt(&mut kind, &chain.of, var);
         builder.push(kind, place.clone());
-        builder.end(TermKind::Jump(behind), SourceInfo::default());
+        builder.end(TermKind::Jump(after), SourceInfo::default());
     });
-    builder.start(behind);
+    builder.start(after);
 }
 
 fn end(builder: &mut Builder, chain: &Chain, temp: Var, term: Terminator) {

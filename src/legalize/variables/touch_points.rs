@@ -1,7 +1,7 @@
 //! The place where the probe touched, on a control that keeps such places by number.
 //!
 //! Law: where each probe move keeps its place as point 1, point 1 is where the last one touched. The target probes with the
-//! feed code in its block or in force, so it is said there, and the rapid code that was in force is said again behind it. Side
+//! feed code in its block or in force, so it is said there, and the rapid code that was in force is said again after it. Side
 //! conditions, for a reviewer: the probe touches. Counter-example: `G31 X50.` into the air, after which `PX1` is .1E9 and
 //! `#5061` is 50.
 
@@ -52,7 +52,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             Some(Op::Linear) => {}
             _ if !probes => {}
             None => {
-                let what = "G1 stays in force behind this probe move, and what was in force before is not known: write the code \
+                let what = "G1 stays in force after this probe move, and what was in force before is not known: write the code \
                             of the next move";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, site.span, what));
             }

@@ -18,7 +18,7 @@ pub enum Keep {
     Tokens,
     /// Nothing.
     Items,
-    /// Nothing, and not even the block where nothing in it can be wrong.
+    /// Nothing, and no block of a line in which nothing can be wrong.
     Faults,
 }
 

@@ -42,16 +42,15 @@ impl Verifier<'_, '_> {
         let blocks = source.blocks(self.program).len() as u64;
         let steps = effort.steps.max(blocks.saturating_mul(EACH_BLOCK));
         let inch = unit(source, target).or(found.inch);
-        let assumed = self.job.assumptions.get(&self.program).into_iter().flatten();
-        let loaded = assumed.rev().find_map(|one| match one.predicate {
+        let assumed = || self.job.assumptions.get(&self.program).into_iter().flatten();
+        let main = assumed().any(|one| one.predicate == Predicate::Main);
+        let loaded = assumed().rev().find_map(|one| match one.predicate {
             Predicate::Loaded(tool) => Some(tool),
             _ => None,
         });
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
-        let mut supposed = self.job.assumptions.get(&self.program).into_iter().flatten();
-        let main = supposed.any(|assumption| assumption.predicate == Predicate::Main);
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
                 break;

@@ -75,7 +75,7 @@ pub(super) struct Drill {
     /// None where ways disagree.
     pub op: Option<Op>,
     pub told: [Value; 6],
-    /// Whether the retract plane and the bottom were told in incremental words; none where ways disagree.
+    /// Whether the retract plane and the bottom were told in incremental words; none if the ways to it disagree.
     pub incremental: [Option<bool>; 2],
     pub height: Height,
     /// A word that no moves are known for.

@@ -83,7 +83,7 @@ pub(super) fn named_unit(module: &Module) -> Option<bool> {
     named.first().copied().filter(|_| named.len() == 1)
 }
 
-/// For each statement of a block whether the next move behind it says its interpolation.
+/// For each statement of a block whether the next move after it says its interpolation.
 pub(super) fn says_motion(block: &Block) -> Vec<bool> {
     let mut says = matches!(block.term.kind, TermKind::End { .. });
     let mut all: Vec<bool> = Vec::with_capacity(block.stmts.len());

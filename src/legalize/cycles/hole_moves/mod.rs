@@ -94,17 +94,17 @@ struct Writer<'w, 'c> {
     context: &'w mut Context<'c>,
 }
 
-const MIXED: &str = "whether a drilling cycle is in force here depends on the path, and the target has none: end it with G80 on every way";
+const MIXED: &str = "a drilling cycle is in force on some of the ways to this block, and the target has no cycles: end it with G80 on every way";
 const FROZEN: &str = "the planes of this cycle were told under the other of G90 and G91, and whether they keep their meaning is not \
      known: tell them again in this block";
 const MOTION: &str = "which interpolation is in force after this cycle is not known, and the target is in rapid traverse: write G0 or G1 \
      in the next move";
 const KEPT: &str =
-    "after this cycle the interpolation of before it is taken to count again, as on most controls";
+    "the motion code from before this cycle is taken to be in force again after it, as on most controls";
 const BELOW: &str = "the bottom of this peck drill is taken to lie below its retract plane";
 const COUNT: &str = "a repeat of this cycle is taken to be a whole number, 0 or more";
-const VACANT: &str = "if this cycle's words are vacant, the source takes none, and the target takes the value of before: make sure that they \
-     have a value";
+const VACANT: &str = "if a word of this cycle is vacant, the source leaves it out, and the target takes the value before it: make sure that it \
+     has a value";
 const REPEAT: &str = "a repeated cycle in incremental words: write its planes in absolute coordinates, or return to the initial plane";
 
 impl Writer<'_, '_> {
@@ -285,16 +285,16 @@ impl Writer<'_, '_> {
         let aside = || SourceInfo { span, ..SourceInfo::default() };
         let set = |value| StmtKind::Assign { target: Place::Var(left), value };
         builder.push(set(count), aside());
-        let (head, body, behind) = (builder.fresh(), builder.fresh(), builder.fresh());
+        let (head, body, after) = (builder.fresh(), builder.fresh(), builder.fresh());
         builder.start(head);
         let cond = Cond::Compare(Relation::Greater, Expr::Var(left), Expr::Number(0.0));
-        builder.end(TermKind::Branch { cond, then: body, otherwise: behind }, SourceInfo::default());
+        builder.end(TermKind::Branch { cond, then: body, otherwise: after }, SourceInfo::default());
         builder.start(body);
         self.moves(builder, words, found, site);
         builder
             .push(set(Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0))), SourceInfo::default());
         builder.end(TermKind::Jump(head), SourceInfo::default());
-        builder.start(behind);
+        builder.start(after);
     }
 
     /// How far over the last depth the source begins a step, in the program's unit.

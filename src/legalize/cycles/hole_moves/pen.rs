@@ -10,7 +10,7 @@ use crate::text::Span;
 pub(super) struct Pen<'p> {
     pub builder: &'p mut Builder,
     pub span: Span,
-    /// Whether the last move was at feed; none where that is not known.
+    /// Whether the last move was at feed; none if that is not known.
     pub feeds: Option<bool>,
     /// The feed, until the first cut.
     pub feed: Vec<NcItem>,

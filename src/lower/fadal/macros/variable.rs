@@ -50,7 +50,7 @@ impl<'b> Lowering<'b> {
             if *state == Sys::ModalMotionPlus1 {
                 self.reads_motion.get_or_insert(var.span);
             }
-            if early(*state) && self.state.moved {
+            if state.is_changed_by_moves() && self.state.moved {
                 let message = format!("{} may be read before earlier moves are done", var.name);
                 self.early(&var.name, var.span, message);
             }
@@ -156,18 +156,4 @@ pub fn piecewise(value: Expr, pieces: impl Iterator<Item = (f64, f64)>) -> Expr 
         out = Expr::binary(BinOp::Add, out, term);
     }
     out
-}
-
-/// True for state that moves change: read too early, it is what it was before them.
-fn early(state: Sys) -> bool {
-    matches!(
-        state,
-        Sys::AxisPosition
-            | Sys::ProbePoint
-            | Sys::Input
-            | Sys::InputInverted
-            | Sys::ToolTimeUsed
-            | Sys::Clock
-            | Sys::CyclePlane
-    )
 }

@@ -6,7 +6,7 @@ use crate::text::Span;
 
 /// Reads a block from left to right; a method that gives nothing declines the block.
 ///
-/// Without `ITEMS`, nothing is gathered: of an expression only its constant is known, and what the checks could find
+/// Without `ITEMS` no item is kept: of an expression only its constant is known, and a line that the checks might find
 /// fault with is declined.
 pub struct Reader<'a, const ITEMS: bool, const TOKENS: bool> {
     pub rules: &'a Rules,
@@ -23,7 +23,7 @@ pub struct Reader<'a, const ITEMS: bool, const TOKENS: bool> {
     pub operators: usize,
     /// True where something stands that may be wrong though the grammar lets it pass.
     pub in_doubt: bool,
-    /// How many items but comments were met; counted where none are gathered.
+    /// How many items, comments aside, were met, if no items are kept.
     pub met: usize,
     /// True where a call of ATAN was met.
     pub met_atan: bool,
