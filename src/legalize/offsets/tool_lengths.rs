@@ -109,7 +109,7 @@ impl State {
         }
     }
 
-    /// Takes a statement, before which `under` a cycle moves along Z whatever its words; what has to be put in with it.
+    /// Takes a statement, and gives what has to be put in with it. Under a cycle any move goes along Z.
     fn step(&mut self, stmt: &Stmt, modal: &Modal, rules: &Rules<'_>) -> Result<Option<Sync>, &'static str> {
         let StmtKind::Nc(nc) = &stmt.kind else { return Ok(None) };
         let before = *self;

@@ -238,5 +238,9 @@ fn a_program_that_is_run_by_itself_goes_on_at_its_own_block() {
     let target = source.replace("M99P10", "GOTO10");
     let found = |supposed: &[(usize, Assumption)]| one(source, &target, supposed).outcome;
     assert_eq!(found(&[]), Outcome::Undecided);
-    assert_eq!(found(&[assumption(Predicate::Main)]), Outcome::Undecided);
+    let main = [assumption(Predicate::Main)];
+    assert_eq!(found(&main), Outcome::Undecided);
+    // Who supposes it sees a jump to another block.
+    let elsewhere = source.replace("G0X6.", "N20G0X6.").replace("M99P10", "GOTO20");
+    assert_eq!(one(source, &elsewhere, &main).outcome, Outcome::Different);
 }
