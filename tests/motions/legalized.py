@@ -76,6 +76,15 @@ for more in range(3):
     part.rapid((one + more) & (two + more))
 part.to("fadal", "expressions/functions/bits.rs", "rewrite.rs")
 
+part = Short("fanuc", "word-rounds", "1.23456 and -2.34567 round to 1.235 and -2.346, so back by 1.111; half of the first to .617, twice.")
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(1.235, -2.346)
+part.rapid(1.235 + 1.111, -2.346)
+part.rapid(1.235 + 1.111 + 2 * 0.617, -2.346)
+part.to("fadal", "moves/word_rounds.rs", "expressions/functions/rounding.rs", profile='units = "metric"')
+part.to("cc100", "moves/word_rounds.rs", "expressions/functions/rounding.rs", profile='units = "metric"')
+
 part = Short("fanuc", "taps-by-feed", "400 and 300 a minute, in and out, at 500 turns: leads of .8 and .6; back to Z20. (G98) and to the plane (G99).",
              profile='options = ["common.variables"]')
 part.work(1)

@@ -15,11 +15,25 @@ use crate::text::Span;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+/// What is said where the unit is not known, and where it rests on what the library has not.
+#[derive(Clone, Copy)]
+pub(super) struct Texts {
+    pub unknown: &'static str,
+    pub guessed: &'static str,
+}
+
+const TEXTS: Texts = Texts {
+    unknown: "a number without a decimal point counts increments, and their size depends on the unit in force, which is \
+              not known here",
+    guessed: "a number without a decimal point is taken in the unit that the program names: a called program outside \
+              the library must not change it",
+};
+
 /// Converts counts of increments that the target reads otherwise.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let (source, target) = (context.source, context.target);
     let keeps = |local: u32| kept_by(local, source, target);
-    each(module, context, counts, &mut |kind, units| match kind {
+    each(module, context, TEXTS, counts, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
             NcItem::Word(role, value) => word(value, *role, units, source, target),
             _ => true,
@@ -35,14 +49,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 pub(in crate::legalize) fn of_modal_calls(module: &mut Module, context: &mut Context<'_>) {
     let source = context.source;
     let modal = |block: &Block| block.stmts.iter().any(|s| matches!(s.kind, StmtKind::ModalCall(_)));
-    each(module, context, modal, &mut |kind, units| match kind {
+    each(module, context, TEXTS, modal, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::ModalCall(call)) => arguments(call, units, source, |_| false),
         _ => true,
     });
 }
 
 /// What may have counts of increments in it.
-enum Counted<'m> {
+pub(super) enum Counted<'m> {
     Stmt(&'m mut StmtKind),
     Call(&'m mut Call),
 }
@@ -58,9 +72,10 @@ impl Counted<'_> {
 
 /// Takes what stands in the chosen blocks through `convert`, with the unit that is known there; what it cannot
 /// convert is reported once a program. True where there are such blocks.
-fn each(
+pub(super) fn each(
     module: &mut Module,
     context: &mut Context<'_>,
+    texts: Texts,
     chosen: impl Fn(&Block) -> bool,
     convert: &mut dyn FnMut(Counted<'_>, Option<Units>) -> bool,
 ) -> bool {
@@ -95,23 +110,26 @@ fn each(
                 take(Counted::Call(call), (id, block.stmts.len()), block.term.site.span);
             }
         }
-        report(index, unknown, guessed.filter(|_| left[index].outside), context);
+        report(index, texts, unknown, guessed.filter(|_| left[index].outside), context);
     }
     true
 }
 
 /// Reports the first number whose unit is not known, and the first whose unit rests on what the library has not.
-fn report(index: usize, unknown: Option<Span>, guessed: Option<Span>, context: &mut Context<'_>) {
+fn report(
+    index: usize,
+    texts: Texts,
+    unknown: Option<Span>,
+    guessed: Option<Span>,
+    context: &mut Context<'_>,
+) {
     if let Some(span) = unknown {
-        let what = "a number without a decimal point counts increments, and their size depends on the \
-                    unit in force, which is not known here";
         let help = "name the unit in the program (G20, G21) or in the machine profile of the source";
-        let finding = Diagnostic::new(Code::NoEquivalent, span, what).with_help(help);
-        context.add_once(index, "increments", finding);
+        let finding = Diagnostic::new(Code::NoEquivalent, span, texts.unknown).with_help(help);
+        context.add_once(index, texts.unknown, finding);
     }
     if let Some(span) = guessed {
-        let what = "a number without a decimal point is taken in the unit that the program names: a \
-                    called program outside the library must not change it";
+        let what = texts.guessed;
         context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
     }
 }

@@ -13,3 +13,4 @@ pub(in crate::legalize) mod shift;
 pub(in crate::legalize) mod short_arcs;
 pub(in crate::legalize) mod unit_checks;
 pub(in crate::legalize) mod units;
+pub(in crate::legalize) mod word_rounds;

@@ -6,7 +6,7 @@ use crate::legalize::cycles::{tap_leads, tapping};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
     bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, shaped, shift, short_arcs,
-    unit_checks, units,
+    unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
@@ -32,6 +32,8 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),
     Pass::edits("increments", "numbers without a decimal point get the target's form", increments::run)
         .when(|c, _| c.has(Feature::Increments)),
+    Pass::edits("word-rounds", "ROUND in words becomes arithmetic", word_rounds::run)
+        .when(word_rounds::concerns),
     Pass::edits("units", "programs that name no unit get one", units::run)
         .when(units::concerns)
         .needs(&["increments", "modal-calls"]),
