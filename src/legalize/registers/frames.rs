@@ -2,9 +2,10 @@
 //!
 //! Law: a local of a program becomes a static of its own, and so does the same local of every program that shares its
 //! level: those that are called without a level of their own, as far as they name it. A call that opens a level sets the
-//! statics of the callee to the arguments, and to 0 what the callee may read before it sets it; a program that a run
-//! begins with sets those of its own. What a call may write that its caller needs afterwards (a routine that is called
-//! with a level and shares locals with its caller in another way) is kept in temporaries over the call.
+//! statics of the callee to the arguments, as far as it reads them, and to 0 what else it may read before it sets it; a
+//! program that a run begins with sets those of its own. What a call may write that its caller needs afterwards (a
+//! routine that is called with a level and shares locals with its caller in another way) is kept in temporaries over the
+//! call.
 //!
 //! Side condition: no program is called again before it ends, if anything of its level must outlive that call; each
 //! level would need registers of its own. Counter-example: a macro that calls itself and counts down in #1.

@@ -1,4 +1,4 @@
-//! Calls that open a level: arguments go to the callee's statics, and what the caller still needs is kept.
+//! Calls that open a level: arguments that the callee reads go to its statics, and what the caller still needs is kept.
 
 use super::Levels;
 use crate::diag::{Code, Diagnostic};
@@ -66,12 +66,15 @@ fn open(
         values.push((statics.into_iter().collect(), argument.value));
     }
     call.level = false;
+    // What no callee reads before it sets it need not be set.
+    let reads: BTreeSet<Var> = callees.iter().flat_map(|callee| exposed.at_entry(*callee)).collect();
+    values.retain(|(statics, value)| value.may_alarm() || statics.iter().any(|var| reads.contains(var)));
     let given: BTreeSet<Var> = values.iter().flat_map(|(statics, _)| statics.iter().copied()).collect();
-    let read = |callee: &usize| {
+    let of_level = |callee: &usize| {
         let vars = exposed.at_entry(*callee).into_iter().filter(|var| levels.has(*callee, *var));
         vars.collect::<Vec<_>>()
     };
-    let zeros: BTreeSet<Var> = callees.iter().flat_map(read).filter(|var| !given.contains(var)).collect();
+    let zeros: BTreeSet<Var> = callees.iter().flat_map(of_level).filter(|var| !given.contains(var)).collect();
     // All arguments are read before the first of them is set.
     let mut crossed = false;
     for (_, value) in &values {
