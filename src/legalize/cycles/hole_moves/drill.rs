@@ -94,7 +94,7 @@ impl Drill {
         self.told[what as usize]
     }
 
-    fn join(&mut self, other: &Self) {
+    fn joined(mut self, other: &Self) -> Self {
         if self.op != other.op {
             self.op = None;
         }
@@ -110,6 +110,7 @@ impl Drill {
             self.height = Height::Unknown;
         }
         self.strange |= other.strange;
+        self
     }
 
     /// Takes the words of a block. A word that may be vacant is told or not, which its register knows.
@@ -140,8 +141,38 @@ pub(super) enum Cycle {
     /// What stood before the library ran: the control's own, if any.
     Outside,
     On(Drill),
+    /// One of the library on some ways, none on others, and on all of them the tool stands on the plane that a cycle
+    /// begins at: what begins one here does the same on each.
+    AtInitial(Drill),
     /// One of the library on some ways, none or the control's own on others.
     Mixed,
+}
+
+impl Cycle {
+    /// This one and another, where the tool stands at `z` on the ways of both.
+    fn join(&mut self, other: &Self, z: Option<f64>) {
+        let mine = std::mem::replace(self, Self::Mixed);
+        *self = match (mine, other) {
+            (Self::On(mine), Self::On(theirs)) => Self::On(mine.joined(theirs)),
+            (Self::Off, Self::Off) => Self::Off,
+            (Self::Off | Self::Outside, Self::Off | Self::Outside) => Self::Outside,
+            (mine, theirs) => match (mine.at_initial(z), theirs.clone().at_initial(z)) {
+                (Some(mine), Some(theirs)) => Self::AtInitial(mine.joined(&theirs)),
+                _ => Self::Mixed,
+            },
+        };
+    }
+
+    /// The cycle that the next block which names one goes on with, if the tool stands on the plane that it begins at, `z`.
+    fn at_initial(self, z: Option<f64>) -> Option<Drill> {
+        let z = z?;
+        let drill = match self {
+            Self::On(drill) | Self::AtInitial(drill) => drill,
+            Self::Off => Drill { op: None, ..Drill::new(Op::CycleDrill, Value::Is(z)) },
+            Self::Outside | Self::Mixed => return None,
+        };
+        (drill.height == Height::Initial && drill.told(Told::Initial) == Value::Is(z)).then_some(drill)
+    }
 }
 
 /// What is known where something leads.
@@ -158,7 +189,7 @@ impl Known {
     /// After something that may do anything.
     pub fn lose(&mut self) {
         self.z = None;
-        if matches!(self.cycle, Cycle::On(_)) {
+        if matches!(self.cycle, Cycle::On(_) | Cycle::AtInitial(_)) {
             self.cycle = Cycle::Mixed;
         }
     }
@@ -168,15 +199,17 @@ impl Known {
         let incremental = modal.op(Group::Distance).map(|op| op == Op::Incremental);
         if let Some(op) = nc.ops().filter(|op| op.is_cycle()).last() {
             let initial = self.z.map_or(Value::Lost, Value::Is);
-            match &mut self.cycle {
-                Cycle::On(drill) => drill.op = Some(op),
-                Cycle::Mixed => {}
-                cycle => *cycle = Cycle::On(Drill::new(op, initial)),
-            }
+            self.cycle = match std::mem::replace(&mut self.cycle, Cycle::Mixed) {
+                Cycle::On(drill) | Cycle::AtInitial(drill) => Cycle::On(Drill { op: Some(op), ..drill }),
+                Cycle::Mixed => Cycle::Mixed,
+                Cycle::Off | Cycle::Outside => Cycle::On(Drill::new(op, initial)),
+            };
         } else if modal.op(Group::Cycle) == Some(Op::CycleOff) && self.cycle != Cycle::Outside
             || nc.has(Op::CycleOff)
         {
             self.cycle = Cycle::Off;
+        } else if matches!(self.cycle, Cycle::AtInitial(_)) && !is_nothing_to_cycles(nc) {
+            self.cycle = Cycle::Mixed;
         }
         let Cycle::On(drill) = &mut self.cycle else {
             let mixed = self.cycle == Cycle::Mixed;
@@ -188,7 +221,7 @@ impl Known {
             drill.height = Height::Unknown;
         }
         if rules.drills(nc) {
-            let [_, back] = drill.ends(modal);
+            let [_, back] = drill.ends(rules.back(modal));
             (drill.height, self.z) = back;
         }
     }
@@ -215,7 +248,7 @@ impl Known {
 
 impl Drill {
     /// Where the tool stands before the retraction to the initial plane, and after a hole.
-    fn ends(&self, modal: &Modal) -> [(Height, Option<f64>); 2] {
+    fn ends(&self, back: Option<Op>) -> [(Height, Option<f64>); 2] {
         let number = |value: Value| if let Value::Is(number) = value { Some(number) } else { None };
         let initial = number(self.told(Told::Initial));
         let retract = match (self.told(Told::Retract), self.incremental[0]) {
@@ -224,7 +257,7 @@ impl Drill {
             (Value::Is(at), Some(false)) => Some(at),
             _ => None,
         };
-        let after = match modal.op(Group::ReturnPlane) {
+        let after = match back {
             Some(Op::ReturnR) => (Height::Retract, retract),
             Some(Op::ReturnInitial) => (Height::Initial, initial),
             _ => (Height::Unknown, None),
@@ -240,9 +273,16 @@ pub(super) struct Runs {
     pub with_place: bool,
     /// True if one drills where the tool stands, if it has none.
     pub without: bool,
+    /// The return plane where no program names one.
+    pub returns: Option<Op>,
 }
 
 impl Runs {
+    /// The return plane in force.
+    pub fn back(self, modal: &Modal) -> Option<Op> {
+        modal.op(Group::ReturnPlane).or(self.returns)
+    }
+
     /// True for a block that drills under a cycle in force.
     pub fn drills(self, nc: &Nc) -> bool {
         if nc.word(Role::Repeat).and_then(Expr::constant) == Some(0.0) {
@@ -257,6 +297,12 @@ impl Runs {
             (false, false) => depths() && self.without,
         }
     }
+}
+
+/// True for a block that neither moves nor tells a cycle anything.
+fn is_nothing_to_cycles(nc: &Nc) -> bool {
+    let tells = |what: Told| what.role().is_some_and(|role| nc.word(role).is_some());
+    !nc.names_axis() && !Told::ALL.into_iter().any(tells) && nc.ops().all(keeps_height)
 }
 
 /// True for what leaves the tool's coordinate along Z alone.
@@ -277,12 +323,7 @@ impl Lattice for Known {
         if self.z != other.z {
             self.z = None;
         }
-        match (&mut self.cycle, &other.cycle) {
-            (Cycle::On(mine), Cycle::On(theirs)) => mine.join(theirs),
-            (Cycle::Off, Cycle::Off) => {}
-            (Cycle::Off | Cycle::Outside, Cycle::Off | Cycle::Outside) => self.cycle = Cycle::Outside,
-            _ => self.cycle = Cycle::Mixed,
-        }
+        self.cycle.join(&other.cycle, self.z);
         *self != before
     }
 }

@@ -28,6 +28,7 @@ use crate::ir::{
     Stmt, StmtKind, TermKind, Var,
 };
 use crate::legalize::Context;
+use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
 use drill::{Cycle, Drill, Height, Known, Runs, Told};
@@ -53,6 +54,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let rules = Runs {
         with_place: value(Question::CycleBlockRuns) != Some("false"),
         without: value(Question::CycleRunsWithoutAxes) == Some("true"),
+        // Controls begin so, and nothing in the library changes it.
+        returns: (!Features::of(&module.programs).op(Op::ReturnR)).then_some(Op::ReturnInitial),
     };
     let flow = Flow { facts: &facts, runs: rules };
     let known = OverCalls::of(module, &flow);
@@ -102,6 +105,8 @@ const MOTION: &str = "which interpolation is in force after this cycle is not kn
 const KEPT: &str =
     "the motion code from before this cycle is taken to be in force again after it, as on most controls";
 const BELOW: &str = "the bottom of this peck drill is taken to lie below its retract plane";
+const INITIALLY: &str =
+    "no program names G98 or G99: this cycle is taken to return to the initial plane, as after power-on";
 const COUNT: &str = "a repeat of this cycle is taken to be a whole number, 0 or more";
 const VACANT: &str = "if a word of this cycle is vacant, the source leaves it out, and the target takes the value before it: make sure that it \
      has a value";
@@ -183,7 +188,7 @@ impl Writer<'_, '_> {
         let StmtKind::Nc(mut nc) = kind else { return builder.push(kind, site) };
         let span = site.span;
         nc.items.retain(|item| !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial)));
-        if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::Mixed) {
+        if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::AtInitial(_) | Cycle::Mixed) {
             self.end(&mut nc, was, span, says_motion);
         }
         match &after.cycle {
@@ -262,7 +267,11 @@ impl Writer<'_, '_> {
             self.context.source.code_for(op, &BTreeMap::new()).is_some_and(|row| row.takes(Role::CycleDwell))
         });
         let clear = self.clearance(modal);
-        let found = hole(drill, stands, modal, self.first, (clear, dwells));
+        let back = self.rules.back(modal);
+        if modal.op(Group::ReturnPlane).is_none() && back.is_some() {
+            self.review(span, INITIALLY);
+        }
+        let found = hole(drill, stands, (modal, back), self.first, (clear, dwells));
         let found = match found {
             Ok(found) => found,
             Err(what) => {
@@ -271,10 +280,7 @@ impl Writer<'_, '_> {
             }
         };
         let relative = !found.switch && modal.op(Group::Distance) == Some(Op::Incremental);
-        if repeats.is_some()
-            && relative
-            && (stands.0, modal.op(Group::ReturnPlane)) != (Height::Initial, Some(Op::ReturnInitial))
-        {
+        if repeats.is_some() && relative && (stands.0, back) != (Height::Initial, Some(Op::ReturnInitial)) {
             self.refuse(span, REPEAT);
         }
         let Some(count) = repeats else { return self.moves(builder, words, found, site) };

@@ -28,6 +28,7 @@ pub(super) const RETURN: &str = "which plane this cycle returns to is not known:
 const STRANGE: &str = "the target has no such cycle, and this one has words that no moves are known for";
 const OTHER: &str = "the target has no such cycle, and its moves are not known: write them out";
 const DEPTH: &str = "the depth of this cycle is not known here: write R and Z into its block";
+const WAIT: &str = "how long this cycle waits at the bottom is not known here: write P into its block";
 const INITIAL: &str =
     "the plane that this cycle begins from is not known: write Z in absolute coordinates before the cycle";
 const DISTANCE: &str = "it is not known whether G90 or G91 is in force at this cycle: write one before it";
@@ -75,12 +76,12 @@ struct Planes {
     initial: Option<Expr>,
 }
 
-/// What is done at a hole: `before` is where the tool stands, `modal` what is in force in the block, `clear` how far over the
-/// last depth the source begins to peck, `dwells` whether its code waits.
+/// What is done at a hole: `before` is where the tool stands, `modal` and `back` what is in force in the block, `clear` how far
+/// over the last depth the source begins to peck, `dwells` whether its code waits.
 pub(super) fn hole(
     drill: &Drill,
     before: (Height, Option<f64>),
-    modal: &Modal,
+    (modal, back): (&Modal, Option<Op>),
     first: u32,
     (clear, dwells): (Option<f64>, bool),
 ) -> Result<Hole, &'static str> {
@@ -88,7 +89,7 @@ pub(super) fn hole(
     if drill.strange {
         return Err(STRANGE);
     }
-    let back = modal.op(Group::ReturnPlane).ok_or(RETURN)?;
+    let back = back.ok_or(RETURN)?;
     let absolute = modal.op(Group::Distance).ok_or(DISTANCE)? == Op::Absolute;
     let told = |what| of(drill.told(what), what, first);
     let initial = told(Told::Initial);
@@ -110,6 +111,9 @@ pub(super) fn hole(
         }
         (Vec::new(), Some(Planes { retract, bottom, initial }))
     };
+    if dwells && drill.told(Told::Dwell) == Value::Lost {
+        return Err(WAIT);
+    }
     let dwell = told(Told::Dwell).filter(|time| dwells && time.constant() != Some(0.0));
     let dwell = dwell.map(|time| Part::Words(vec![NcItem::Op(Op::Dwell), NcItem::Word(Role::DwellMs, time)]));
     let turns = || modal.op(Group::Spindle).filter(|op| matches!(op, Op::SpindleCw | Op::SpindleCcw));
