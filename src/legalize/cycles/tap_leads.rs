@@ -2,15 +2,15 @@
 //!
 //! Law: a tap that feeds f a minute at S turns advances f / S each turn. Side conditions: both are known numbers where the
 //! cycle begins, or stand in its block, and the feed counts per minute. The speed word of the target's cycle takes the place of
-//! its feed, so the feed that was in force is said again where the cycle ends. Counter-example: a subprogram that taps at
-//! whatever speed its caller chose.
+//! its feed, so the feed that was in force is said again where the cycle ends. A subprogram taps at the speed of its callers.
+//! Counter-example: one that a second program calls at another speed.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve};
-use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::dataflow::Lattice;
+use crate::ir::analysis::over_calls::{Follow, OverCalls};
+use crate::ir::{Block, BlockId, Expr, Module, Nc, NcItem, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -26,13 +26,13 @@ fn by_lead(control: &Control) -> bool {
 /// Gives tapping cycles a lead for their feed.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    let speeds = OverCalls::of(module, &Speeds);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let speeds = solve(&Speeds, program, &Cfg::of(program));
         let mut found = Vec::new();
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let mut modal = facts.at(index, id);
-            let mut speed = speeds.at(id).copied().unwrap_or(Speed::Unknown);
+            let mut speed = speeds.at(index, id).copied().unwrap_or(Speed::Unknown);
             for stmt in &mut block.stmts {
                 let was = modal.op(Group::Cycle);
                 modal.step(stmt);
@@ -81,7 +81,10 @@ fn give_lead(nc: &mut Nc, speed: Speed, feed: Option<f64>, mode: Option<Op>) -> 
         return Err("a tapping cycle in feed per turn: write it in feed per minute");
     }
     let Speed::Known(speed) = speed else {
-        return Err("a tapping cycle whose speed is not known here: write S before it in this program");
+        return Err(
+            "a tapping cycle whose speed is not known here, or is not the same for all who call this program: write S before it in \
+                    this program",
+        );
     };
     let Some(feed) = nc.word(Role::Feed).map_or(feed, Expr::constant) else {
         return Err("a tapping cycle whose feed is not known here: write F in its block");
@@ -129,21 +132,21 @@ impl Lattice for Speed {
     }
 }
 
-/// The speed at the start of every block of a program; whoever calls it chose one, and whoever it calls may choose another.
+/// The speed at every block of a library: a program that is called begins with that of its callers.
 struct Speeds;
 
-impl Analysis for Speeds {
-    type State = Speed;
-    const DIRECTION: Direction = Direction::Forward;
+impl Follow for Speeds {
+    type Known = Speed;
 
-    fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, Speed)> {
-        cfg.roots().iter().map(|root| (*root, Speed::Unknown)).collect()
+    fn outside(&self, _: usize) -> Speed {
+        Speed::Unknown
     }
 
-    fn block(&self, _: BlockId, block: &Block, speed: &mut Speed) {
+    fn stmts(&self, _: (usize, BlockId), block: &Block, speed: &mut Speed) {
         block.stmts.iter().for_each(|stmt| speed.step(stmt));
-        if matches!(block.term.kind, TermKind::Call { .. }) {
-            *speed = Speed::Unknown;
-        }
+    }
+
+    fn lose(&self, speed: &mut Speed) {
+        *speed = Speed::Unknown;
     }
 }

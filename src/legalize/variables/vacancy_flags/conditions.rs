@@ -28,9 +28,12 @@ fn tells(other: &Expr) -> bool {
 pub(super) fn rewritten(cond: Cond, flag: &dyn Fn(&Expr) -> Option<Var>) -> Cond {
     let all = |parts: Vec<Cond>| parts.into_iter().map(|part| rewritten(part, flag)).collect();
     match cond {
-        Cond::And(parts) => Cond::And(all(parts)),
-        Cond::Or(parts) => Cond::Or(all(parts)),
-        Cond::Not(inner) => Cond::Not(Box::new(rewritten(*inner, flag))),
+        Cond::And(parts) => joined(all(parts), false, Cond::And),
+        Cond::Or(parts) => joined(all(parts), true, Cond::Or),
+        Cond::Not(inner) => {
+            let inner = rewritten(*inner, flag);
+            settled(&inner).map_or_else(|| Cond::Not(Box::new(inner)), |holds| always(!holds))
+        }
         Cond::Compare(relation @ (Relation::Equal | Relation::NotEqual), a, b) => {
             let equal = relation == Relation::Equal;
             compare(equal, a, b, flag).unwrap_or_else(|(a, b)| Cond::Compare(relation, a, b))
@@ -71,6 +74,25 @@ fn compare(equal: bool, a: Expr, b: Expr, flag: &dyn Fn(&Expr) -> Option<Var>) -
     };
     let parts = vec![Cond::Compare(relation, a, b), first];
     Ok(if equal { Cond::And(parts) } else { Cond::Or(parts) })
+}
+
+/// Parts of which one decides by itself where it `decides`, without those that have no say.
+fn joined(mut parts: Vec<Cond>, decides: bool, join: fn(Vec<Cond>) -> Cond) -> Cond {
+    let decided = parts.iter().any(|part| settled(part) == Some(decides));
+    if decided && !parts.iter().any(Cond::may_alarm) {
+        return always(decides);
+    }
+    parts.retain(|part| settled(part) != Some(!decides));
+    match parts.len() {
+        0 => always(!decides),
+        1 => parts.swap_remove(0),
+        _ => join(parts),
+    }
+}
+
+/// Whether a condition holds that [`always`] made.
+pub(super) fn settled(cond: &Cond) -> Option<bool> {
+    [true, false].into_iter().find(|holds| *cond == always(*holds))
 }
 
 fn always(holds: bool) -> Cond {

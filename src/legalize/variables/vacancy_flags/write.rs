@@ -1,6 +1,6 @@
 //! Writes the flags of a program, and asks them.
 
-use super::conditions::rewritten;
+use super::conditions::{rewritten, settled};
 use super::marks::{At, Marks, unsigned};
 use crate::ir::{
     Argument, BlockId, Builder, Call, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation,
@@ -86,7 +86,13 @@ impl Here<'_> {
     fn end(&self, mut term: Terminator, builder: &mut Builder) {
         term.kind.exprs_mut(&mut |e| self.conditions(e));
         match &mut term.kind {
-            TermKind::Branch { cond, .. } => self.condition(cond),
+            TermKind::Branch { cond, then, otherwise } => {
+                self.condition(cond);
+                // A question to what always has a value, or never, is none.
+                if let (Some(way), None) = (settled(cond), term.site.skip) {
+                    term.kind = TermKind::Jump(if way { *then } else { *otherwise });
+                }
+            }
             TermKind::Call { call, .. } => self.call(call),
             _ => {}
         }
