@@ -2,13 +2,15 @@
 //!
 //! Law: a statement with the variable of a number that is one of a few does what the same statement with that variable
 //! does. So it becomes a comparison with each number, and the statement with its variable after it; a branch or a call
-//! alike. Where a number may come that is none of them, because an operator edits a literal, an alarm stands after the
-//! last. Side conditions: the numbers are whole and few, each is that of a variable of the source, and the statement
-//! computes one number only. Counter-example: `#[#1+100]` where a macro is called with any #1.
+//! alike. Where several numbers hang on one variable, its values are compared, which each say all of them. Where a number
+//! may come that is none of them, because an operator edits a literal, an alarm stands after the last. Side conditions: the
+//! numbers are whole and few, and each is that of a variable of the source. Counter-example: `#[#1+100]` where a macro is
+//! called with any #1.
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::{Numbers, Ranges, Summaries};
+use crate::ir::eval::{self, Memory, whole};
 use crate::ir::{
     Bank, BlockId, Builder, Class, Cond, Expr, Module, Place, Program, Relation, SourceInfo, Stmt, StmtKind,
     TermKind, Terminator, Var,
@@ -16,14 +18,20 @@ use crate::ir::{
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, highest_temp, rebuild, unless_skipped};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Most numbers that a statement is written out for.
-const MOST: u32 = 10;
+/// Most numbers that a statement is written out for: where the target takes computed numbers, of its own variables, and
+/// where it takes none, which is a target with few labels.
+const MOST: u32 = 32;
+const FEW: u32 = 10;
 
-/// True if the library computes numbers of variables, and the target takes none.
+/// True if the library computes numbers of variables, and the target takes none of such variables.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    features.has(Feature::Indirect) && context.target.statement("variable.computed").is_none()
+    features.has(Feature::Indirect) && (takes_none(context.target) || context.target.numbered().is_none())
+}
+
+fn takes_none(target: &Control) -> bool {
+    target.statement("variable.computed").is_none()
 }
 
 /// Writes statements out.
@@ -31,7 +39,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let summaries = context.summaries(module);
     let mut any = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let chains = chains(program, &summaries, context.source);
+        let chains = chains(program, &summaries, context);
         for (span, chain) in chains.values() {
             if chain.may_miss {
                 let what = "the number of this variable is computed: it is one of a few as the numbers in the program have \
@@ -51,42 +59,85 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 type Computed = (Bank, Expr);
 
 struct Chain {
-    of: Computed,
-    choices: Vec<(u32, Var)>,
-    /// The number may be none of them.
+    of: Vec<Computed>,
+    /// What is compared: the number itself, or the variable that all of the numbers hang on.
+    on: Expr,
+    /// For each of its values the variables.
+    choices: Vec<(u32, Vec<Var>)>,
+    /// It may be none of them.
     may_miss: bool,
 }
 
 type Chains = BTreeMap<(BlockId, usize), (crate::text::Span, Chain)>;
 
-fn chains(program: &Program, summaries: &Summaries, source: &Control) -> Chains {
+fn chains(program: &Program, summaries: &Summaries, context: &Context<'_>) -> Chains {
+    let (source, target) = (context.source, context.target);
+    let most = if takes_none(target) { FEW } else { MOST };
+    let there = |(bank, _): &Computed| *bank != Bank::Numbered || target.numbered().is_some();
     let (ranges, any) = (Ranges::of(program, summaries), Ranges::of_any_inputs(program, summaries));
     let mut found = Chains::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         let stmts = block.stmts.iter().map(|stmt| (in_stmt(&stmt.kind), stmt.site.span));
         let end = std::iter::once((in_end(&block.term.kind), block.term.site.span));
         for (at, (of, span)) in stmts.chain(end).enumerate() {
-            let Some((bank, number)) = of else { continue };
+            if of.is_empty() || !takes_none(target) && of.iter().all(there) {
+                continue;
+            }
+            let Some(on) = compared(&of) else { continue };
+            let least = if of.len() == 1 { 1.0 } else { 0.0 };
             let numbers = |ranges: &Ranges<'_>| {
-                let values = ranges.at(id, at, &number);
-                (values.all_whole() && values.bounds().is_some_and(|(low, _)| low >= 1.0))
+                let values = ranges.at(id, at, &on);
+                (values.all_whole() && values.bounds().is_some_and(|(low, _)| low >= least))
                     .then(|| values.numbers())
             };
             let Some(all) = numbers(&ranges) else { continue };
             let count: u32 = all.runs().iter().map(|(first, last)| last - first + 1).sum();
-            if count == 0 || count > MOST {
+            if count == 0 || count > most {
                 continue;
             }
             let each = all.runs().iter().flat_map(|(first, last)| *first..=*last);
-            let choices: Option<Vec<(u32, Var)>> =
-                each.map(|number| Some((number, variable(bank, number, source)?))).collect();
+            let choices: Option<Vec<(u32, Vec<Var>)>> =
+                each.map(|value| Some((value, variables(&of, &on, value, source)?))).collect();
             let Some(choices) = choices else { continue };
             let known = Numbers::of(choices.iter().map(|(number, _)| (*number, *number)));
             let may_miss = numbers(&any).is_none_or(|any| !known.holds(&any));
-            found.insert((id, at), (span, Chain { of: (bank, number), choices, may_miss }));
+            found.insert((id, at), (span, Chain { of, on, choices, may_miss }));
         }
     }
     found
+}
+
+/// What a chain compares: the number of one variable, or the variable that the numbers of several hang on.
+fn compared(of: &[Computed]) -> Option<Expr> {
+    if let [(_, number)] = of {
+        return Some(number.clone());
+    }
+    let mut all = BTreeSet::new();
+    for (_, number) in of {
+        number.variables(&mut |var| {
+            all.insert(var);
+        });
+    }
+    match (all.pop_first(), all.is_empty()) {
+        (Some(var), true) => Some(Expr::Var(var)),
+        _ => None,
+    }
+}
+
+/// The variables whose numbers are computed, where what is compared has a value; none if one of them has no variable.
+fn variables(of: &[Computed], on: &Expr, value: u32, source: &Control) -> Option<Vec<Var>> {
+    let value = Expr::Number(f64::from(value));
+    let each = of.iter().map(|(bank, number)| {
+        let mut number = number.clone();
+        number.walk_mut(&mut |e| {
+            if e == on {
+                *e = value.clone();
+            }
+        });
+        let number = eval::number(&number, &Memory::new()).ok().filter(|number| number.fract() == 0.0)?;
+        variable(*bank, whole(number)?, source)
+    });
+    each.collect()
 }
 
 /// The variable of a number.
@@ -108,12 +159,17 @@ fn variable(bank: Bank, number: u32, source: &Control) -> Option<Var> {
     exists.then_some(Var { class, number })
 }
 
-/// The one computed variable of a statement; none if there are more, or the number itself has one in it.
-fn one(all: Vec<Computed>) -> Option<Computed> {
-    let first = all.first()?.clone();
+/// The computed variables of a statement, each once; none if a number has one in it.
+fn each_once(all: Vec<Computed>) -> Vec<Computed> {
     let mut nested = false;
-    first.1.walk(&mut |e| nested |= matches!(e, Expr::Indirect(..)));
-    (!nested && all.iter().all(|other| *other == first)).then_some(first)
+    let mut found: Vec<Computed> = Vec::new();
+    for one in all {
+        one.1.walk(&mut |e| nested |= matches!(e, Expr::Indirect(..)));
+        if !found.contains(&one) {
+            found.push(one);
+        }
+    }
+    if nested { Vec::new() } else { found }
 }
 
 fn note(e: &Expr, all: &mut Vec<Computed>) {
@@ -124,40 +180,59 @@ fn note(e: &Expr, all: &mut Vec<Computed>) {
     });
 }
 
-fn in_stmt(kind: &StmtKind) -> Option<Computed> {
+fn in_stmt(kind: &StmtKind) -> Vec<Computed> {
     if matches!(kind, StmtKind::ModalCall(_)) {
-        return None;
+        return Vec::new();
     }
     let mut all = Vec::new();
     kind.exprs(&mut |e| note(e, &mut all));
     if let Some(place) = kind.target() {
         note(&place.read(), &mut all);
     }
-    one(all)
+    each_once(all)
 }
 
-fn in_end(kind: &TermKind) -> Option<Computed> {
+fn in_end(kind: &TermKind) -> Vec<Computed> {
     let mut all = Vec::new();
     kind.exprs(&mut |e| note(e, &mut all));
-    one(all)
+    each_once(all)
 }
 
-/// Puts a variable in the place of the computed one.
-fn put(e: &mut Expr, of: &Computed, var: Var) {
-    e.walk_mut(&mut |e| {
-        if matches!(e, Expr::Indirect(bank, number) if *bank == of.0 && **number == of.1) {
-            *e = Expr::Var(var);
-        }
-    });
+/// Which variable stands for which computed one.
+struct Named<'n> {
+    of: &'n [Computed],
+    vars: &'n [Var],
 }
 
-fn put_in_stmt(kind: &mut StmtKind, of: &Computed, var: Var) {
-    kind.exprs_mut(&mut |e| put(e, of, var));
-    if let StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } = kind {
-        match target {
-            Place::Indirect(..) => *target = Place::Var(var),
-            Place::System(_, subscripts) => subscripts.iter_mut().for_each(|e| put(e, of, var)),
-            Place::Var(_) => {}
+impl Named<'_> {
+    fn var(&self, bank: Bank, number: &Expr) -> Option<Var> {
+        let at = self.of.iter().position(|(other, of)| *other == bank && of == number)?;
+        self.vars.get(at).copied()
+    }
+
+    /// Puts the variables in the place of the computed ones.
+    fn put(&self, e: &mut Expr) {
+        e.walk_mut(&mut |e| {
+            if let Expr::Indirect(bank, number) = e
+                && let Some(var) = self.var(*bank, number)
+            {
+                *e = Expr::Var(var);
+            }
+        });
+    }
+
+    fn put_in_stmt(&self, kind: &mut StmtKind) {
+        kind.exprs_mut(&mut |e| self.put(e));
+        if let StmtKind::Assign { target, .. } | StmtKind::Input { target, .. } = kind {
+            match target {
+                Place::Indirect(bank, number) => {
+                    if let Some(var) = self.var(*bank, number) {
+                        *target = Place::Var(var);
+                    }
+                }
+                Place::System(_, subscripts) => subscripts.iter_mut().for_each(|e| self.put(e)),
+                Place::Var(_) => {}
+            }
         }
     }
 }
@@ -184,7 +259,7 @@ fn write_out(program: &mut Program, mut chains: Chains) {
 
 /// The number, where it can be compared.
 fn number(builder: &mut Builder, chain: &Chain, temp: Var, place: &SourceInfo) -> Expr {
-    match &chain.of.1 {
+    match &chain.on {
         Expr::Var(var) if !var.class.nullable() => Expr::Var(*var),
         value => {
             // What is vacant counts as 0 in a number.
@@ -204,21 +279,21 @@ fn branches(
     chain: &Chain,
     temp: Var,
     place: &SourceInfo,
-    lay: &mut dyn FnMut(&mut Builder, Var),
+    lay: &mut dyn FnMut(&mut Builder, Named<'_>),
 ) {
     let value = number(builder, chain, temp, place);
     let last = chain.choices.last().filter(|_| !chain.may_miss);
     let count = chain.choices.len() - usize::from(last.is_some());
-    for (number, var) in &chain.choices[..count] {
+    for (number, vars) in &chain.choices[..count] {
         let (then, otherwise) = (builder.fresh(), builder.fresh());
         let cond = Cond::Compare(Relation::Equal, value.clone(), Expr::Number(f64::from(*number)));
         builder.end(TermKind::Branch { cond, then, otherwise }, place.clone());
         builder.start(then);
-        lay(builder, *var);
+        lay(builder, Named { of: &chain.of, vars });
         builder.start(otherwise);
     }
     match last {
-        Some((_, var)) => lay(builder, *var),
+        Some((_, vars)) => lay(builder, Named { of: &chain.of, vars }),
         None => {
             let alarm = StmtKind::Alarm { number: Expr::Number(1.0), text: "NO SUCH VARIABLE".into() };
             builder.push(alarm, place.clone());
@@ -237,9 +312,9 @@ fn statement(builder: &mut Builder, chain: &Chain, temp: Var, stmt: Stmt) {
         builder.push(StmtKind::Comment, site);
     }
     unless_skipped(builder, skip, after);
-    branches(builder, chain, temp, &place, &mut |builder, var| {
+    branches(builder, chain, temp, &place, &mut |builder, named| {
         let mut kind = kind.clone();
-        put_in_stmt(&mut kind, &chain.of, var);
+        named.put_in_stmt(&mut kind);
         builder.push(kind, place.clone());
         builder.end(TermKind::Jump(after), SourceInfo::default());
     });
@@ -252,9 +327,9 @@ fn end(builder: &mut Builder, chain: &Chain, temp: Var, term: Terminator) {
     if !site.comments.is_empty() || site.sequence.is_some() {
         builder.push(StmtKind::Comment, site);
     }
-    branches(builder, chain, temp, &place, &mut |builder, var| {
+    branches(builder, chain, temp, &place, &mut |builder, named| {
         let mut kind = kind.clone();
-        kind.exprs_mut(&mut |e| put(e, &chain.of, var));
+        kind.exprs_mut(&mut |e| named.put(e));
         builder.end(kind, place.clone());
     });
 }
