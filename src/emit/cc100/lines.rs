@@ -96,6 +96,12 @@ impl<'p> Emitter<'p> {
         }
     }
 
+    /// True if another load would make the line longer than this.
+    pub(super) fn is_long(&self, most: usize) -> bool {
+        const LOAD: usize = 8;
+        self.out.text.len() - self.page.start + LOAD > most
+    }
+
     /// Ends the line, if anything stands on it.
     pub(super) fn finish(&mut self) {
         let text = self.out.text.split_off(self.page.start);

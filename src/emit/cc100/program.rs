@@ -3,6 +3,7 @@
 use super::Emitter;
 use super::labels::Labels;
 use super::lines::{SKIP, plain};
+use super::statements::loaded_together;
 use crate::canon::{Op, Sys};
 use crate::diag::Code;
 use crate::dialect::Compares;
@@ -65,7 +66,7 @@ impl<'p> Emitter<'p> {
         }
         for (at, (block, form)) in program.blocks.iter().zip(&plan.forms).enumerate() {
             self.label(at);
-            block.stmts.iter().for_each(|stmt| self.statement(stmt));
+            block.stmts.chunk_by(loaded_together).for_each(|stmts| self.statements(stmts));
             self.end(block, *form);
         }
         self.tail(count);
