@@ -114,5 +114,6 @@ pub(super) const MOVES: &[Pass] = &[
         short_arcs::run,
     )
     .when(|c, context| (c.op(Op::ArcCw) || c.op(Op::ArcCcw)) && short_arcs::concerns(context.target))
+    .changes_flow()
     .needs(&["modal-calls", "units", "bare-arcs"]),
 ];
