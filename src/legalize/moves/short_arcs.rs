@@ -28,6 +28,7 @@ use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use plan::{Library, Plan};
 use shape::{Arc, Size};
+pub(super) use starts::{Vacant, vacant};
 use std::collections::BTreeSet;
 use turn::Turn;
 
@@ -65,7 +66,7 @@ enum Made {
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let summaries = context.summaries(module);
-    let planes = planes(module);
+    let planes = other_planes(module);
     let still = starts::still(module);
     let (given, none) = (context.called(module).given(module), BTreeSet::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
@@ -96,7 +97,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 }
 
 /// The programs that name another plane than XY, or that call or are called by one that may be in another.
-fn planes(module: &Module) -> Vec<bool> {
+pub(super) fn other_planes(module: &Module) -> Vec<bool> {
     let names = |nc: &Nc| nc.ops().any(|op| op.group() == Group::Plane && op != Op::PlaneXy);
     let stmts = |program: &Program| {
         program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc()).any(names)
@@ -188,6 +189,13 @@ impl Maker<'_> {
         };
         if let Some(radius) = nc.word(Role::ArcRadius) {
             return match radius.constant() {
+                // Beside words of variables the number goes to one too.
+                Some(number)
+                    if number >= 0.0 && ends.iter().flatten().any(|end| end.constant().is_none()) =>
+                {
+                    let radius = radius.clone();
+                    Ok(self.by_variable(stmt, nc, radius))
+                }
                 Some(radius) if radius >= 0.0 => Ok(vec![stmt.clone()]),
                 Some(radius) => {
                     distance.ok_or(DISTANCE)?;

@@ -17,11 +17,11 @@ use std::collections::BTreeSet;
 /// The axes of an arc.
 const AXES: [Role; 2] = [Role::X, Role::Y];
 
-/// The words of an arc, those of its end first.
-const WORDS: [Role; 4] = [Role::X, Role::Y, Role::ArcI, Role::ArcJ];
+/// The words of an arc, those of its end first, and the angle of a rotation.
+const WORDS: [Role; 5] = [Role::X, Role::Y, Role::ArcI, Role::ArcJ, Role::Angle];
 
 /// Of those words, which may be vacant.
-pub(super) type Vacant = [bool; 4];
+pub type Vacant = [bool; 5];
 
 /// Of X and Y, whether the copy of its last word says where the tool stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,7 +158,7 @@ pub(super) fn still(module: &Module) -> BTreeSet<ProgramName> {
 }
 
 /// Of each statement, which words of an arc may be vacant; `given` are locals that every call sets.
-pub(super) fn vacant(program: &Program, summaries: &Summaries, given: &BTreeSet<Var>) -> Vec<Vec<Vacant>> {
+pub fn vacant(program: &Program, summaries: &Summaries, given: &BTreeSet<Var>) -> Vec<Vec<Vacant>> {
     let vacancy = Vacancy::of(program, summaries, given);
     let of = |id, at, stmt: &Stmt| {
         WORDS.map(|role| match stmt.kind.nc().and_then(|nc| nc.word(role)) {
