@@ -69,6 +69,8 @@ pub enum Predicate {
     Loaded(u32),
     /// The arcs of these blocks pass at most half a turn.
     ShortArcs(Vec<Span>),
+    /// The arcs of these blocks end as far from their centre as they begin.
+    ArcEnds(Vec<Span>),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
     Unseen,
 }
@@ -80,7 +82,8 @@ impl Predicate {
             Self::Subscripts(Subscripts { places, .. })
             | Self::Arguments { places, .. }
             | Self::Codes { places, .. }
-            | Self::ShortArcs(places) => Some(places),
+            | Self::ShortArcs(places)
+            | Self::ArcEnds(places) => Some(places),
             _ => None,
         }
     }
@@ -98,6 +101,7 @@ impl Predicate {
             Self::Main => "main",
             Self::Loaded(_) => "tool",
             Self::ShortArcs(_) => "arcs",
+            Self::ArcEnds(_) => "arc_ends",
             Self::Unseen => "unseen",
         }
     }
@@ -125,9 +129,8 @@ impl Predicate {
             Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
-            Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::ShortArcs(_) | Self::Unseen => {
-                Vec::new()
-            }
+            Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::Unseen => Vec::new(),
+            Self::ShortArcs(_) | Self::ArcEnds(_) => Vec::new(),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Each row is a condition that a reviewer must accept: another coolant, corners that are rounded or stopped at
 //! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here.
 
-use crate::canon::Op;
+use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{NcItem, Program, StmtKind};
 use crate::legalize::Context;
@@ -37,6 +37,16 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
         "acceleration ramps on is dropped: the target has no such code, and rounds corners or stops at \
          them as it is set",
     ),
+    (
+        Op::ScaleOff,
+        None,
+        "the end of scaling is dropped: the target has no code for scaling, and none may be in force there",
+    ),
+    (
+        Op::MirrorOff,
+        None,
+        "the end of the mirror image is dropped: the target has no code for one, and none may be in force there",
+    ),
 ];
 
 /// True where an operation with a row stands, or a block that it may have left empty.
@@ -56,6 +66,10 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
                 let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
                     continue;
                 };
+                // Words of axes that are mirrored would be a move.
+                if op.group() == Group::Mirror && nc.names_axis() {
+                    continue;
+                }
                 changed = true;
                 match other {
                     Some(other) => nc.items[at] = NcItem::Op(*other),

@@ -8,6 +8,7 @@ pub(in crate::legalize) mod machine_moves;
 pub(in crate::legalize) mod polar;
 pub(in crate::legalize) mod rapid_once;
 pub(in crate::legalize) mod reference;
+pub(in crate::legalize) mod rotations;
 pub(in crate::legalize) mod shaped;
 pub(in crate::legalize) mod shift;
 pub(in crate::legalize) mod short_arcs;

@@ -6,22 +6,31 @@
 //! variable, its opposite and zero, the arc's shape is known though its size is not, and where only the words of one axis stand
 //! there the arc is a half turn. A radius from a variable is written with its opposite, as the target's shorter arc has a minus.
 //!
+//! Where the centre or the ends are variables otherwise, the run finds the sweep and cuts the arc ([`turn`]); where it begins is
+//! kept from the move before ([`starts`]).
+//!
 //! Side conditions: the plane is XY and nothing moves along Z; absolute arcs of a centre begin where the text says; the radius
-//! from a variable is not negative on the run, which the verifier tries. Counter-example: `G2 X#1 Y#2 I#3 J#4`, which may be
-//! more than half a turn.
+//! from a variable is not negative on the run, which the verifier tries. Counter-example: `G2 X#1 Y#2 I#3 J#4`
+//! after a call that moves.
 
+mod plan;
 mod shape;
+mod starts;
+mod turn;
 
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::Modal;
-use crate::ir::analysis::programmed::Programmed;
 use crate::ir::{Callee, Class, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Var};
-use crate::legalize::rewrite::highest_temp;
 use crate::legalize::{Context, calls_of};
+use crate::text::Span;
+use plan::{Library, Plan};
 use shape::{Arc, Size};
+pub(super) use starts::{Vacant, vacant};
+use std::collections::BTreeSet;
+use turn::Turn;
 
 /// True if the target takes a radius, and no source says from where a centre counts there.
 pub fn concerns(target: &Control) -> bool {
@@ -35,60 +44,60 @@ const HELIX: &str =
 const START: &str = "where this arc begins is not known, and the target takes no centre: write X and Y in absolute numbers in the move before";
 const LONG: &str = "an arc of more than 180 degrees by its radius: where it begins is not known, so it cannot be cut. Write X and Y in \
      absolute numbers in the move before";
-const COMPUTED: &str = "an arc by a centre from variables may be of more than 180 degrees, and the target takes a radius: write R, or \
-     incremental words of one variable";
+const COMPUTED: &str = "an arc by a centre from variables may be of more than 180 degrees, and the target takes a radius: it is cut only \
+     where its block has no other words, codes or compensation than F. Put them into a block before it";
+const VACANT: &str = "a word of this arc may be vacant, and the target takes a radius, which is worked out from the words: give each of \
+     them a value in every run";
 const DISTANCE: &str = "it is not known whether G90 or G91 is in force at this arc: write one before it";
 const OFF: &str = "the end of this arc does not lie on it: its distance from the centre is another one than that of the start";
+const ENDS: &str = "the end of this arc is taken to lie on it: the target takes a radius, which is worked out from I and J, and no end that \
+     is off the arc";
 const POSITIVE: &str = "the radius of this arc is taken to be positive, an arc of at most 180 degrees: the target has the sign the other way \
      round, and no source says what a positive one means there";
+
+/// What becomes of a statement.
+enum Made {
+    Kept,
+    Pieces(Vec<Stmt>),
+    Turn(Turn),
+}
 
 /// Writes arcs by their radius.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
     let summaries = context.summaries(module);
-    let planes = planes(module);
+    let planes = other_planes(module);
+    let still = starts::still(module);
+    let (given, none) = (context.called(module).given(module), BTreeSet::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let named = Programmed::of(program, &summaries, &|id| facts.at(index, id));
-        let mut temps = highest_temp(program);
-        let mut positive = Vec::new();
-        let ids: Vec<_> = program.ids().collect();
-        for (id, block) in ids.into_iter().zip(&mut program.blocks) {
-            let mut state = facts.at(index, id);
-            let mut here = named.at(id).cloned();
-            let mut out = Vec::with_capacity(block.stmts.len());
-            for stmt in std::mem::take(&mut block.stmts) {
-                let start = here.as_ref().and_then(Programmed::words);
-                state.step(&stmt);
-                here.iter_mut().for_each(|here| here.step(&stmt, &state, &summaries));
-                let arc = stmt.kind.nc().is_some_and(|nc| is_arc(nc, &state));
-                if !arc || context.is_faulty(index, stmt.site.span) {
-                    out.push(stmt);
-                    continue;
-                }
-                let span = stmt.site.span;
-                let mut maker = Maker { temps: &mut temps, positive: false };
-                match maker.arc(&stmt, &state, start, planes[index]) {
-                    Ok(made) => out.extend(made),
-                    Err(what) => {
-                        context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what));
-                        out.push(stmt);
-                    }
-                }
-                if maker.positive {
-                    positive.push(span);
-                }
-            }
-            block.stmts = out;
+        let modal = |id| facts.at(index, id);
+        let given = given.get(&index).unwrap_or(&none);
+        let library = Library { summaries: &summaries, still: &still, given, other_planes: planes[index] };
+        let mut plan = Plan::of(program, &library, &modal, &|span| context.is_faulty(index, span));
+        for (what, span) in &plan.refused {
+            context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, *span, *what));
         }
-        if let Some(first) = positive.first().copied() {
-            let finding = Diagnostic::new(Code::Conditional, first, POSITIVE);
-            context.add(index, finding.assuming(Predicate::ShortArcs(positive)));
+        for (text, spans, predicate) in [
+            (
+                POSITIVE,
+                std::mem::take(&mut plan.positive),
+                Predicate::ShortArcs as fn(Vec<Span>) -> Predicate,
+            ),
+            (ENDS, std::mem::take(&mut plan.turned), Predicate::ArcEnds),
+        ] {
+            if let Some(first) = spans.first().copied() {
+                let finding = Diagnostic::new(Code::Conditional, first, text);
+                context.add(index, finding.assuming(predicate(spans)));
+            }
+        }
+        if plan.changes {
+            plan.lay(program);
         }
     }
 }
 
 /// The programs that name another plane than XY, or that call or are called by one that may be in another.
-fn planes(module: &Module) -> Vec<bool> {
+pub(super) fn other_planes(module: &Module) -> Vec<bool> {
     let names = |nc: &Nc| nc.ops().any(|op| op.group() == Group::Plane && op != Op::PlaneXy);
     let stmts = |program: &Program| {
         program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.nc()).any(names)
@@ -117,13 +126,16 @@ fn planes(module: &Module) -> Vec<bool> {
     others
 }
 
+/// True for a block with words of an arc's centre or radius.
+fn has_shape(nc: &Nc) -> bool {
+    [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius].iter().any(|role| nc.word(*role).is_some())
+}
+
 /// True for a block that moves along an arc.
 fn is_arc(nc: &Nc, state: &Modal) -> bool {
     let arc = matches!(state.op(Group::Motion), Some(Op::ArcCw | Op::ArcCcw));
-    let says =
-        [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius].iter().any(|role| nc.word(*role).is_some());
     let drills = state.op(Group::Cycle).is_some_and(Op::is_cycle);
-    arc && says && !drills && !nc.ops().any(Op::takes_axes)
+    arc && has_shape(nc) && !drills && !nc.ops().any(Op::takes_axes)
 }
 
 struct Maker<'m> {
@@ -177,6 +189,13 @@ impl Maker<'_> {
         };
         if let Some(radius) = nc.word(Role::ArcRadius) {
             return match radius.constant() {
+                // Beside words of variables the number goes to one too.
+                Some(number)
+                    if number >= 0.0 && ends.iter().flatten().any(|end| end.constant().is_none()) =>
+                {
+                    let radius = radius.clone();
+                    Ok(self.by_variable(stmt, nc, radius))
+                }
                 Some(radius) if radius >= 0.0 => Ok(vec![stmt.clone()]),
                 Some(radius) => {
                     distance.ok_or(DISTANCE)?;

@@ -5,8 +5,8 @@ use crate::canon::{Op, Role};
 use crate::legalize::cycles::{tap_leads, tapping};
 use crate::legalize::features::Feature;
 use crate::legalize::moves::{
-    bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, shaped, shift, short_arcs,
-    unit_checks, units, word_rounds,
+    bare_arcs, home, increments, machine_moves, polar, rapid_once, reference, rotations, shaped, shift,
+    short_arcs, unit_checks, units, word_rounds,
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
@@ -40,6 +40,9 @@ pub(super) const MOVES: &[Pass] = &[
     Pass::rewrites("unit-checks", "a unit that the target cannot select is checked", unit_checks::run)
         .when(unit_checks::concerns)
         .needs(&["units"]),
+    Pass::rewrites("rotations", "what stands under a rotation is turned", rotations::run)
+        .when(|c, context| (c.op(Op::RotateOn) || c.op(Op::RotateOff)) && rotations::concerns(context.target))
+        .needs(&["polar", "increments", "modal-calls"]),
     Pass::rewrites(
         "rapid-once",
         "the interpolation is written again after a rapid move that keeps it",
@@ -116,5 +119,6 @@ pub(super) const MOVES: &[Pass] = &[
         short_arcs::run,
     )
     .when(|c, context| (c.op(Op::ArcCw) || c.op(Op::ArcCcw)) && short_arcs::concerns(context.target))
+    .changes_flow()
     .needs(&["modal-calls", "units", "bare-arcs"]),
 ];

@@ -131,7 +131,12 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         }
         Predicate::Nesting { counts, most, .. } => nesting(run, *counts, *most),
         Predicate::Alarms(most) => alarm(run, of, *most),
-        Predicate::ShortArcs(places) => short_arcs(run, of, places),
+        Predicate::ShortArcs(places) => arcs(run, of, places, |sweep, _| {
+            (sweep.abs() > 180.0 + 1e-6).then(|| format!("passes an arc of {:.0} degrees", sweep.abs()))
+        }),
+        Predicate::ArcEnds(places) => arcs(run, of, places, |_, off| {
+            (off.abs() > OFF_ARC).then(|| format!("ends an arc {:.4} mm off it", off.abs()))
+        }),
     }
 }
 
@@ -145,6 +150,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Main
         | Predicate::Loaded(_)
         | Predicate::ShortArcs(_)
+        | Predicate::ArcEnds(_)
         | Predicate::Unseen
         | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, domain, .. } => {
@@ -238,18 +244,27 @@ fn nesting(run: &Run, counts: [bool; 2], most: u32) -> Held {
     Held::Kept
 }
 
-/// Whether the arcs of some blocks pass half a turn at the most.
-fn short_arcs(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span]) -> Held {
+/// How far from its arc an end may lie that rounding alone puts off it, millimetres.
+const OFF_ARC: f64 = 0.002;
+
+/// Whether the arcs of some blocks are as they are assumed to be: `broken` says of a sweep, and of how far the end lies off
+/// the arc, what is wrong with it.
+fn arcs(
+    run: &Run,
+    (side, program): (&Side<'_>, ProgramRef),
+    places: &[Span],
+    broken: impl Fn(f64, f64) -> Option<String>,
+) -> Held {
     let mut held = Held::Untried;
     for (before, event) in run.events.iter().enumerate() {
-        let EventKind::Arc { sweep, .. } = event.what else { continue };
+        let EventKind::Arc { sweep, off, .. } = event.what else { continue };
         let block = event.at.span;
         let here = |place: &Span| block.start <= place.start && place.start < block.end.max(block.start + 1);
         if !places.iter().any(here) || side.links().at(run, event.at.program) != Some(program) {
             continue;
         }
-        if sweep.abs() > 180.0 + 1e-6 {
-            return Held::Broken { before, what: format!("passes an arc of {:.0} degrees", sweep.abs()) };
+        if let Some(what) = broken(sweep, off) {
+            return Held::Broken { before, what };
         }
         held = Held::Kept;
     }
