@@ -98,6 +98,8 @@ super::vocabulary! {
         CallAgain = "call.again",
         /// Input bit that is tested.
         Input = "input.bit",
+        /// Output bit that is switched.
+        Output = "output.bit",
         /// Blocks that may be read ahead.
         Lookahead = "lookahead",
         /// Row of an offset table that is written.
@@ -139,6 +141,7 @@ impl Role {
                 | Role::CallCount
                 | Role::CallAgain
                 | Role::Input
+                | Role::Output
                 | Role::Lookahead
                 | Role::OffsetRow
                 | Role::ProbePoint
