@@ -36,11 +36,16 @@ impl<'p> Emitter<'p> {
                 self.begin(site);
                 return self.out.unmapped("variables and numbers in one block");
             }
+            // The spindle must not start at the speed of before.
+            let starts = first.iter().any(|item| matches!(item, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)));
+            let speed = |item: &NcItem| starts && matches!(item, NcItem::Word(Role::Speed, _));
+            let (speed, rest): (Vec<NcItem>, Vec<NcItem>) = rest.into_iter().partition(speed);
             self.begin(site);
-            self.words(&Nc { items: first });
-            self.finish();
-            self.open();
-            self.words(&Nc { items: rest });
+            for items in [speed, first, rest].into_iter().filter(|items| !items.is_empty()) {
+                self.words(&Nc { items });
+                self.finish();
+                self.open();
+            }
             return self.finish();
         }
         self.begin(site);
