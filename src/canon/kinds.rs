@@ -106,6 +106,11 @@ impl Op {
         )
     }
 
+    /// True for what acts once, with words that mean something else without it.
+    pub const fn acts_with_words(self) -> bool {
+        self.takes_axes() || matches!(self, Op::Dwell)
+    }
+
     /// True for what becomes a terminator of the IR, not an operation of a block.
     pub const fn is_flow(self) -> bool {
         use Op::*;

@@ -265,6 +265,10 @@ super::vocabulary! {
         ProbeOn = "probe.on",
         /// Tool probe on.
         ToolProbeOn = "probe.tool.on",
+        /// Switches the output of role `output.bit` on.
+        OutputOn = "output.on",
+        /// Switches the output of role `output.bit` off.
+        OutputOff = "output.off",
         /// Limits how many blocks are read ahead.
         LimitLookahead = "lookahead.limit",
         /// Calls a program with arguments.

@@ -98,6 +98,8 @@ super::vocabulary! {
         CallAgain = "call.again",
         /// Input bit that is tested.
         Input = "input.bit",
+        /// Output bit that is switched.
+        Output = "output.bit",
         /// Blocks that may be read ahead.
         Lookahead = "lookahead",
         /// Row of an offset table that is written.
@@ -124,6 +126,23 @@ impl Role {
         )
     }
 
+    /// The common number of the axis that it is the target of: 1 for X.
+    pub const fn axis_number(self) -> Option<u32> {
+        Some(match self {
+            Role::X => 1,
+            Role::Y => 2,
+            Role::Z => 3,
+            Role::A => 4,
+            Role::B => 5,
+            Role::C => 6,
+            Role::U => 7,
+            Role::V => 8,
+            Role::W => 9,
+            Role::E => 10,
+            _ => return None,
+        })
+    }
+
     /// True where the control rounds the value to a whole number.
     pub const fn is_integer(self) -> bool {
         matches!(
@@ -139,6 +158,7 @@ impl Role {
                 | Role::CallCount
                 | Role::CallAgain
                 | Role::Input
+                | Role::Output
                 | Role::Lookahead
                 | Role::OffsetRow
                 | Role::ProbePoint

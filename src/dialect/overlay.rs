@@ -4,7 +4,7 @@ use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
 use super::{Control, Dialect, Entry, SystemVariable, VariableClass, registry};
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -232,6 +232,11 @@ impl Overlay {
                 let message = format!("'{}' cannot mean '{}'", site.code, row.op);
                 let help =
                     "leave 'op' out; a code that calls a program is set by the control's alias parameters";
+                self.fault(&format!("site:{}", site.code), message, help.into());
+            }
+            if matches!(row.op, Op::OutputOn | Op::OutputOff) && !row.fixed.contains_key(&Role::Output) {
+                let message = format!("'{}' does not say which output it switches", site.code);
+                let help = "write fixed = { \"output.bit\" = 24 }: the number that programs of the other control know it by";
                 self.fault(&format!("site:{}", site.code), message, help.into());
             }
             dialect.codes.retain(|old| old.head() != Some(head) || old.beside() != row.beside());

@@ -76,7 +76,7 @@ fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) 
         match kind {
             Auxiliary::Change => tooling::change(machine, trace),
             Auxiliary::Speed => turn(machine, command, machine.spindle, trace),
-            Auxiliary::Other => others(command, trace),
+            Auxiliary::Other => others(machine, command, trace),
             Auxiliary::Forward | Auxiliary::Start | Auxiliary::Stop => {
                 for op in of_kind(command, kind) {
                     switch(machine, command, op, trace);
@@ -102,8 +102,16 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
     turn(machine, command, direction, trace);
 }
 
-fn others(command: &Command, trace: &mut Trace) {
+fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
+    // Each code that switches an output brings the number of its own.
+    let mut outputs = command.words.iter().filter(|(role, _)| *role == Role::Output);
     for &op in &command.ops {
+        if matches!(op, Op::OutputOn | Op::OutputOff) {
+            if let Some((_, number)) = outputs.next() {
+                machine.switch_output(number.round() as u32, op == Op::OutputOn, trace);
+            }
+            continue;
+        }
         if op.auxiliary() == Some(Auxiliary::Other) || (is_builders(command) && is_own(op)) {
             trace.push(EventKind::Other { operation: op, code: command.own_code.clone() });
         }

@@ -70,19 +70,7 @@ impl Command {
 
 /// The place of an axis in a position.
 pub(super) fn axis(role: Role) -> Option<usize> {
-    Some(match role {
-        Role::X => 0,
-        Role::Y => 1,
-        Role::Z => 2,
-        Role::A => 3,
-        Role::B => 4,
-        Role::C => 5,
-        Role::U => 6,
-        Role::V => 7,
-        Role::W => 8,
-        Role::E => 9,
-        _ => return None,
-    })
+    role.axis_number().map(|number| number as usize - 1)
 }
 
 /// True for an axis whose values are degrees.

@@ -199,9 +199,7 @@ impl Machine {
             // Whatever is not 0 switches a signal one way; the trace says whether it is on.
             Sys::Output | Sys::OutputInverted => {
                 let on = (value != 0.0) == (state == Sys::Output);
-                let value = f64::from(u8::from(on));
-                self.cells.insert(cell(Sys::Output, subscripts), value);
-                trace.push(EventKind::Write { state: Sys::Output, subscripts: subscripts.to_vec(), value });
+                self.switch_output(first.ok_or_else(nothing)?, on, trace);
             }
             Sys::TimerMs => self.timer_ms_from = self.clock - value,
             Sys::TimerHours => self.timer_hours_from = self.clock - value * 3_600_000.0,
@@ -211,6 +209,13 @@ impl Machine {
             }
         }
         Ok(())
+    }
+
+    /// Switches an output.
+    pub(super) fn switch_output(&mut self, number: u32, on: bool, trace: &mut Trace) {
+        let value = f64::from(u8::from(on));
+        self.cells.insert(cell(Sys::Output, &[number]), value);
+        trace.push(EventKind::Write { state: Sys::Output, subscripts: vec![number], value });
     }
 
     /// The operation in force in a modal group that the machine keeps.

@@ -22,7 +22,11 @@ impl<'p> Emitter<'p> {
             }
             return;
         }
-        let by_variable = |item: &NcItem| matches!(item, NcItem::Word(_, value) | NcItem::Code(_, value) if value.constant().is_none());
+        let spelled = by_number(nc);
+        let by_variable = |item: &NcItem| match item {
+            NcItem::Word(_, value) | NcItem::Code(_, value) => value.constant().is_none(),
+            NcItem::Op(op) => spelled == Some(*op),
+        };
         if nc.items.iter().any(by_variable) {
             let (first, rest): (Vec<NcItem>, Vec<NcItem>) =
                 nc.items.iter().cloned().partition(|item| !by_variable(item));
@@ -32,11 +36,16 @@ impl<'p> Emitter<'p> {
                 self.begin(site);
                 return self.out.unmapped("variables and numbers in one block");
             }
+            // The spindle must not start at the speed of before.
+            let starts = first.iter().any(|item| matches!(item, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)));
+            let speed = |item: &NcItem| starts && matches!(item, NcItem::Word(Role::Speed, _));
+            let (speed, rest): (Vec<NcItem>, Vec<NcItem>) = rest.into_iter().partition(speed);
             self.begin(site);
-            self.words(&Nc { items: first });
-            self.finish();
-            self.open();
-            self.words(&Nc { items: rest });
+            for items in [speed, first, rest].into_iter().filter(|items| !items.is_empty()) {
+                self.words(&Nc { items });
+                self.finish();
+                self.open();
+            }
             return self.finish();
         }
         self.begin(site);
@@ -74,10 +83,11 @@ impl<'p> Emitter<'p> {
         }
         let mut used: SmallVec<[char; 12]> = SmallVec::new();
         let mut codes = codes.iter();
+        let spelled = by_number(nc);
         for item in &nc.items {
             match item {
                 NcItem::Op(op) => {
-                    let code = codes.next().copied().flatten();
+                    let code = codes.next().copied().flatten().filter(|_| spelled != Some(*op));
                     // Tool 0 takes the length away (seed 004:105).
                     let text = if *op == Op::LengthOff { Some("T00") } else { code.map(|code| &*code.text) };
                     text.into_iter().for_each(|text| self.word(text));
@@ -190,4 +200,10 @@ impl<'p> Emitter<'p> {
 /// True for a word that only means something beside the move.
 fn acts_with_move(role: Role) -> bool {
     role.is_axis() || matches!(role, Role::ArcRadius | Role::ArcI | Role::ArcJ | Role::ArcK)
+}
+
+/// The operation of a block that the code by a variable in it stands for (`G=V31 F=V30`).
+fn by_number(nc: &Nc) -> Option<Op> {
+    let code = nc.items.iter().any(|item| matches!(item, NcItem::Code(_, Expr::Var(_))));
+    nc.ops().find(|op| code && op.acts_with_words())
 }

@@ -46,7 +46,28 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     for (span, op) in found {
         let meaning = op.meaning().trim().trim_end_matches('.');
         let what = format!("{} has no code for this ({op}): {meaning}", target.title);
-        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+        let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+        context.add(
+            index,
+            match help(op) {
+                Some(help) => finding.with_help(help),
+                None => finding,
+            },
+        );
     }
     false
+}
+
+/// How a shop says what a code of its machine does; none for what is more than a code.
+fn help(op: Op) -> Option<String> {
+    let words = match op {
+        Op::Dwell => ", the role of its word (words = { F = \"dwell.s\" }, in seconds, or \"dwell.ms\")",
+        Op::OptionalStop => "",
+        op if op.auxiliary().is_some() => "",
+        _ => return None,
+    };
+    Some(format!(
+        "if the machine has a code for it, name it in the target's profile: [[site]] with its code, op = \"{op}\"{words} \
+         and a text"
+    ))
 }

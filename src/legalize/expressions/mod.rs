@@ -1,5 +1,6 @@
 //! Expressions and conditions that the target can read.
 
+pub(in crate::legalize) mod codes_by_variable;
 pub(in crate::legalize) mod conditions;
 pub(in crate::legalize) mod constants;
 pub(in crate::legalize) mod cost;

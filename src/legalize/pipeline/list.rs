@@ -14,15 +14,17 @@ use crate::legalize::codes::{
     waits,
 };
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
-use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
+use crate::legalize::expressions::{
+    codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
+};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::blanks;
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, questions};
 use crate::legalize::variables::{
-    banks, computed_numbers, modal_reads, probe_points, signals, state, subscript_chains, timers,
-    touch_points, vacancy_flags, vacant_writes,
+    banks, computed_numbers, modal_reads, output_codes, probe_points, signals, state, subscript_chains,
+    timers, touch_points, vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
 
@@ -89,6 +91,9 @@ const SOURCE: &[Pass] = &[
 ];
 
 const STRUCTURE: &[Pass] = &[
+    // First of all: what only output reads is no matter of the conversion.
+    Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
+        .when(omitted::concerns),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits("link", "reports calls that leave the library", link::run)
@@ -216,9 +221,13 @@ const VARIABLES: &[Pass] = &[
     )
     .when(|c, _| c.has(Feature::System))
     .changes_flow(),
+    Pass::edits("output-codes", "outputs are switched by codes of the target's builder", output_codes::run)
+        .when(output_codes::concerns)
+        .needs(&["computed-numbers"])
+        .changes_flow(),
     Pass::rewrites("signals", "inputs and outputs are on where they were on", signals::run)
         .when(|c, _| c.has(Feature::System))
-        .needs(&["computed-numbers"]),
+        .needs(&["output-codes"]),
     Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
         .needs(&[
@@ -240,10 +249,6 @@ fn drills(features: &Features) -> bool {
 const CYCLES: &[Pass] = &[
     Pass::reports("alarms", "checks alarm numbers that the target does not take", alarms::run)
         .when(|c, _| c.has(Feature::Message)),
-    Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
-        .when(omitted::concerns),
-    Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
-        .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell)),
     Pass::rewrites("lookahead", "waits for the moves become what holds the target back", lookahead::run)
         .when(|c, _| c.has(Feature::Wait) || c.has(Feature::Emptied)),
     Pass::edits("waits", "what is read before the moves are done waits for them", waits::run)
@@ -253,6 +258,9 @@ const CYCLES: &[Pass] = &[
         .when(|c, context| drills(c) && hole_moves::replaces(context.target))
         .needs(&["modal-calls", "units", "tool-lengths"])
         .changes_flow(),
+    Pass::rewrites("dwell", "dwells get the target's unit", dwell::run)
+        .when(|c, _| c.op(Op::Dwell) || c.role(Role::CycleDwell))
+        .needs(&["hole-moves"]),
     Pass::rewrites("cycle-here", "a cycle at the present place gets that place", cycle_here::run)
         .when(|c, context| drills(c) && !hole_moves::replaces(context.target)),
     Pass::rewrites(
@@ -346,6 +354,13 @@ const EXPRESSIONS: &[Pass] = &[
     Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
         .when(|c, _| c.has(Feature::Computed))
         .needs(&["operands"]),
+    Pass::each(
+        "codes-by-variable",
+        "codes beside words by variables are by a variable too",
+        codes_by_variable::run,
+    )
+    .when(codes_by_variable::concerns)
+    .needs(&["operands", "split-expressions"]),
 ];
 
 /// Only passes that keep a module such as the target can say it.

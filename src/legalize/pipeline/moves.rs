@@ -10,7 +10,7 @@ use crate::legalize::moves::{
 };
 use crate::legalize::offsets::{
     active_offsets, external, kept_length, kept_radius, length_radius, radius_words, set_position,
-    tool_lengths,
+    table_writes, tool_lengths,
 };
 
 pub(super) const MOVES: &[Pass] = &[
@@ -18,12 +18,6 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::Pole) || c.role(Role::PolarAngle) || c.role(Role::PolarDistance)),
     Pass::reports("bare-arcs", "checks arcs without centre or radius", bare_arcs::run)
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
-    Pass::reports(
-        "active-offsets",
-        "checks work offsets that are written while selected",
-        active_offsets::run,
-    )
-    .when(|c, _| c.has(Feature::System)),
     Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
         .when(set_position::concerns),
     Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
@@ -34,6 +28,17 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.has(Feature::Increments)),
     Pass::edits("word-rounds", "ROUND in words becomes arithmetic", word_rounds::run)
         .when(word_rounds::concerns),
+    Pass::rewrites("table-writes", "offset tables are written as state", table_writes::run)
+        .when(table_writes::concerns)
+        .needs(&["external", "increments"])
+        .changes_flow(),
+    Pass::reports(
+        "active-offsets",
+        "checks work offsets that are written while selected",
+        active_offsets::run,
+    )
+    .when(|c, _| c.has(Feature::System))
+    .needs(&["table-writes"]),
     Pass::edits("units", "programs that name no unit get one", units::run)
         .when(units::concerns)
         .needs(&["increments", "modal-calls"]),

@@ -4,6 +4,7 @@ pub(in crate::legalize) mod banks;
 pub(in crate::legalize) mod computed_numbers;
 mod cycle_seconds;
 pub(in crate::legalize) mod modal_reads;
+pub(in crate::legalize) mod output_codes;
 pub(in crate::legalize) mod probe_points;
 pub(in crate::legalize) mod retention;
 pub(in crate::legalize) mod signals;

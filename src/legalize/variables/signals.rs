@@ -111,10 +111,20 @@ fn report(index: usize, span: Span, state: Sys, number: Option<u32>, context: &m
         Some(number) => format!("{title} has no {kind} {number}"),
         None => format!("the number of an {kind} is computed, and {title} does not count its {kind}s so"),
     };
-    let named = number.unwrap_or_default();
-    let help = format!(
-        "say in the target's profile which of its {kind}s is wired for it: [[signal]] with {kind} = 1 and \
-         number = {named}"
-    );
+    let named = number.map_or("NUMBER".into(), |number| number.to_string());
+    let mut shown = [state].into_iter().chain(opposite(state));
+    let help = match (shown.any(|state| context.target.system_run(state).is_some()), kind) {
+        (true, _) => format!(
+            "say in the target's profile which of its {kind}s is wired for it: [[signal]] with {kind} = 1 and \
+             number = {named}"
+        ),
+        (false, "output") => format!(
+            "if codes of the machine's builder switch it, name both in the target's profile: [[site]] with \
+             op = \"output.on\" or \"output.off\", and fixed = {{ \"output.bit\" = {named} }}"
+        ),
+        (false, _) => {
+            format!("no source says that a program of {title} can read an {kind}: write this by hand")
+        }
+    };
     context.add_once(index, &what, Diagnostic::new(Code::NoEquivalent, span, what.clone()).with_help(help));
 }

@@ -10,6 +10,7 @@ mod run;
 mod search;
 mod summary;
 mod trial;
+mod unit_check;
 mod verifier;
 mod weigh;
 

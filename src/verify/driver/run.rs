@@ -30,6 +30,7 @@ impl Verifier<'_, '_> {
         match there {
             Some(there) => {
                 self.search(there);
+                self.in_other_unit(there);
                 self.otherwise(there);
                 self.entries(there);
                 self.elsewhere(there);

@@ -174,16 +174,16 @@ impl Start {
 
 /// The states that a program and its conversion are to be started in; the unit is left out.
 pub fn starts(job: &Job<'_>, program: ProgramRef) -> Vec<&'static Start> {
-    let source = named(job.source, &job.source.links().called_from(program, |_| true));
-    let target = named(job.target, &of_target(job, program));
-    let all: Option<BTreeSet<Op>> =
-        source.zip(target).map(|(ours, theirs)| ours.union(&theirs).copied().collect());
+    let (ours, computed) = named(job.source, &job.source.links().called_from(program, |_| true));
+    // A code that only the target computes is one that the source names: what it does shows from any start.
+    let (theirs, _) = named(job.target, &of_target(job, program));
+    let all: Option<BTreeSet<Op>> = (!computed).then(|| ours.union(&theirs).copied().collect());
     let controls = [job.source.control, job.target.control];
     STARTS.iter().filter(|start| start.concerns(controls, all.as_ref())).collect()
 }
 
-/// The operations that the codes of programs name; none if one is computed, which may be any.
-fn named(side: &Side<'_>, programs: &[ProgramRef]) -> Option<BTreeSet<Op>> {
+/// The operations that the codes of programs name, and whether one is computed, which may be any.
+fn named(side: &Side<'_>, programs: &[ProgramRef]) -> (BTreeSet<Op>, bool) {
     let (mut found, mut computed) = (BTreeSet::new(), false);
     for block in programs.iter().flat_map(|program| side.text(*program)) {
         for_each_item(&block.items, &mut |item| {
@@ -194,7 +194,7 @@ fn named(side: &Side<'_>, programs: &[ProgramRef]) -> Option<BTreeSet<Op>> {
             }
         });
     }
-    (!computed).then_some(found)
+    (found, computed)
 }
 
 /// The operations that a word may say; none if it is a code that is computed.

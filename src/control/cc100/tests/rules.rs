@@ -186,3 +186,30 @@ fn an_offset_written_while_it_is_in_force_is_unsure_once_it_places_something() {
         assert!(!doubts(&lines(text)).contains(&fact), "{text}");
     }
 }
+
+/// The codes of a profile: the dwell, and outputs. Each of two codes in one block switches its own.
+#[test]
+fn a_profile_names_the_dwell_and_outputs() {
+    let profile = "dialect = 'cc100'\nsite = [{code='G4',op='dwell',words={F='dwell.s'},text='dwell'},\
+        {code='M21',op='output.on',fixed={'output.bit'=24},text='on'},\
+        {code='M22',op='output.off',fixed={'output.bit'=25},text='off'}]";
+    let control = Control::from_profile(profile).unwrap();
+    let text = "G1 X1 F100\nG4 F2\nV1=4\nV2=0.5\nG=V1 F=V2\nX3\nM21 M22\nM30\n";
+    let run = run_on(&control, &[("t.nc", text.as_bytes())], &given(&[]));
+    ended(&run);
+    let told: Vec<&EventKind> = run.events.iter().map(|event| &event.what).collect();
+    let waits: Vec<f64> = told
+        .iter()
+        .filter_map(|what| if let EventKind::Dwell { seconds } = what { Some(*seconds) } else { None })
+        .collect();
+    assert_eq!(waits, [2.0, 0.5]);
+    let writes: Vec<(u32, f64)> = told
+        .iter()
+        .filter_map(|what| match what {
+            EventKind::Write { subscripts, value, .. } => Some((subscripts[0], *value)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(writes, [(24, 1.0), (25, 0.0)]);
+    assert!(told.iter().any(|what| matches!(what, EventKind::Feed { feed, .. } if *feed == 100.0)));
+}

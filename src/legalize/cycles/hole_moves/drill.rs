@@ -314,7 +314,10 @@ fn keeps_height(op: Op) -> bool {
     matches!(
         op.group(),
         Motion | Cycle | Distance | FeedMode | ReturnPlane | RadiusComp | Spindle | Coolant | PathMode
-    ) || matches!(op, Op::PlaneXy | Op::CycleHere | Op::Stop | Op::OptionalStop | Op::Dwell)
+    ) || matches!(
+        op,
+        Op::PlaneXy | Op::CycleHere | Op::Stop | Op::OptionalStop | Op::Dwell | Op::OutputOn | Op::OutputOff
+    )
 }
 
 impl Lattice for Known {

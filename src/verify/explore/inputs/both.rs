@@ -1,7 +1,7 @@
 //! What a program and its conversion take from outside, by the source's names.
 
 use super::input::{Input, Inputs};
-use super::read::{inputs_by, labels};
+use super::read::{inputs_by, labels, set_for};
 use crate::control::ProgramRef;
 use crate::verify::sides::{Side, SymbolMap, class_of};
 use std::collections::BTreeSet;
@@ -44,7 +44,7 @@ pub fn inputs_of_both(
     for (own, others) in found.rotary.iter_mut().zip(other.rotary) {
         *own |= others;
     }
-    found
+    set_for(found, target)
 }
 
 /// Adds what the target reads: to the source's variable, where it is one. Yields its place.

@@ -24,6 +24,8 @@ pub struct Inputs {
     pub many_tools: bool,
     /// The unit that the machine must be set to, where the program checks it: true for inch.
     pub inch: Option<bool>,
+    /// The unit that the program selects first: true for inch.
+    pub selected: Option<bool>,
 }
 
 /// A variable that a run is started with.

@@ -33,6 +33,7 @@ pub(super) struct Reader<'c> {
     /// Where computed jumps of the program at hand are sent.
     pub(super) labels: Vec<u32>,
     inch: Option<bool>,
+    selected: Option<bool>,
 }
 
 impl<'c> Reader<'c> {
@@ -51,6 +52,7 @@ impl<'c> Reader<'c> {
             asks: false,
             labels: Vec::new(),
             inch: None,
+            selected: None,
         }
     }
 
@@ -77,7 +79,7 @@ impl<'c> Reader<'c> {
     /// Variables that stand in statements as names, not as expressions.
     fn plain(&mut self, kind: &ItemKind, sure: bool) {
         match kind {
-            ItemKind::Word(word) => self.check_of_unit(word),
+            ItemKind::Word(word) => self.unit(word),
             ItemKind::Assign { target, value, .. } => {
                 self.numbers.extend(step(target, value));
                 self.asks |= self.state_of(target) == Some(Sys::StopMessage);
@@ -109,14 +111,15 @@ impl<'c> Reader<'c> {
         }
     }
 
-    fn check_of_unit(&mut self, word: &Word) {
+    fn unit(&mut self, word: &Word) {
         let Some(ExprKind::Number(number)) = word.value.as_ref().map(|value| &value.kind) else { return };
-        let checked = match self.control.code(word.letter, number.value, &[]).map(|row| row.op) {
-            Some(Op::CheckInch) => true,
-            Some(Op::CheckMetric) => false,
-            _ => return,
-        };
-        self.inch.get_or_insert(checked);
+        match self.control.code(word.letter, number.value, &[]).map(|row| row.op) {
+            Some(Op::CheckInch) => _ = self.inch.get_or_insert(true),
+            Some(Op::CheckMetric) => _ = self.inch.get_or_insert(false),
+            Some(Op::Inch) => _ = self.selected.get_or_insert(true),
+            Some(Op::Metric) => _ = self.selected.get_or_insert(false),
+            _ => {}
+        }
     }
 
     fn write(&mut self, target: &VarRef, sure: bool) {
@@ -283,6 +286,7 @@ impl<'c> Reader<'c> {
             rotary: [false; 3],
             many_tools: false,
             inch: self.inch,
+            selected: self.selected,
         }
     }
 }
