@@ -113,14 +113,22 @@ impl Drill {
         self
     }
 
+    /// As [`Self::joined`]; an initial plane that is not the same on both is in no register.
+    fn same_start(self, other: &Self) -> Self {
+        let (mine, theirs) = (self.told(Told::Initial), other.told(Told::Initial));
+        let mut joined = self.joined(other);
+        joined.told[Told::Initial as usize] = if mine == theirs { mine } else { Value::Lost };
+        joined
+    }
+
     /// Takes the words of a block. A word that may be vacant is told or not, which its register knows.
-    fn tell(&mut self, nc: &Nc, incremental: Option<bool>) {
+    fn tell(&mut self, nc: &Nc, incremental: Option<bool>, vacant: bool) {
         for what in Told::ALL {
             let Some(word) = what.role().and_then(|role| nc.word(role)) else { continue };
             let before = self.told(what);
             self.told[what as usize] = match word.constant() {
                 Some(number) => Value::Is(number),
-                None if word.may_be_vacant() && before == Value::Lost => Value::Lost,
+                None if vacant && before == Value::Lost => Value::Lost,
                 None => Value::Held,
             };
             if let Some(kind) = self.incremental.get_mut(what as usize) {
@@ -141,38 +149,40 @@ pub(super) enum Cycle {
     /// What stood before the library ran: the control's own, if any.
     Outside,
     On(Drill),
-    /// One of the library on some ways, none on others, and on all of them the tool stands on the plane that a cycle
-    /// begins at: what begins one here does the same on each.
-    AtInitial(Drill),
+    /// One of the library on some ways, none on others: what names a cycle here begins one or goes on with it.
+    Maybe(Drill),
     /// One of the library on some ways, none or the control's own on others.
     Mixed,
 }
 
 impl Cycle {
-    /// This one and another, where the tool stands at `z` on the ways of both.
-    fn join(&mut self, other: &Self, z: Option<f64>) {
+    /// This one and another; the tool stands at `z` on the ways of each.
+    fn join(&mut self, other: &Self, z: (Option<f64>, Option<f64>)) {
         let mine = std::mem::replace(self, Self::Mixed);
         *self = match (mine, other) {
             (Self::On(mine), Self::On(theirs)) => Self::On(mine.joined(theirs)),
             (Self::Off, Self::Off) => Self::Off,
             (Self::Off | Self::Outside, Self::Off | Self::Outside) => Self::Outside,
-            (mine, theirs) => match (mine.at_initial(z), theirs.clone().at_initial(z)) {
-                (Some(mine), Some(theirs)) => Self::AtInitial(mine.joined(&theirs)),
+            (mine, theirs) => match (mine.begun(z.0), theirs.clone().begun(z.1)) {
+                (Some(mine), Some(theirs)) => Self::Maybe(mine.same_start(&theirs)),
                 _ => Self::Mixed,
             },
         };
     }
 
-    /// The cycle that the next block which names one goes on with, if the tool stands on the plane that it begins at, `z`.
-    fn at_initial(self, z: Option<f64>) -> Option<Drill> {
-        let z = z?;
-        let drill = match self {
-            Self::On(drill) | Self::AtInitial(drill) => drill,
-            Self::Off => Drill { op: None, ..Drill::new(Op::CycleDrill, Value::Is(z)) },
-            Self::Outside | Self::Mixed => return None,
-        };
-        (drill.height == Height::Initial && drill.told(Told::Initial) == Value::Is(z)).then_some(drill)
+    /// The cycle that the next block which names one goes on with, or begins where the tool stands, at `z`.
+    fn begun(self, z: Option<f64>) -> Option<Drill> {
+        match self {
+            Self::On(drill) | Self::Maybe(drill) => Some(drill),
+            Self::Off => Some(Drill { op: None, ..Drill::new(Op::CycleDrill, start(z)) }),
+            Self::Outside | Self::Mixed => None,
+        }
     }
+}
+
+/// The initial plane of a cycle that begins here.
+fn start(z: Option<f64>) -> Value {
+    z.map_or(Value::Lost, Value::Is)
 }
 
 /// What is known where something leads.
@@ -186,21 +196,33 @@ pub(super) struct Known {
 impl Known {
     pub const OUTSIDE: Self = Self { z: None, cycle: Cycle::Outside };
 
+    /// The initial plane of a cycle that is named here, where that is a number and no register has it yet.
+    pub fn begins_at(&self) -> Option<f64> {
+        match &self.cycle {
+            Cycle::On(_) => None,
+            Cycle::Maybe(drill) => match drill.told(Told::Initial) {
+                Value::Is(plane) => Some(plane),
+                _ => None,
+            },
+            Cycle::Off | Cycle::Outside | Cycle::Mixed => self.z,
+        }
+    }
+
     /// After something that may do anything.
     pub fn lose(&mut self) {
         self.z = None;
-        if matches!(self.cycle, Cycle::On(_) | Cycle::AtInitial(_)) {
+        if matches!(self.cycle, Cycle::On(_) | Cycle::Maybe(_)) {
             self.cycle = Cycle::Mixed;
         }
     }
 
-    /// Takes a block. `modal` is what is in force after it.
-    pub fn step(&mut self, nc: &Nc, modal: &Modal, rules: Runs) {
+    /// Takes a block. `modal` is what is in force after it, and a word of it may be `vacant`.
+    pub fn step(&mut self, nc: &Nc, modal: &Modal, rules: Runs, vacant: bool) {
         let incremental = modal.op(Group::Distance).map(|op| op == Op::Incremental);
         if let Some(op) = nc.ops().filter(|op| op.is_cycle()).last() {
-            let initial = self.z.map_or(Value::Lost, Value::Is);
+            let initial = start(self.z);
             self.cycle = match std::mem::replace(&mut self.cycle, Cycle::Mixed) {
-                Cycle::On(drill) | Cycle::AtInitial(drill) => Cycle::On(Drill { op: Some(op), ..drill }),
+                Cycle::On(drill) | Cycle::Maybe(drill) => Cycle::On(Drill { op: Some(op), ..drill }),
                 Cycle::Mixed => Cycle::Mixed,
                 Cycle::Off | Cycle::Outside => Cycle::On(Drill::new(op, initial)),
             };
@@ -208,14 +230,14 @@ impl Known {
             || nc.has(Op::CycleOff)
         {
             self.cycle = Cycle::Off;
-        } else if matches!(self.cycle, Cycle::AtInitial(_)) && !is_nothing_to_cycles(nc) {
+        } else if matches!(self.cycle, Cycle::Maybe(_)) && !is_nothing_to_cycles(nc) {
             self.cycle = Cycle::Mixed;
         }
         let Cycle::On(drill) = &mut self.cycle else {
             let mixed = self.cycle == Cycle::Mixed;
             return self.stand(nc, incremental, mixed);
         };
-        drill.tell(nc, incremental);
+        drill.tell(nc, incremental, vacant);
         if nc.ops().any(|op| !keeps_height(op)) || nc.word(Role::LengthOffset).is_some() {
             self.z = None;
             drill.height = Height::Unknown;
@@ -323,10 +345,11 @@ fn keeps_height(op: Op) -> bool {
 impl Lattice for Known {
     fn join(&mut self, other: &Self) -> bool {
         let before = self.clone();
+        let z = (self.z, other.z);
         if self.z != other.z {
             self.z = None;
         }
-        self.cycle.join(&other.cycle, self.z);
+        self.cycle.join(&other.cycle, z);
         *self != before
     }
 }

@@ -1,24 +1,57 @@
 //! Which cycle is in force where, over the calls of a library.
 
 use super::drill::{Cycle, Known, Runs, Told, Value};
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::analysis::over_calls::{Follow, OverCalls};
-use crate::ir::analysis::{Modal, ModalFacts};
-use crate::ir::{Block, BlockId, Module, Nc, Stmt, StmtKind, TermKind};
+use crate::ir::analysis::{Modal, ModalFacts, Summaries, Vacancy};
+use crate::ir::{Block, BlockId, Module, Nc, Program, Stmt, StmtKind, TermKind};
 use std::collections::BTreeSet;
 
 /// How the cycles in force are followed.
 pub(super) struct Flow<'f> {
     pub facts: &'f ModalFacts,
     pub runs: Runs,
+    /// Whether words of the statements may be vacant.
+    pub vacancies: &'f Vacancies,
 }
 
-/// Takes a statement; `modal` is what is in force after it.
-pub(super) fn step(stmt: &Stmt, known: &mut Known, modal: &Modal, runs: Runs) {
+/// For each program, block and statement whether a word of a cycle, or its whole place, may be vacant.
+pub(super) struct Vacancies(Vec<Vec<Vec<bool>>>);
+
+impl Vacancies {
+    pub fn of(module: &Module, summaries: &Summaries) -> Self {
+        Self(module.programs.iter().map(|program| in_program(program, summaries)).collect())
+    }
+
+    /// Of the statements of a block.
+    pub fn at(&self, program: usize, id: BlockId) -> &[bool] {
+        self.0.get(program).and_then(|blocks| blocks.get(id.index())).map_or(&[], Vec::as_slice)
+    }
+}
+
+fn in_program(program: &Program, summaries: &Summaries) -> Vec<Vec<bool>> {
+    let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
+    let of_stmt = |id, at, stmt: &Stmt| {
+        let Some(nc) = stmt.kind.nc() else { return false };
+        let may = |role| {
+            nc.word(role).is_some_and(|word| word.may_be_vacant() && vacancy.may_yield_vacant(id, at, word))
+        };
+        let told = Told::ALL.into_iter().filter_map(Told::role).any(may);
+        let place = [Role::X, Role::Y].into_iter().filter(|role| nc.word(*role).is_some());
+        told || place.clone().next().is_some() && place.clone().all(may)
+    };
+    let of_block = |(id, block): (_, &Block)| {
+        block.stmts.iter().enumerate().map(|(at, stmt)| of_stmt(id, at, stmt)).collect()
+    };
+    program.ids().zip(&program.blocks).map(of_block).collect()
+}
+
+/// Takes a statement; `modal` is what is in force after it, and a word of it may be `vacant`.
+pub(super) fn step(stmt: &Stmt, known: &mut Known, modal: &Modal, runs: Runs, vacant: bool) {
     let before = stmt.site.skip.map(|_| known.clone());
     match &stmt.kind {
-        StmtKind::Nc(nc) => known.step(nc, modal, runs),
+        StmtKind::Nc(nc) => known.step(nc, modal, runs, vacant),
         StmtKind::ModalCall(_) | StmtKind::ModalCallOff => known.lose(),
         _ => {}
     }
@@ -36,9 +69,9 @@ impl Follow for Flow<'_> {
 
     fn stmts(&self, (program, id): (usize, BlockId), block: &Block, known: &mut Known) {
         let mut modal = self.facts.at(program, id);
-        for stmt in &block.stmts {
+        for (stmt, vacant) in block.stmts.iter().zip(self.vacancies.at(program, id)) {
             modal.step(stmt);
-            step(stmt, known, &modal, self.runs);
+            step(stmt, known, &modal, self.runs, *vacant);
         }
     }
 
@@ -55,9 +88,9 @@ impl Flow<'_> {
             for (id, block) in program.ids().zip(&program.blocks) {
                 let Some(mut known) = known.at(index, id).cloned() else { continue };
                 let mut modal = self.facts.at(index, id);
-                for stmt in &block.stmts {
+                for (stmt, vacant) in block.stmts.iter().zip(self.vacancies.at(index, id)) {
                     modal.step(stmt);
-                    step(stmt, &mut known, &modal, self.runs);
+                    step(stmt, &mut known, &modal, self.runs, *vacant);
                     let (StmtKind::Nc(nc), Cycle::On(drill)) = (&stmt.kind, &known.cycle) else { continue };
                     if self.runs.drills(nc) || nc.ops().any(Op::is_cycle) {
                         for what in Told::ALL {

@@ -22,7 +22,7 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Units};
 use crate::ir::analysis::over_calls::OverCalls;
-use crate::ir::analysis::{Modal, ModalFacts, Summaries, Vacancy};
+use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
     BinOp, Builder, Class, Cond, Expr, Module, Nc, NcItem, OF_NO_LEVEL, Place, Program, Relation, SourceInfo,
     Stmt, StmtKind, TermKind, Var,
@@ -32,11 +32,10 @@ use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
 use drill::{Cycle, Drill, Height, Known, Runs, Told};
-use flow::{Flow, named_unit, says_motion, step};
+use flow::{Flow, Vacancies, named_unit, says_motion, step};
 use moves::{Hole, Part, hole};
 use pen::{Pen, push};
-use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::collections::BTreeMap;
 
 /// True if no cycle of the target is told a retract plane.
 pub fn replaces(target: &Control) -> bool {
@@ -49,7 +48,6 @@ pub fn replaces(target: &Control) -> bool {
 /// Writes holes as moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
-    let summaries = context.summaries(module);
     let value = |question| context.source.behaviour(question).map(|row| row.value.as_str());
     let rules = Runs {
         with_place: value(Question::CycleBlockRuns) != Some("false"),
@@ -57,7 +55,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         // Controls begin so, and nothing in the library changes it.
         returns: (!Features::of(&module.programs).op(Op::ReturnR)).then_some(Op::ReturnInitial),
     };
-    let flow = Flow { facts: &facts, runs: rules };
+    let vacancies = Vacancies::of(module, &context.summaries(module));
+    let flow = Flow { facts: &facts, runs: rules, vacancies: &vacancies };
     let known = OverCalls::of(module, &flow);
     let held = flow.held(module, &known);
     let inch = named_unit(module);
@@ -70,7 +69,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             held,
             first: OF_NO_LEVEL,
             temps: highest_temp(program),
-            summaries: Rc::clone(&summaries),
+            vacancies: &vacancies,
             inch,
             vacant: false,
             context,
@@ -89,7 +88,7 @@ struct Writer<'w, 'c> {
     /// The number of the first of them.
     first: u32,
     temps: u32,
-    summaries: Rc<Summaries>,
+    vacancies: &'w Vacancies,
     /// The unit that the library names or checks, where it is one: true for inch.
     inch: Option<bool>,
     /// True if a word of the block at hand may be vacant.
@@ -129,15 +128,13 @@ impl Writer<'_, '_> {
         let (mut known, mut modal): (Option<Known>, Modal) = (None, Modal::unknown());
         let mut ends: Vec<Vec<bool>> = program.blocks.iter().map(says_motion).collect();
         let (mut says, mut vacant) = (Vec::new(), Vec::new());
-        let mut vacancies = self.vacancies(program);
         rebuild(program, &mut |builder, part| match part {
             Piece::Start(id) => {
                 known = self.flow.at(self.index, id).cloned();
                 modal = self.facts.at(self.index, id);
                 says = ends.get_mut(id.index()).map(std::mem::take).unwrap_or_default();
                 says.reverse();
-                vacant = vacancies.get_mut(id.index()).map(std::mem::take).unwrap_or_default();
-                vacant.reverse();
+                vacant = self.vacancies.at(self.index, id).iter().rev().copied().collect();
             }
             Piece::Term(_) => part.keep(builder),
             Piece::Stmt(stmt) => {
@@ -146,7 +143,7 @@ impl Writer<'_, '_> {
                 let (before, was) = (known.clone(), modal.clone());
                 modal.step(&stmt);
                 if let Some(known) = &mut known {
-                    step(&stmt, known, &modal, self.rules);
+                    step(&stmt, known, &modal, self.rules, self.vacant);
                 }
                 let (Some(before), Some(after), true) = (before, &known, stmt.kind.nc().is_some()) else {
                     return builder.push(stmt.kind, stmt.site);
@@ -154,26 +151,6 @@ impl Writer<'_, '_> {
                 self.statement(builder, stmt, (&before, after), (&was, &modal), next);
             }
         });
-    }
-
-    /// For each statement of each block whether a word of a cycle, or its whole place, may be vacant.
-    fn vacancies(&self, program: &Program) -> Vec<Vec<bool>> {
-        let (summaries, given) = (&*self.summaries, BTreeSet::new());
-        let vacancy = Vacancy::of(program, summaries, &given);
-        let of_stmt = |id, at, stmt: &Stmt| {
-            let Some(nc) = stmt.kind.nc() else { return false };
-            let may = |role| {
-                nc.word(role)
-                    .is_some_and(|word| word.may_be_vacant() && vacancy.may_yield_vacant(id, at, word))
-            };
-            let told = Told::ALL.into_iter().filter_map(Told::role).any(may);
-            let place = [Role::X, Role::Y].into_iter().filter(|role| nc.word(*role).is_some());
-            told || place.clone().next().is_some() && place.clone().all(may)
-        };
-        let of_block = |(id, block): (_, &crate::ir::Block)| {
-            block.stmts.iter().enumerate().map(|(at, stmt)| of_stmt(id, at, stmt)).collect()
-        };
-        program.ids().zip(&program.blocks).map(of_block).collect()
     }
 
     fn statement(
@@ -188,7 +165,7 @@ impl Writer<'_, '_> {
         let StmtKind::Nc(mut nc) = kind else { return builder.push(kind, site) };
         let span = site.span;
         nc.items.retain(|item| !matches!(item, NcItem::Op(Op::ReturnR | Op::ReturnInitial)));
-        if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::AtInitial(_) | Cycle::Mixed) {
+        if nc.has(Op::CycleOff) && matches!(before.cycle, Cycle::On(_) | Cycle::Maybe(_) | Cycle::Mixed) {
             self.end(&mut nc, was, span, says_motion);
         }
         match &after.cycle {
@@ -323,9 +300,7 @@ impl Writer<'_, '_> {
             let target = what.register(self.first);
             let word = match what.role() {
                 Some(role) => nc.word(role).cloned(),
-                None => {
-                    before.z.map(Expr::Number).filter(|_| begins && !matches!(before.cycle, Cycle::On(_)))
-                }
+                None => before.begins_at().map(Expr::Number).filter(|_| begins),
             };
             let Some(word) = word else { continue };
             if !self.held[what as usize] {
