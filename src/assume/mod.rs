@@ -71,6 +71,8 @@ pub enum Predicate {
     ShortArcs(Vec<Span>),
     /// The arcs of these blocks end as far from their centre as they begin.
     ArcEnds(Vec<Span>),
+    /// The tools that these blocks change to are whole numbers, and not 0.
+    Tools(Vec<Span>),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
     Unseen,
 }
@@ -83,7 +85,8 @@ impl Predicate {
             | Self::Arguments { places, .. }
             | Self::Codes { places, .. }
             | Self::ShortArcs(places)
-            | Self::ArcEnds(places) => Some(places),
+            | Self::ArcEnds(places)
+            | Self::Tools(places) => Some(places),
             _ => None,
         }
     }
@@ -102,6 +105,7 @@ impl Predicate {
             Self::Loaded(_) => "tool",
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
+            Self::Tools(_) => "tools",
             Self::Unseen => "unseen",
         }
     }
@@ -130,7 +134,7 @@ impl Predicate {
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
             Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::Unseen => Vec::new(),
-            Self::ShortArcs(_) | Self::ArcEnds(_) => Vec::new(),
+            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) => Vec::new(),
         }
     }
 }

@@ -79,6 +79,8 @@ super::vocabulary! {
         RampsOff = "path.ramps.off",
         /// Acceleration ramps on.
         RampsOn = "path.ramps.on",
+        /// A gain of the axes: how closely they follow their path.
+        AxisGain = "path.gain",
         /// XY plane.
         PlaneXy = "plane.xy",
         /// ZX plane.

@@ -3,7 +3,7 @@
 use super::Modal;
 use super::analyses::Analyses;
 use super::features::Features;
-use crate::canon::Op;
+use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::analysis::computed_calls::CalledPrograms;
@@ -166,6 +166,15 @@ impl<'a> Context<'a> {
     /// The same where runs begin in another state.
     pub(super) fn modal_facts_from(&self, module: &Module, entry: &Modal) -> Rc<ModalFacts> {
         self.analyses.modal_facts(module, entry)
+    }
+
+    /// The same where runs that find no known one of absolute and incremental coordinates begin in absolute ones.
+    pub(super) fn facts_from_absolute(&self, module: &Module) -> Rc<ModalFacts> {
+        let mut entry = self.entry.clone();
+        if entry.op(Group::Distance).is_none() {
+            entry.start_in(Op::Absolute);
+        }
+        self.analyses.modal_facts(module, &entry)
     }
 
     /// What programs of the library may write.

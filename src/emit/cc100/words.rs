@@ -29,7 +29,7 @@ impl<'p> Emitter<'p> {
         };
         if nc.items.iter().any(by_variable) {
             let (first, rest): (Vec<NcItem>, Vec<NcItem>) =
-                nc.items.iter().cloned().partition(|item| !by_variable(item));
+                nc.items.iter().cloned().partition(|item| !by_variable(item) && !self.is_by_word(nc, item));
             let moves = |item: &NcItem| matches!(item, NcItem::Word(role, _) if acts_with_move(*role));
             let once = |item: &NcItem| matches!(item, NcItem::Op(op) if op.takes_axes());
             if first.iter().any(|item| moves(item) || once(item)) {
@@ -51,6 +51,13 @@ impl<'p> Emitter<'p> {
         self.begin(site);
         self.words(nc);
         self.finish();
+    }
+
+    /// True for an operation that a word by a variable does by itself: the tool change of `T=V30` (seed 004:1632).
+    fn is_by_word(&self, nc: &Nc, item: &NcItem) -> bool {
+        let NcItem::Op(op) = item else { return false };
+        let role = self.control.word_for(*op).map(|row| row.role);
+        role.and_then(|role| nc.word(role)).is_some_and(|value| value.constant().is_none())
     }
 
     /// `TST QM`, and a stop if the operator has set the other unit (seed 004:1664).

@@ -38,6 +38,12 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
          them as it is set",
     ),
     (
+        Op::AxisGain,
+        None,
+        "a gain of the axes is dropped: the target has no such code, and its axes follow their path as closely as they \
+         are set to",
+    ),
+    (
         Op::ScaleOff,
         None,
         "the end of scaling is dropped: the target has no code for scaling, and none may be in force there",

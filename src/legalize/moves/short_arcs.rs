@@ -23,7 +23,9 @@ use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::Modal;
-use crate::ir::{Callee, Class, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Var};
+use crate::ir::{
+    BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Var,
+};
 use crate::legalize::{Context, calls_of};
 use crate::text::Span;
 use plan::{Library, Plan};
@@ -50,6 +52,8 @@ const VACANT: &str = "a word of this arc may be vacant, and the target takes a r
      them a value in every run";
 const DISTANCE: &str = "it is not known whether G90 or G91 is in force at this arc: write one before it";
 const OFF: &str = "the end of this arc does not lie on it: its distance from the centre is another one than that of the start";
+const BEGINS: &str = "absolute coordinates are taken to be in force where this program begins: it names neither G90 nor G91 before this \
+     block";
 const ENDS: &str = "the end of this arc is taken to lie on it: the target takes a radius, which is worked out from I and J, and no end that \
      is off the arc";
 const POSITIVE: &str = "the radius of this arc is taken to be positive, an arc of at most 180 degrees: the target has the sign the other way \
@@ -64,7 +68,7 @@ enum Made {
 
 /// Writes arcs by their radius.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    let facts = context.modal_facts(module);
+    let (open, facts) = (context.modal_facts(module), context.facts_from_absolute(module));
     let summaries = context.summaries(module);
     let planes = other_planes(module);
     let still = starts::still(module);
@@ -73,6 +77,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         let modal = |id| facts.at(index, id);
         let given = given.get(&index).unwrap_or(&none);
         let library = Library { summaries: &summaries, still: &still, given, other_planes: planes[index] };
+        let begins = begins(program, &|id| open.at(index, id), &modal);
         let mut plan = Plan::of(program, &library, &modal, &|span| context.is_faulty(index, span));
         for (what, span) in &plan.refused {
             context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, *span, *what));
@@ -90,10 +95,33 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 context.add(index, finding.assuming(predicate(spans)));
             }
         }
+        if let Some(span) = begins.filter(|_| plan.rests) {
+            context.add_once(index, BEGINS, Diagnostic::new(Code::Conditional, span, BEGINS));
+        }
         if plan.changes {
             plan.lay(program);
         }
     }
+}
+
+/// The first move of a program that is absolute only if the program begins so.
+fn begins(
+    program: &Program,
+    open: &dyn Fn(BlockId) -> Modal,
+    from_absolute: &dyn Fn(BlockId) -> Modal,
+) -> Option<Span> {
+    for (id, block) in program.ids().zip(&program.blocks) {
+        let (mut open, mut absolute) = (open(id), from_absolute(id));
+        for stmt in &block.stmts {
+            open.step(stmt);
+            absolute.step(stmt);
+            let moves = stmt.kind.nc().is_some_and(Nc::moves);
+            if moves && open.op(Group::Distance).is_none() && absolute.op(Group::Distance).is_some() {
+                return Some(stmt.site.span);
+            }
+        }
+    }
+    None
 }
 
 /// The programs that name another plane than XY, or that call or are called by one that may be in another.

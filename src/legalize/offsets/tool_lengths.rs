@@ -12,6 +12,8 @@
 //! A program that nothing in the library calls, takes up one length alone and changes to no tool is run with that tool: a
 //! person must look at that. Counter-example: `T1 M6`, `G0 Z5.`, `G43 H1`: on the target Z5 counts the length.
 
+mod loaded;
+
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -26,7 +28,6 @@ use crate::ir::{
 use crate::legalize::Context;
 use crate::legalize::rewrite::put_first;
 use smallvec::SmallVec;
-use std::collections::BTreeSet;
 
 /// True if a tool word brings the length of its tool.
 pub fn concerns(target: &Control) -> bool {
@@ -52,16 +53,21 @@ struct State {
     /// The length on the source and on the target.
     ours: Length,
     theirs: Length,
+    /// True where both count the same length on every way here.
+    same: bool,
 }
 
-const START: State = State { tool: None, waits: None, ours: Length::Entry, theirs: Length::Entry };
-const LOST: State = State { tool: None, waits: None, ours: Length::Unknown, theirs: Length::Unknown };
+const START: State =
+    State { tool: None, waits: None, ours: Length::Entry, theirs: Length::Entry, same: true };
+const LOST: State =
+    State { tool: None, waits: None, ours: Length::Unknown, theirs: Length::Unknown, same: false };
 
 impl Lattice for State {
     fn join(&mut self, other: &Self) -> bool {
         let before = *self;
         self.tool = self.tool.filter(|tool| other.tool == Some(*tool));
         self.waits = self.waits.filter(|tool| other.waits == Some(*tool));
+        self.same &= other.same;
         for (mine, theirs) in [(&mut self.ours, other.ours), (&mut self.theirs, other.theirs)] {
             if *mine != theirs {
                 *mine = Length::Unknown;
@@ -83,6 +89,13 @@ enum Sync {
 impl State {
     /// What a block says of tools and lengths.
     fn say(&mut self, nc: &Nc, rules: &Rules<'_>) {
+        if names_tools(nc) {
+            self.say_names(nc, rules);
+            self.same = self.ours == self.theirs && self.ours != Length::Unknown;
+        }
+    }
+
+    fn say_names(&mut self, nc: &Nc, rules: &Rules<'_>) {
         let named = nc.word(Role::Tool).map(number);
         if nc.has(Op::ToolChange) {
             self.tool = named.unwrap_or(self.waits);
@@ -130,11 +143,11 @@ impl State {
         }
         match self.ours {
             Length::Off if rules.again => {
-                self.theirs = Length::Off;
+                (self.theirs, self.same) = (Length::Off, true);
                 Ok(Some(Sync::Off))
             }
             Length::Of(row) if rules.again && self.tool == Some(row) => {
-                self.theirs = self.ours;
+                (self.theirs, self.same) = (self.ours, true);
                 Ok(Some(Sync::Bring(row)))
             }
             Length::Of(row) if self.tool != Some(row) || self.theirs == Length::Off => Err(NOT_ITS_OWN),
@@ -157,7 +170,7 @@ impl State {
 
     /// True if both controls count the same length.
     fn agrees(&self) -> bool {
-        self.ours == self.theirs && self.ours != Length::Unknown
+        self.same
     }
 }
 
@@ -192,7 +205,7 @@ impl Follow for Rules<'_> {
     fn outside(&self, program: usize) -> State {
         let tool = self.loaded.get(program).copied().flatten();
         let theirs = tool.filter(|_| !self.again).map_or(Length::Entry, Length::Of);
-        State { tool, theirs, ..START }
+        State { tool, theirs, same: theirs == Length::Entry, ..START }
     }
 
     fn stmts(&self, (program, id): (usize, BlockId), block: &Block, state: &mut State) {
@@ -221,16 +234,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         .zip(&module.programs)
         .map(|(called, program)| called && program.returns())
         .collect();
-    let loaded: Vec<Option<u32>> = module
-        .programs
-        .iter()
-        .zip(&called)
-        .map(|(program, called)| loaded(program).filter(|_| !called))
-        .collect();
+    let loaded = loaded::of(module, &called);
     let facts = context.modal_facts(module);
     let rules = Rules { facts: &facts, again, change_ends, loaded: &loaded };
     let states = OverCalls::of(module, &rules);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        let mut computed = Vec::new();
         let main = reachable(program, BlockId(0));
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let Some(mut state) = states.at(index, id).copied() else { continue };
@@ -242,6 +251,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 let found = state.step(&stmt, &modal, &rules);
                 let result = settle(&mut stmt, (&before, &state), found.unwrap_or_default(), again);
                 let result = found.and(result);
+                let tool =
+                    stmt.kind.nc().filter(|nc| nc.has(Op::ToolChange)).and_then(|nc| nc.word(Role::Tool));
+                computed.extend(tool.filter(|tool| tool.constant().is_none()).map(|_| stmt.site.span));
                 match result {
                     Ok(first) => out.extend(first),
                     Err(what) => {
@@ -272,6 +284,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
             block.stmts = out;
         }
+        if let Some(first) = computed.first().copied() {
+            let finding = Diagnostic::new(Code::Conditional, first, NUMBERED);
+            context.add(index, finding.assuming(Predicate::Tools(computed)));
+        }
         if let Some(tool) = loaded[index] {
             if !again {
                 begin(program, tool);
@@ -300,19 +316,6 @@ fn word_of(tool: u32, span: crate::text::Span) -> Stmt {
     Stmt { kind: StmtKind::Nc(Nc { items }), site: SourceInfo { span, ..SourceInfo::default() } }
 }
 
-/// The tool of a program that takes up the length of one alone, and changes to none.
-fn loaded(program: &Program) -> Option<u32> {
-    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-    let ncs = || stmts.clone().filter_map(|stmt| stmt.kind.nc());
-    if ncs().any(|nc| nc.has(Op::ToolChange) || nc.word(Role::Tool).is_some()) {
-        return None;
-    }
-    let rows: Option<BTreeSet<u32>> =
-        ncs().filter_map(|nc| nc.word(Role::LengthOffset)).map(number).collect();
-    let mut rows = rows?.into_iter().filter(|row| *row > 0);
-    rows.next().filter(|_| rows.next().is_none())
-}
-
 /// Changes to a tool at the head of a program.
 fn begin(program: &mut Program, tool: u32) {
     let items = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, Expr::Number(f64::from(tool)))];
@@ -321,14 +324,15 @@ fn begin(program: &mut Program, tool: u32) {
     put_first(program, vec![Block { labels: SmallVec::new(), stmts: vec![stmt], term }]);
 }
 
+const NUMBERED: &str = "the number of this tool is taken to be a whole number, 1 or more: on the target tool 0 ends the length and changes to none";
 const ELSEWHERE: &str = "a return between a tool change and the block that takes up the tool's length: on the target the change \
                          brings the length. Take it up before";
 const NOT_ITS_OWN: &str = "this takes up a length whose tool the program has not changed to, or has ended the length of: on the \
                            target only the change to a tool brings its length";
 const MOVED: &str = "a move along Z between a tool change and the block that takes up the tool's length: on the target the change \
                      brings the length, and the move counts it";
-const COMPUTED: &str =
-    "the number of the tool is computed, or no tool was named before its change: write the number";
+const COMPUTED: &str = "no tool was named before this change, or its number was computed in another block: write the number into the \
+                        block of the change";
 
 /// Takes out of a block what the change of its tool has done, and puts in what the moves of the block need; what stands
 /// before the block.
@@ -346,8 +350,11 @@ fn settle(
         return Ok(None);
     }
     if nc.has(Op::ToolChange) {
-        let Some(tool) = after.tool else { return Err(COMPUTED) };
-        if nc.word(Role::Tool).is_none() {
+        // A computed number changes to its tool in its own block; which length it brings is not known.
+        if after.tool.is_none() && nc.word(Role::Tool).is_none() {
+            return Err(COMPUTED);
+        }
+        if let (Some(tool), None) = (after.tool, nc.word(Role::Tool)) {
             nc.items.push(NcItem::Word(Role::Tool, Expr::Number(f64::from(tool))));
         }
     } else {

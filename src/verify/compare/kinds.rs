@@ -50,10 +50,10 @@ pub fn is_pause(what: &EventKind) -> bool {
     matches!(what, Asked { .. } | End { .. } | Message { .. } | OptionalStop | Stop | ToolChange { .. })
 }
 
-/// True for a mode of corners or ramps, or a limit on reading ahead: it acts in the moves after it.
+/// True for a mode of corners, ramps or gains, or a limit on reading ahead: it acts in the moves after it.
 pub fn is_mode(what: &EventKind) -> bool {
     let EventKind::Other { operation, .. } = what else { return false };
-    operation.group() == Group::PathMode || *operation == Op::LimitLookahead
+    operation.group() == Group::PathMode || matches!(operation, Op::LimitLookahead | Op::AxisGain)
 }
 
 /// True for the end of a program that others call.

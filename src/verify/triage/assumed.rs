@@ -137,6 +137,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         Predicate::ArcEnds(places) => arcs(run, of, places, |_, off| {
             (off.abs() > OFF_ARC).then(|| format!("ends an arc {:.4} mm off it", off.abs()))
         }),
+        Predicate::Tools(places) => tools(run, of, places),
     }
 }
 
@@ -151,6 +152,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Loaded(_)
         | Predicate::ShortArcs(_)
         | Predicate::ArcEnds(_)
+        | Predicate::Tools(_)
         | Predicate::Unseen
         | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, domain, .. } => {
@@ -265,6 +267,24 @@ fn arcs(
         }
         if let Some(what) = broken(sweep, off) {
             return Held::Broken { before, what };
+        }
+        held = Held::Kept;
+    }
+    held
+}
+
+/// Whether some blocks change to tools that have a number.
+fn tools(run: &Run, (side, program): (&Side<'_>, ProgramRef), places: &[Span]) -> Held {
+    let mut held = Held::Untried;
+    for (before, event) in run.events.iter().enumerate() {
+        let EventKind::ToolChange { tool } = event.what else { continue };
+        let block = event.at.span;
+        let here = |place: &Span| block.start <= place.start && place.start < block.end.max(block.start + 1);
+        if !places.iter().any(here) || side.links().at(run, event.at.program) != Some(program) {
+            continue;
+        }
+        if tool < 1.0 || tool.fract() != 0.0 {
+            return Held::Broken { before, what: format!("changes to the tool {tool}") };
         }
         held = Held::Kept;
     }

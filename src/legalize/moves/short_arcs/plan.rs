@@ -31,6 +31,8 @@ pub(super) struct Plan {
     /// What holds the last absolute words of X and Y, if an arc reads them.
     copies: Option<[Var; 2]>,
     pub changes: bool,
+    /// True where an arc was worked out from where it begins.
+    pub rests: bool,
     pub refused: Vec<(&'static str, Span)>,
     /// Arcs whose radius is taken to be positive.
     pub positive: Vec<Span>,
@@ -51,6 +53,7 @@ impl Plan {
             temps,
             copies: None,
             changes: false,
+            rests: false,
             refused: Vec::new(),
             positive: Vec::new(),
             turned: Vec::new(),
@@ -103,6 +106,8 @@ impl Plan {
         let what = match maker.arc(stmt, state, start.clone(), other_planes) {
             Ok(pieces) => {
                 let positive = maker.positive;
+                let radius = stmt.kind.nc().and_then(|nc| nc.word(Role::ArcRadius)).map(Expr::constant);
+                self.rests |= radius.is_none_or(|radius| radius.is_some_and(|radius| radius < 0.0));
                 self.positive.extend(positive.then_some(span));
                 self.changes = true;
                 return Made::Pieces(pieces);
@@ -127,6 +132,7 @@ impl Plan {
         }) {
             Some(turn) => {
                 self.turned.push(span);
+                self.rests = true;
                 self.changes = true;
                 Made::Turn(turn)
             }

@@ -56,7 +56,7 @@ const BLOCKS: &[(&str, &str)] = &[
     ("M7 M8", "nc coolant.mist; nc coolant.flood"),
     ("G4 P500", "nc dwell dwell.ms=500"),
     ("G4 P+R4", "nc dwell dwell.ms=param.4"),
-    ("G8 M92", "nc path.ramps.off machine.specific"),
+    ("G8 M92", "nc path.ramps.off path.gain"),
     ("M0", "nc stop"),
     ("M64", "nc probe.on"),
     ("M65", "nc probe.tool.on"),
