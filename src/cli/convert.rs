@@ -110,6 +110,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             conversion,
             targets,
             notes: &job.notes,
+            advice: job.target.dialect().advice.as_deref(),
             folder,
             left_out: &job.left_out,
             verbose: arguments.verbose,

@@ -13,6 +13,7 @@ const KEYS: &[&str] = &[
     "title",
     "family",
     "extensions",
+    "advice",
     "extends",
     "without",
     "numbers",
@@ -35,7 +36,7 @@ const KEYS: &[&str] = &[
 ];
 
 /// What a base does not say: it is no control.
-const OF_CONTROLS: &[&str] = &["family", "extensions"];
+const OF_CONTROLS: &[&str] = &["family", "extensions", "advice"];
 
 /// What a base may say.
 pub(super) fn base_keys() -> Vec<&'static str> {
@@ -78,6 +79,7 @@ fn read(
     let title = reader.require(document, "title");
     let family = reader.require(document, "family");
     let extensions = reader.take(document, "extensions").unwrap_or_default();
+    let advice = reader.take(document, "advice");
     reader.control = name.clone().unwrap_or_default();
     let Whole { numbers, text, names, tables } = extend::read(reader, document, bases);
     let numbers = there(reader, numbers);
@@ -89,6 +91,7 @@ fn read(
         title: title?,
         family: family?,
         extensions,
+        advice,
         numbers: numbers?,
         text: text?,
         names: names?,

@@ -37,6 +37,8 @@ pub struct Dialect {
     pub family: String,
     /// File name extensions its programs usually have, without the point.
     pub extensions: Vec<String>,
+    /// What a person must know before the first run of what is written for it; absent where nothing is new.
+    pub advice: Option<String>,
     /// How numbers are written and kept.
     pub numbers: Numbers,
     /// Characters, comments, lengths.

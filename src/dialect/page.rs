@@ -10,6 +10,9 @@ use crate::canon::Op;
 pub fn page(control: &Control) -> String {
     let dialect = control.dialect();
     let mut out = format!("{} ({})\n", dialect.title, dialect.name);
+    if let Some(advice) = &dialect.advice {
+        out.push_str(&format!("{advice}.\n"));
+    }
     let numbers = &dialect.numbers;
     section(&mut out, "NUMBERS", std::slice::from_ref(numbers), |row| {
         vec![format!(

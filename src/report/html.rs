@@ -41,6 +41,9 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
     }
     for part in parts {
         let _ = writeln!(out, "<h2>{} to {}</h2>", escaped(part.from), escaped(part.to));
+        if let Some(advice) = part.advised() {
+            let _ = writeln!(out, "<p>{}: {}</p>", escaped(part.to), escaped(advice));
+        }
         let indexes = part.indexes();
         for program in &part.conversion.programs {
             head(&mut out, part, program);

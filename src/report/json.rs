@@ -18,7 +18,7 @@ struct Report<'a> {
     programs: &'a [Part<'a>],
     totals: Totals,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    notes: Vec<&'a str>,
+    notes: Vec<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     folders: Vec<&'a Told>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -65,7 +65,11 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
 pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     // Of a known type: what it is given are mostly single marks.
     let mut out = io::BufWriter::with_capacity(64 * 1024, out);
-    let notes = parts.iter().flat_map(|part| part.notes).map(String::as_str).collect();
+    let said = |part: &Part<'_>| {
+        let advice = part.advised().map(|advice| format!("{}: {advice}", part.to));
+        part.notes.iter().cloned().chain(advice).collect::<Vec<_>>()
+    };
+    let notes = parts.iter().flat_map(said).collect();
     let left_out = parts.iter().flat_map(|part| part.left_out).collect();
     let folders = parts.iter().map(|part| part.folder).filter(|told| !told.is_empty()).collect();
     let report = Report { programs: parts, totals: Totals::of(parts), notes, folders, left_out };

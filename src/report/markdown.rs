@@ -10,6 +10,9 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
     let mut out = format!("# Conversion\n\n{}\n", Totals::of(parts));
     for part in parts {
         let _ = writeln!(out, "\n## {} to {}", escaped(part.from), escaped(part.to));
+        if let Some(advice) = part.advised() {
+            let _ = writeln!(out, "\n{}: {}", escaped(part.to), escaped(advice));
+        }
         let indexes = part.indexes();
         for program in &part.conversion.programs {
             let file = escaped(&part.inputs[program.file].name);

@@ -1,7 +1,7 @@
 //! What every renderer renders: libraries, and what became of them.
 
 use crate::diag::Diagnostic;
-use crate::library::{Conversion, Input, LeftOut, Told};
+use crate::library::{Conversion, Input, LeftOut, Outcome, ProgramReport, Told};
 use crate::text::LineIndex;
 use std::path::PathBuf;
 
@@ -20,6 +20,8 @@ pub struct Part<'a> {
     pub targets: &'a [Option<PathBuf>],
     /// What is to be said of the programs as a whole.
     pub notes: &'a [String],
+    /// What a person must know before the first run of any program of the target's control.
+    pub advice: Option<&'a str>,
     /// What a person is told of the output folder.
     pub folder: &'a Told,
     /// What was left out of the folders that were named.
@@ -43,6 +45,12 @@ pub struct Place<'a> {
 }
 
 impl<'a> Part<'a> {
+    /// The advice, if any program can be run.
+    pub fn advised(&self) -> Option<&'a str> {
+        let runs = |program: &ProgramReport| program.outcome != Outcome::Refused;
+        self.advice.filter(|_| self.conversion.programs.iter().any(runs))
+    }
+
     /// The lines of each file.
     pub fn indexes(&self) -> Vec<LineIndex> {
         self.inputs.iter().map(|input| LineIndex::new(&input.bytes)).collect()
@@ -88,6 +96,7 @@ mod tests {
             conversion: &conversion,
             targets: &[],
             notes: &[],
+            advice: None,
             folder: &Told::default(),
             left_out: &[],
             verbose: false,

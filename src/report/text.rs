@@ -203,6 +203,9 @@ pub fn summary(parts: &[Part<'_>]) -> String {
             let _ = writeln!(out, "{} to {}:", part.from, part.to);
         }
         list(&mut out, part);
+        if let Some(advice) = part.advised() {
+            let _ = writeln!(out, "{}: {advice}", part.to);
+        }
         folder(&mut out, part.folder);
         out.push_str(&left_out_text(part.left_out, part.verbose));
     }

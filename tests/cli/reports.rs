@@ -154,3 +154,23 @@ fn time_that_is_up_decides_nothing() {
     assert!(shop.run(&format!("{line} --program-seconds 1000")).out.contains("2 verified"));
     assert_eq!(shop.run(&format!("{line} --program-seconds x")).code, 2);
 }
+
+/// What concerns every program of a control that is new here is said once for a library, if anything is written.
+#[test]
+fn what_is_new_of_a_control_is_said_once() {
+    let shop =
+        Shop::with(&[("in/a.nc", CLEAN), ("in/c.nc", "O7\nG21G90G0X1.\nM30\n"), ("bad/b.nc", REFUSED)]);
+    let new = "cc100: programs for this control are new in macroglot";
+    let run = shop.run("convert in --from fanuc --to cc100 --out out --report r.md --report r.html");
+    assert_eq!(run.out.matches(new).count(), 1, "{}", run.out);
+    for report in ["r.md", "r.html"] {
+        assert_eq!(shop.read(report).matches(new).count(), 1, "{report}");
+    }
+    let run = shop.run("convert in --from fanuc --to cc100 --out out --format json");
+    let json: Value = serde_json::from_str(&run.out).unwrap();
+    assert!(json["notes"][0].as_str().unwrap().starts_with(new), "{}", json["notes"]);
+    let none = shop.run("convert bad --from fanuc --to cc100 --out other");
+    assert!(!none.out.contains(new), "{}", none.out);
+    let known = shop.run("convert in --from fanuc --to haas --out third");
+    assert!(!known.out.contains("new in macroglot"), "{}", known.out);
+}

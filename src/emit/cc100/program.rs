@@ -15,10 +15,6 @@ use crate::ir::analysis::reachable;
 use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, TermKind};
 use crate::text::Span;
 
-/// What no source says of this control is too much for one who does not look.
-const UNFINISHED: &str = "programs for this control are new in macroglot: before the first run, read each block beside \
-                          the source, tool changes, lengths and the first moves above all";
-
 /// V30 to V80 are for programs (seed 004:52).
 const CROWDED: &str = "the library has more variables than V30 to V80: this program uses others too, which belong to cycles of \
                        the maker and the builder. Make sure that no cycle of your control uses the ones at its head";
@@ -57,7 +53,6 @@ impl<'p> Emitter<'p> {
         let is_part = is_part.into_iter().any(|block| matches!(block.term.kind, TermKind::Return { .. }));
         plan.labelled.iter_mut().take(usize::from(is_part)).for_each(|needed| *needed = true);
         self.labels = Labels::new(program, &plan.labelled);
-        self.out.review(Code::Conditional, UNFINISHED.into());
         self.header();
         self.taken_registers();
         if is_part {

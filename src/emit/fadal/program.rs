@@ -4,16 +4,11 @@ use super::Emitter;
 use super::labels::Labels;
 use super::lines::Kind;
 use crate::canon::Func;
-use crate::diag::Code;
 use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::digits::write_integer;
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
 use crate::ir::{Block, BlockId, Cond, Expr, SourceInfo, TermKind};
-
-/// What this control does at tool changes, under compensation and in long runs of macro lines is not all in its table yet.
-const UNFINISHED: &str = "programs for this control are new in macroglot: before the first run, read each block beside \
-                          the source, tool lengths after tool changes above all";
 
 impl<'p> Emitter<'p> {
     /// Writes the program.
@@ -38,7 +33,6 @@ impl<'p> Emitter<'p> {
         };
         let plan = Plan::new(program, &arrivals, abilities, |_| false);
         self.labels = Labels::new(program, &plan.labelled);
-        self.out.review(Code::Conditional, UNFINISHED.into());
         self.header();
         self.taken_registers();
         if self.measures_angles() {
