@@ -16,7 +16,7 @@ use crate::legalize::codes::{
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::expressions::{conditions, constants, functions, operands, split, truth, whole_words};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::layout::blanks;
+use crate::legalize::layout::{blanks, heads};
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, questions};
@@ -89,6 +89,7 @@ const SOURCE: &[Pass] = &[
 ];
 
 const STRUCTURE: &[Pass] = &[
+    Pass::edits("heads", "heads of an earlier conversion go, as this one writes its own", heads::run),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits("link", "reports calls that leave the library", link::run)
