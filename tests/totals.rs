@@ -1,6 +1,8 @@
 //! `corpus/TOTALS.md`: what becomes of the corpus, in figures that a change shows as a difference of
 //! lines. `UPDATE=1 cargo test --test totals` writes it anew.
 
+#[path = "support/rounds.rs"]
+mod rounds;
 mod support;
 
 use macroglot::diag::{Code, Severity};
@@ -26,6 +28,7 @@ fn totals_are_fresh() {
     let pairs = pairs();
     assert_eq!(pairs.len(), 12, "the project file names all pairs");
     conversions(&mut out, &pairs);
+    there_and_back(&mut out, &pairs);
     codes(&mut out, &pairs);
     refusals(&mut out, &pairs);
     support::assert_fresh("corpus/TOTALS.md", &out);
@@ -118,6 +121,61 @@ fn conversions(out: &mut String, pairs: &[Pair]) {
             );
         }
     }
+}
+
+/// What the way there loses and says so, `tests/support/rounds.toml`.
+#[derive(serde::Deserialize)]
+struct Lost {
+    lost: Vec<Loss>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Loss {
+    /// The ways there, `fadal to fanuc`.
+    pairs: Vec<String>,
+    file: String,
+    why: String,
+}
+
+fn there_and_back(out: &mut String, pairs: &[Pair]) {
+    out.push_str(
+        "\n## There and back\n\nEach library converted to the other control and back, for a machine of the same kind: programs \
+         that were written\nthere, and that came back; what the verifier says of the first text and the last one. Files that came \
+         back: those\nwhose text there, and whose text back, was the same when they went round once more.\n\n",
+    );
+    out.push_str(
+        "| from | over | there | back | verified | undecided | different | files | same there | same back |\n",
+    );
+    out.push_str("|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+    let lost: Lost = toml::from_str(&support::text("tests/support/rounds.toml")).unwrap();
+    let (mut why, mut unknown) = (BTreeSet::new(), Vec::new());
+    for pair in pairs {
+        let rounds::Round { from, to, inputs, there, back, files, same_there, same_back } =
+            rounds::round(pair);
+        let [same, undecided, different] = [Verdict::Same, Verdict::Undecided, Verdict::Different]
+            .map(|verdict| back.programs.iter().filter(|p| p.verdict == Some(verdict)).count());
+        let came_back = same + undecided + different;
+        let _ = writeln!(
+            out,
+            "| {from} | {to} | {there} | {came_back} | {same} | {undecided} | {different} | {files} | {same_there} | {same_back} |"
+        );
+        for program in back.programs.iter().filter(|p| p.verdict == Some(Verdict::Different)) {
+            let file = &inputs[program.file].name;
+            let loss = lost.lost.iter().find(|loss| {
+                loss.file == *file && loss.pairs.iter().any(|pair| *pair == format!("{from} to {to}"))
+            });
+            let found = program.diagnostics.iter().filter(|d| d.code == Code::VerifiedDifferent);
+            let found: Vec<&str> = found.map(|d| &*d.message).collect();
+            match loss {
+                Some(loss) => drop(why.insert(format!("- {from} to {to}, {file}: {}\n", loss.why))),
+                None => unknown.push(format!("{from} to {to} and back, {file}: {found:?}")),
+            }
+        }
+    }
+    out.push_str("\nWhat differs, because of what the way there says for review:\n\n");
+    why.iter().for_each(|line| out.push_str(line));
+    assert!(unknown.is_empty(), "these differ: {unknown:#?}");
 }
 
 /// Programs that have each code.

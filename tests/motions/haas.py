@@ -197,7 +197,7 @@ for x in (30.0, 40.0):
 part.feed(95.0)
 # M30 stops the spindle (seed 002:216).
 part.spindle("stopped")
-part.to("fanuc", "beside_moves.rs", "pauses.rs", "pauses/after.rs")
+part.to("fanuc", "codes/beside_moves.rs", "codes/pauses.rs", "codes/pauses/after.rs")
 
 part = Milled("bores", "Each bore back to the initial level (G98) and to R2. (G99). G76 and G77 go aside by I and J where no Q stands (96-8000,\n"
                        "1999, p. 188); G77 dives to R-25. and cuts up to Z-20., from Z2. where G80 left the tool. G88 is bore, dwell, out by\n"

@@ -35,7 +35,7 @@ for turn in range(3):
         part.rapid(99.0)
     part.rapid(10.0 + turn)
 part.rapid(y=20.0)
-part.to("haas", "chain.rs")
+part.to("haas", "calls/chain.rs")
 
 part = Short("fanuc", "computed", "#103 = 7.5, #3 = 2.25 over its own 3, then #500.. are 0, 1.5, 3, 4.5. #503 is first what #106.25 is not:\n"
                                   "the number is rounded; it is written again before it is read.")
@@ -61,8 +61,8 @@ part.rapid(0.0, 0.0)
 for x, y in ((-3, 3), (-2, 2), (exp(1.5), log(20)), (95, 149), (30, 60), (90, 60), (-36.869897646, 126.869897646),
              (-135, tan(30)), (4, 12), (13, None)):
     part.rapid(least(x), None if y is None else least(y))
-part.to("haas", "functions/exponential.rs", "functions/rounding.rs", "functions/decimal.rs", "functions/emulated.rs", "functions/modulo.rs",
-        "functions/trigonometry.rs", "functions/mod.rs", "rewrite.rs")
+part.to("haas", "expressions/functions/exponential.rs", "expressions/functions/rounding.rs", "expressions/functions/decimal.rs", "expressions/functions/emulated.rs", "expressions/functions/modulo.rs",
+        "expressions/functions/trigonometry.rs", "expressions/functions/mod.rs", "rewrite.rs")
 
 part = Short("fanuc", "both-bits", "13 and 6 are 4, 15 and 11; with -3 they are 13, -1 and -16; 13 AND 6, 14 AND 7, 15 AND 8 are 4, 6 and 8.")
 part.work(1)
@@ -108,7 +108,7 @@ part.peck(3.0, 1.0, r=2.0, bottom=-8.0, steps=[5, 5], back=20.0, chips=True)
 part.hole(4.0, 1.0, r=2.0, bottom=-3.0, back=20.0, dwell=0.5)
 part.dwell(0.25)
 part.dwell(1.5)
-part.to("haas", "cycle_words.rs", "dwell.rs")
+part.to("haas", "cycles/cycle_words.rs", "cycles/dwell.rs")
 part.to("fadal", "cycles/cycle_planes.rs")
 
 part = Short("fanuc", "holes-as-moves", "G98 returns to 20, G99 to 2; pecks begin 1 over the last depth. Under G91 the plane is 18 below 20, and the bottom 3\n"
@@ -127,6 +127,34 @@ part.hole(8.0, r=2.0, bottom=-1.0, back=20.0)
 part.feed(20.0, f=200.0)
 part.to("cc100", "cycles/hole_moves/mod.rs")
 
+part = Short("fanuc", "chosen", "GOTO 10, 20 and 30 in turn, each from N5; G53 to X-50. Y-60. of the machine, and G54 counts again; one and two steps\n"
+                                "more, twice.", library=("steps",))
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(10.0)
+part.rapid(20.0, 5.0)
+part.rapid(30.0)
+part.machine(-50.0, -60.0)
+part.rapid(1.0, 1.0)
+part.by(1.0, 2.0)
+part.by(1.0, 2.0)
+part.rapid(8.0)
+part.to("cc100", "calls/jump_chains.rs", "calls/merged.rs", "moves/machine_moves.rs", "moves/unit_checks.rs")
+part.to("fadal", "calls/jump_chains.rs", "moves/unit_checks.rs")
+
+part = Short("fanuc", "cycle-ends", "G00 and G01 end the cycle, so X7., X8. and X10. drill nothing; G99 goes back to 2.")
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(z=20.0)
+part.hole(5.0, 5.0, r=2.0, bottom=-3.0, f=100.0)
+part.hole(6.0, r=2.0, bottom=-3.0)
+part.rapid(7.0, 0.0)
+part.rapid(8.0)
+part.hole(9.0, r=2.0, bottom=-4.0)
+part.feed(10.0, f=200.0)
+part.to("fadal", "cycles/cycle_ends.rs", "cycles/cycle_planes.rs")
+part.to("cc100", "cycles/hole_moves/mod.rs")
+
 part = Short("haas", "deep", "Six doublings of 2 with one more each are 191; (191 > 20) + (191 < 20) * 5 is 1; 123456.789 - 123450 and\n"
                              "12.3456789; the loop ends when 12.346 - 3 is below 10, with #1 at 189; M97 twice.", profile='options = ["macros"]')
 part.work(1)
@@ -141,7 +169,7 @@ part.rapid(189.0)
 part.rapid(y=9.346)
 part.rapid(289.0)
 part.rapid(290.0)
-part.to("fanuc", "oversize.rs", "measure.rs", "truth.rs", "conditions.rs", "constants.rs", "outline.rs", "temporaries.rs",
+part.to("fanuc", "expressions/split.rs", "expressions/cost.rs", "expressions/truth.rs", "expressions/conditions.rs", "expressions/constants.rs", "calls/outline.rs", "registers/temporaries.rs",
         profile='options = ["common.variables"]')
 
 part = Short("haas", "vacant-write", "R with a vacant variable is not there: the table keeps 5, then gets 2.5. It holds diameters.")
@@ -149,14 +177,14 @@ part.work(1)
 part.rapid(0.0, 0.0)
 part.rapid(5.0)
 part.rapid(2.5)
-part.to("fanuc", "vacant_writes.rs", "state.rs")
+part.to("fanuc", "variables/vacant_writes.rs", "variables/state.rs")
 
 part = Short("fanuc", "offset-numbers", "Length 2 is 3.5 and length 3 twice that, by computed numbers and by their own.")
 part.work(1)
 part.rapid(0.0, 0.0)
 part.rapid(3.5, 7.0)
 part.rapid(7.0)
-part.to("haas", "computed_numbers.rs", "computed_numbers/shift.rs")
+part.to("haas", "variables/computed_numbers.rs", "variables/computed_numbers/shift.rs")
 
 part = Short("fadal", "repeats", "G91 X.5 Y.25 L3 moves three times; G5 is rapid for its block, and X3. feeds on.", units="inch")
 part.work(1)
@@ -169,7 +197,7 @@ part.rapid(2.0, 2.0)
 part.feed(3.0)
 part.feed(y=0.0)
 for target in ("fanuc", "haas"):
-    part.to(target, "repeats.rs", "rapid_once.rs", "units.rs")
+    part.to(target, "calls/repeats.rs", "moves/rapid_once.rs", "moves/units.rs")
 
 part = Short("fadal", "rows", "FX(2) is 10, so FX(3) becomes 35.4 and FY(3) 5 - 12.7; INT(35.4) is 35.", units="inch",
              offsets={2: (254.0, 127.0, 0.0), 3: (1.0, 2.0, 0.0)})
@@ -179,7 +207,7 @@ part.shift = (35.4 * INCH, -7.7 * INCH, 0.0)
 part.rapid(1.0, 0.0)
 part.rapid(35.0)
 for target in ("fanuc", "haas"):
-    part.to(target, "offset_rows.rs", "clear.rs", "registers.rs")
+    part.to(target, "offsets/offset_rows.rs", "registers/clear.rs", "registers/allocate.rs", "registers/pool.rs", "registers/runs.rs")
 
 part = Short("fadal", "start", "START goes on in O26 for good, with V1 = 2.5 as it stands: X5., Y0.", units="inch", library=("started",))
 part.work(1)
@@ -187,14 +215,14 @@ part.rapid(1.0, 1.0)
 part.rapid(5.0)
 part.rapid(y=0.0)
 for target in ("fanuc", "haas"):
-    part.to(target, "chain.rs")
+    part.to(target, "calls/chain.rs")
 
 part = Short("fadal", "home", "G28 without axes takes them all home.", units="inch", home=(5.0, 6.0, 7.0))
 part.work(1)
 part.rapid(1.0, 1.0, 1.0)
 part.machine(5.0, 6.0, 7.0)
 part.rapid(2.0, 1.0)
-part.to("fanuc", "reference.rs")
+part.to("fanuc", "moves/reference.rs")
 
 part = Short("fadal", "functions", "SGN(-2.5) = -1 and SGN(0) = 1; INT(-2.5) = -2; six doublings of -1.5 with one less each are -159; ATN(1) = 45; AND is false, OR is true.",
              units="inch")
@@ -204,8 +232,8 @@ part.rapid(-1.0, 1.0)
 part.rapid(-2.0, 2.5)
 part.rapid(-1.59, 0.45)
 part.rapid(0.0)
-part.to("fanuc", "functions/rounding.rs", "oversize.rs", "conditions.rs", profile='options = ["common.variables", "atan.one"]')
-part.to("haas", "functions/rounding.rs")
+part.to("fanuc", "expressions/functions/rounding.rs", "expressions/split.rs", "expressions/conditions.rs", profile='options = ["common.variables", "atan.one"]')
+part.to("haas", "expressions/functions/rounding.rs")
 
 part = Short("fadal", "probe", "The probe touches at Z-.5 and X1.2 of the part; PZ1 and PX2 are those.", units="inch",
              scenario="probes = [{ at = [300, 150, -112.7, 0, 0, 0, 0, 0, 0, 0] }, "
@@ -219,7 +247,7 @@ part.rapid(0.0)
 part.rapid(z=-0.5)
 part.rapid(1.2)
 for target in ("fanuc", "haas"):
-    part.to(target, "probe_points.rs")
+    part.to(target, "variables/probe_points.rs")
 
 part = Short("cc100", "polar-square", "Five above the pole (10, 20), eight left of it, fifteen right of it, then four down from there.",
              start=(100.0, 100.0, 50.0), offsets={})
@@ -230,25 +258,25 @@ part.feed(25.0, 20.0)
 part.feed(25.0, 16.0)
 part.feed(1.0, 2.0)
 for target in ("fanuc", "haas"):
-    part.to(target, "polar.rs")
+    part.to(target, "moves/polar.rs")
 
 # Programs of the other lists.
 for control, name, targets, files in (
-    ("fadal", "ex-r-transfer", ("fanuc", "haas"), ("vacancy.rs", "exposed.rs")),
-    ("fadal", "o600-rect-pocket", ("fanuc", "haas"), ("operator.rs",)),
-    ("fadal", "o10-row-column-main", ("fanuc", "haas"), ("cycle_here.rs", "programmed.rs", "shift.rs")),
-    ("fadal", "o1234-drill-grid", ("haas",), ("substitutes.rs", "machine_codes.rs", "emptied.rs")),
-    ("fadal", "o4-big-drill", ("fanuc", "haas"), ("modal_calls.rs", "outline.rs", "state.rs")),
-    ("fadal", "tap", ("fanuc", "haas"), ("tapping.rs", "tapping/kept.rs")),
-    ("fadal", "left-tap", ("fanuc",), ("tapping.rs",)),
-    ("fadal", "bores", ("haas",), ("units.rs",)),
-    ("fanuc", "g66-nesting-main", ("haas",), ("modal_calls.rs",)),
-    ("haas", "bare-numbers", ("fanuc",), ("increments.rs", "dwell.rs")),
-    ("haas", "branches", ("fanuc",), ("truth.rs", "outline.rs")),
-    ("haas", "o9000-problem3", ("fanuc",), ("lookahead.rs",)),
+    ("fadal", "ex-r-transfer", ("fanuc", "haas"), ("variables/vacancy.rs",)),
+    ("fadal", "o600-rect-pocket", ("fanuc", "haas"), ("operator/questions.rs",)),
+    ("fadal", "o10-row-column-main", ("fanuc", "haas"), ("cycles/cycle_here.rs", "moves/shift.rs")),
+    ("fadal", "o1234-drill-grid", ("haas",), ("codes/substitutes.rs", "codes/machine_codes.rs", "layout/emptied.rs")),
+    ("fadal", "o4-big-drill", ("fanuc", "haas"), ("calls/modal_calls.rs", "calls/outline.rs", "variables/state.rs")),
+    ("fadal", "tap", ("fanuc", "haas"), ("cycles/tapping.rs", "cycles/tapping/kept.rs")),
+    ("fadal", "left-tap", ("fanuc",), ("cycles/tapping.rs",)),
+    ("fadal", "bores", ("haas",), ("moves/units.rs",)),
+    ("fanuc", "g66-nesting-main", ("haas",), ("calls/modal_calls.rs",)),
+    ("haas", "bare-numbers", ("fanuc",), ("moves/increments.rs", "cycles/dwell.rs")),
+    ("haas", "branches", ("fanuc",), ("expressions/truth.rs", "calls/outline.rs")),
+    ("haas", "o9000-problem3", ("fanuc",), ("codes/lookahead.rs",)),
     ("haas", "taps", ("fanuc",), ()),
-    ("cc100", "example2", ("fanuc", "haas"), ("shift.rs",)),
-    ("cc100", "drill", ("fanuc", "haas"), ("cycle_here.rs",)),
+    ("cc100", "example2", ("fanuc", "haas"), ("moves/shift.rs",)),
+    ("cc100", "drill", ("fanuc", "haas"), ("cycles/cycle_here.rs",)),
 ):
     for target in targets:
         next(part for part in ALL if (part.control, part.name) == (control, name)).to(target, *files)

@@ -12,7 +12,7 @@ use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
 use crate::ir::analysis::reachable;
-use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, TermKind};
+use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, StmtKind, TermKind};
 use crate::text::Span;
 
 /// V30 to V80 are for programs (seed 004:52).
@@ -79,11 +79,23 @@ impl<'p> Emitter<'p> {
     fn header(&mut self) {
         let site = &self.program.site;
         let name = self.program.name.as_ref().map(|name| name.to_string()).unwrap_or_default();
+        // What was written here before, and converted since, has the name that people know it by.
+        let name = if self.is_named_in_text() { String::new() } else { name };
         self.carry(site);
         let comments = self.take_carried().into_iter().map(|comment| plain(&comment.text));
         let words: Vec<String> =
             std::iter::once(name).chain(comments).filter(|text| !text.is_empty()).collect();
         self.comment(&words.join(" "));
+    }
+
+    /// True where the program's first comment is the number of a program.
+    fn is_named_in_text(&self) -> bool {
+        let first = self.program.blocks.first().and_then(|block| block.stmts.first());
+        let comment = first.filter(|stmt| stmt.kind == StmtKind::Comment);
+        let text = comment.and_then(|stmt| stmt.site.comments.first()).map(|comment| comment.text.as_str());
+        text.and_then(|text| text.strip_prefix('O')).is_some_and(|number| {
+            (4..=5).contains(&number.len()) && number.bytes().all(|digit| digit.is_ascii_digit())
+        })
     }
 
     /// Writes which registers the program takes, so that whoever reads it at the machine knows what they hold.

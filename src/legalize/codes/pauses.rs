@@ -36,7 +36,7 @@ pub fn concerns(features: &Features, entry: &Modal) -> bool {
     Running::ALL.into_iter().any(may)
 }
 
-/// True where something starts it: its codes, or a tap the spindle.
+/// True where something may start it: its codes, or a tap the spindle.
 fn starts_in(features: &Features, running: Running) -> bool {
     let taps = running == Running::Spindle && features.any_op(Op::is_tap);
     taps || starts(running).iter().any(|op| features.op(*op))
@@ -114,10 +114,14 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     found
 }
 
+/// True where the run ends, be it that the text of the program does.
+fn ends_run(kind: &TermKind) -> bool {
+    matches!(kind, TermKind::End { .. } | TermKind::Stray)
+}
+
 /// True for a block with a stop, or at whose end the run ends.
 fn stops_in(block: &Block) -> bool {
-    let ends = matches!(block.term.kind, TermKind::End { .. });
-    ends || block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
+    ends_run(&block.term.kind) || block.stmts.iter().any(|stmt| pause_of(&stmt.kind).is_some())
 }
 
 /// Puts what ends something before the stops of a block, and after them what is started again.
@@ -249,7 +253,7 @@ impl Place<'_> {
             }
             found.insert(number, before);
         }
-        if let TermKind::End { .. } = block.term.kind {
+        if ends_run(&block.term.kind) {
             (self.restarted, self.skipped) = ([false; 2], false);
             let before = self.stop(Pause::End, false, usize::MAX, block.term.site.span, context);
             if !before.is_empty() {

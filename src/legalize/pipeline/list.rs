@@ -18,7 +18,7 @@ use crate::legalize::expressions::{
     codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
 };
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::layout::blanks;
+use crate::legalize::layout::{blanks, heads};
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, questions};
@@ -94,6 +94,7 @@ const STRUCTURE: &[Pass] = &[
     // First of all: what only output reads is no matter of the conversion.
     Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
         .when(omitted::concerns),
+    Pass::edits("heads", "heads of an earlier conversion go, as this one writes its own", heads::run),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits("link", "reports calls that leave the library", link::run)

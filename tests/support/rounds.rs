@@ -1,0 +1,195 @@
+//! Programs that are converted to another control and back: the last text does what the first one did.
+
+use crate::support::{Pair, root};
+use macroglot::control::LoadedFile;
+use macroglot::dialect::{Control, Profile, Question, registry};
+use macroglot::library::{Conversion, Input, Lock, Options, Outcome, ProgramReport, Project, convert, judge};
+use macroglot::syntax::{ParsedFile, parse_file};
+use macroglot::verify::{Effort, Side};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// What became of a library on its way to another control and back.
+pub struct Round {
+    pub from: String,
+    pub to: String,
+    pub inputs: Vec<Input>,
+    /// Programs that were written on the other control.
+    pub there: usize,
+    /// The programs of the first text; those that came back have what the verifier says of that text and the last one.
+    pub back: Conversion,
+    /// Files that came back.
+    pub files: usize,
+    /// Files whose text on the other control was the same after the second way there.
+    pub same_there: usize,
+    /// Files whose text was the same after the second way back.
+    pub same_back: usize,
+}
+
+/// A machine of the project file for programs of others, with the unit that it measures in where its profile names none.
+fn machine(name: &str, unit: Option<&str>) -> Control {
+    let project = Project::find(root()).unwrap().unwrap();
+    let targets = project.libraries.values().flat_map(|library| library.targets.keys());
+    let mut machines = targets.map(|name| &project.machines[name]).filter(|machine| machine.dialect == name);
+    let path = machines.next().and_then(|machine| machine.profile.as_ref()).unwrap();
+    let text = std::fs::read_to_string(root().join(path)).unwrap();
+    let text = match unit {
+        Some(unit) if !text.contains("\nunits") => {
+            text.replacen("\ndialect", &format!("\nunits = \"{unit}\"\ndialect"), 1)
+        }
+        _ => text,
+    };
+    Control::new(registry::find(name).unwrap(), Profile::read(&text).unwrap()).unwrap()
+}
+
+/// Takes the library of a pair there and back, twice, between two machines of the project file that measure alike.
+pub fn round(pair: &Pair) -> Round {
+    // The course's programs are metric, and so is their machine; all others measure in inches.
+    let unit = (pair.from != "cc100").then_some("inch");
+    let (home, away) = (machine(&pair.from, unit), machine(&pair.to, unit));
+    let first = plain(&pair.inputs, &home, &away);
+    let there = inputs_of(&pair.inputs, &first);
+    let second = plain(&there, &away, &home);
+    let mut back = composed((&pair.inputs, &first), (&there, &second), &home, &away);
+    judge(&pair.inputs, &mut back, &home, &home, Effort::default());
+    let home_again = inputs_of(&there, &second);
+    let there_again = inputs_of(&home_again, &plain(&home_again, &home, &away));
+    let back_again = inputs_of(&there_again, &plain(&there_again, &away, &home));
+    let same =
+        |before: &[Input], after: &[Input]| after.iter().filter(|input| before.contains(input)).count();
+    Round {
+        from: pair.from.clone(),
+        to: pair.to.clone(),
+        inputs: pair.inputs.clone(),
+        there: first.programs.iter().filter(|program| program.outcome != Outcome::Refused).count(),
+        back,
+        files: home_again.len(),
+        same_there: same(&there, &there_again),
+        same_back: same(&home_again, &back_again),
+    }
+}
+
+fn plain(inputs: &[Input], source: &Control, target: &Control) -> Conversion {
+    convert(inputs, source, target, Lock::new(source.name(), target.name()), Options::default())
+}
+
+/// The texts of a conversion as the next one reads them.
+fn inputs_of(inputs: &[Input], conversion: &Conversion) -> Vec<Input> {
+    let written = inputs.iter().zip(&conversion.texts);
+    let written = written.filter_map(|(input, text)| {
+        let bytes = text.as_ref()?.clone().into_bytes();
+        Some(Input { path: input.path.clone(), name: input.name.clone(), bytes })
+    });
+    written.collect()
+}
+
+/// Two conversions, one behind the other, as one: its texts are the last ones, its reports those of the first programs.
+fn composed(
+    (inputs, first): (&[Input], &Conversion),
+    (there, second): (&[Input], &Conversion),
+    home: &Control,
+    away: &Control,
+) -> Conversion {
+    let parsed: Vec<ParsedFile<'_>> =
+        there.iter().map(|input| parse_file(&input.bytes, away.entry().parse)).collect();
+    let loaded: Vec<LoadedFile<'_>> =
+        there.iter().zip(&parsed).map(|(input, parsed)| LoadedFile { name: &input.name, parsed }).collect();
+    let side = Side::new(away, away.entry().execute.unwrap(), &loaded);
+    let starts = side.programs().iter().map(|program| {
+        let block = parsed[program.file].blocks.get(side.blocks(*program).start);
+        (program.file, block.map_or(0, |block| block.span.start as usize))
+    });
+    let starts: Vec<(usize, usize)> = starts.collect();
+    let files = second.programs.iter().map(|program| program.file);
+    assert!(starts.iter().map(|(file, _)| *file).eq(files), "reading and running cut a file alike");
+    let place = |name: &str| there.iter().position(|input| input.name == name);
+    let texts = inputs.iter().map(|input| second.texts[place(&input.name)?].clone());
+    let programs = first.programs.iter().map(|program| {
+        let file = place(&inputs[program.file].name);
+        let inside = |(at, start): &(usize, usize)| Some(*at) == file && program.range.contains(start);
+        let parts = starts.iter().zip(&second.programs).filter(|(at, _)| inside(at));
+        let parts: Vec<&ProgramReport> = parts.map(|(_, part)| part).collect();
+        let written = |program: &ProgramReport| program.outcome != Outcome::Refused;
+        let is_back = written(program) && !parts.is_empty() && parts.iter().all(|part| written(part));
+        let outcome = if is_back { Outcome::Review } else { Outcome::Refused };
+        let range = if is_back { whole(parts.iter().map(|part| &part.range)) } else { 0..0 };
+        ProgramReport { outcome, verdict: None, map: Vec::new(), range, ..program.clone() }
+    });
+    let programs = programs.collect();
+    let lock = one_lock(&first.lock, &second.lock, away, home);
+    let (taken, links) = (String::new(), first.links.clone());
+    Conversion { programs, texts: texts.collect(), lock, taken, states_reserved: true, links }
+}
+
+/// The run of bytes that holds all of these.
+fn whole<'r>(ranges: impl Iterator<Item = &'r Range<usize>> + Clone) -> Range<usize> {
+    let filled = ranges.filter(|range| !range.is_empty());
+    let start = filled.clone().map(|range| range.start).min().unwrap_or(0);
+    start..filled.map(|range| range.end).max().unwrap_or(0)
+}
+
+/// Where each variable and program of the first text is in the last one.
+fn one_lock(first: &Lock, second: &Lock, away: &Control, home: &Control) -> Lock {
+    let letter = |control: &Control| {
+        let row = control.classes().iter().find(|row| row.class != "letter").unwrap();
+        row.name.clone()
+    };
+    let (there, here) = (letter(away), letter(home));
+    let number = |name: &str| name.strip_prefix(&here).and_then(|number| number.parse::<u32>().ok());
+    // A register that the way back left where it was: numbers are kept where variables may be vacant.
+    let own = |name: &str| number(name).filter(|_| home.is(Question::Vacancy));
+    let image = |name: &str| second.variables.get(name).copied().or_else(|| own(name));
+    let mut variables = BTreeMap::new();
+    let mut scratch: BTreeSet<u32> = second.scratch.iter().copied().collect();
+    let mut came_from = BTreeMap::new();
+    for (name, at) in &first.variables {
+        let (register, to) = if name.ends_with("(..)") {
+            let register = format!("{there}(..)");
+            let to = second.variables.get(&register).map(|base| base + at);
+            (register, to)
+        } else {
+            let register = format!("{there}{at}");
+            let to = image(&register);
+            (register, to)
+        };
+        // What no program that came back has is nowhere.
+        match to {
+            Some(to) => drop(variables.insert(name.clone(), to)),
+            None => scratch.extend(number(name)),
+        }
+        came_from.insert(register, name);
+    }
+    let between: Vec<String> = first.scratch.iter().map(|number| format!("{there}{number}")).collect();
+    let between: BTreeSet<&String> = between.iter().chain(&first.of_words).collect();
+    scratch.extend(between.iter().filter_map(|name| image(name)));
+    for (name, at) in &second.variables {
+        let flag = name.strip_prefix("flag of ").and_then(|of| came_from.get(of));
+        let known = came_from.contains_key(name) || between.contains(name);
+        match flag {
+            Some(of) => drop(variables.insert(format!("flag of {of}"), *at)),
+            None if !known => drop(variables.entry(name.clone()).or_insert(*at)),
+            None => {}
+        }
+    }
+    // What a call has of its own is nowhere at the end, if the other control has no such variables.
+    let locals = |control: &Control| -> Vec<u32> {
+        let rows = control.classes().iter().filter(|row| row.class == "local");
+        rows.flat_map(|row| row.first..=row.last).collect()
+    };
+    if locals(away).is_empty() {
+        scratch.extend(locals(home));
+    }
+    let program = |number: u32| second.programs.get(&format!("O{number:04}")).copied().unwrap_or(number);
+    let programs = first.programs.iter().map(|(name, number)| (name.clone(), program(*number)));
+    let mut programs: BTreeMap<String, u32> = programs.collect();
+    for (name, number) in &second.programs {
+        programs.entry(name.clone()).or_insert(*number);
+    }
+    Lock {
+        variables,
+        scratch: scratch.into_iter().collect(),
+        of_words: second.of_words.clone(),
+        programs,
+        ..Lock::new(&first.from, &second.to)
+    }
+}
