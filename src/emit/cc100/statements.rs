@@ -2,6 +2,7 @@
 
 use super::Emitter;
 use super::lines::plain;
+use super::words::by_variables;
 use crate::canon::{Func, Op};
 use crate::ir::{Block, Call, Callee, Expr, Place, SourceInfo, Stmt, StmtKind, TermKind, Var};
 
@@ -48,7 +49,11 @@ impl<'p> Emitter<'p> {
                 self.carry(site);
                 self.flush_comments();
             }
-            StmtKind::Nc(nc) if nc.has(Op::Stop) => self.stop(stmt, ""),
+            StmtKind::Nc(nc) if nc.has(Op::Stop) && !by_variables(nc) => self.stop(stmt, ""),
+            StmtKind::Nc(nc) if nc.has(Op::Stop) => {
+                self.block_of_words(site, nc);
+                self.finish_stop("");
+            }
             StmtKind::Nc(nc) => self.block_of_words(site, nc),
             StmtKind::Alarm { number, text } => self.alarm(stmt, number, text),
             StmtKind::StopMessage { text, .. } => self.stop(stmt, text),

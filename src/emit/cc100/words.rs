@@ -36,12 +36,15 @@ impl<'p> Emitter<'p> {
                 self.begin(site);
                 return self.out.unmapped("variables and numbers in one block");
             }
+            // What stops the program comes after the move.
+            let stops = |item: &NcItem| matches!(item, NcItem::Op(Op::OptionalStop | Op::Stop));
+            let (stop, first): (Vec<NcItem>, Vec<NcItem>) = first.into_iter().partition(stops);
             // The spindle must not start at the speed of before.
             let starts = first.iter().any(|item| matches!(item, NcItem::Op(Op::SpindleCw | Op::SpindleCcw)));
             let speed = |item: &NcItem| starts && matches!(item, NcItem::Word(Role::Speed, _));
             let (speed, rest): (Vec<NcItem>, Vec<NcItem>) = rest.into_iter().partition(speed);
             self.begin(site);
-            for items in [speed, first, rest].into_iter().filter(|items| !items.is_empty()) {
+            for items in [speed, first, rest, stop].into_iter().filter(|items| !items.is_empty()) {
                 self.words(&Nc { items });
                 self.finish();
                 self.open();
@@ -207,6 +210,12 @@ impl<'p> Emitter<'p> {
 /// True for a word that only means something beside the move.
 fn acts_with_move(role: Role) -> bool {
     role.is_axis() || matches!(role, Role::ArcRadius | Role::ArcI | Role::ArcJ | Role::ArcK)
+}
+
+/// True if a word or a code of a block is given by a variable.
+pub(super) fn by_variables(nc: &Nc) -> bool {
+    let by_variable = |item: &NcItem| matches!(item, NcItem::Word(_, value) | NcItem::Code(_, value) if value.constant().is_none());
+    nc.items.iter().any(by_variable)
 }
 
 /// The operation of a block that the code by a variable in it stands for (`G=V31 F=V30`).

@@ -2,13 +2,14 @@
 //!
 //! Law: the code that says where the tool stands shifts all work offsets on some controls until it is taken back, and on
 //! others lasts until an offset is selected. Where it is not known that both controls do the same, a selection that may come
-//! behind such a code is told. Side condition: an offset that is selected before is meant alike.
+//! behind such a code is told. That no offset at all is chosen is refused: it may end the position that was set on one
+//! control, and leave it on the other. Side condition: an offset that is selected before is meant alike.
 
-use crate::canon::Op;
+use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::Module;
 use crate::ir::analysis::behind::behind;
+use crate::ir::{Expr, Module};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
@@ -25,7 +26,12 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         |stmt| stmt.kind.has_op(Op::SetPosition),
         |_| false,
         |index, stmt| {
-            if stmt.kind.has_op(Op::SelectWork) {
+            let number = stmt.kind.nc().and_then(|nc| nc.word(Role::WorkOffset)).and_then(Expr::constant);
+            if stmt.kind.has_op(Op::SelectWork) && number == Some(0.0) {
+                let what = "all work offsets are taken away while a position that the program set may be in force: no \
+                            source says for both controls whether that goes too. Select a work offset before";
+                context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+            } else if stmt.kind.has_op(Op::SelectWork) {
                 let what = "a work offset is selected while a position that the program set may be in \
                             force: it is not known for both controls whether that ends it";
                 context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, what));

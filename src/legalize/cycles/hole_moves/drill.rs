@@ -243,8 +243,12 @@ impl Known {
             drill.height = Height::Unknown;
         }
         if rules.drills(nc) {
+            let stood = (drill.height, self.z);
             let [_, back] = drill.ends(rules.back(modal));
             (drill.height, self.z) = back;
+            if vacant && unplaced(nc).is_some() && back != stood {
+                (drill.height, self.z) = (Height::Unknown, None);
+            }
         }
     }
 
@@ -319,6 +323,13 @@ impl Runs {
             (false, false) => depths() && self.without,
         }
     }
+}
+
+/// The words of a hole's place, where all of them may be vacant: without them there is no hole.
+pub(super) fn unplaced(nc: &Nc) -> Option<Vec<&Expr>> {
+    let place: Vec<&Expr> = [Role::X, Role::Y].into_iter().filter_map(|role| nc.word(role)).collect();
+    let open = !place.is_empty() && place.iter().all(|word| word.may_be_vacant());
+    (open && !nc.has(Op::CycleHere) && !nc.ops().any(Op::is_cycle)).then_some(place)
 }
 
 /// True for a block that neither moves nor tells a cycle anything.

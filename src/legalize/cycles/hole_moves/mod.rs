@@ -24,14 +24,14 @@ use crate::dialect::{Control, Question, Units};
 use crate::ir::analysis::over_calls::OverCalls;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    BinOp, Builder, Class, Cond, Expr, Module, Nc, NcItem, OF_NO_LEVEL, Place, Program, Relation, SourceInfo,
-    Stmt, StmtKind, TermKind, Var,
+    BinOp, BlockId, Builder, Class, Cond, Expr, Module, Nc, NcItem, OF_NO_LEVEL, Place, Program, Relation,
+    SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::rewrite::{Part as Piece, highest_temp, rebuild};
 use crate::text::Span;
-use drill::{Cycle, Drill, Height, Known, Runs, Told};
+use drill::{Cycle, Drill, Height, Known, Runs, Told, unplaced};
 use flow::{Flow, Vacancies, named_unit, says_motion, step};
 use moves::{Hole, Part, hole};
 use pen::{Pen, push};
@@ -260,7 +260,11 @@ impl Writer<'_, '_> {
         if repeats.is_some() && relative && (stands.0, back) != (Height::Initial, Some(Op::ReturnInitial)) {
             self.refuse(span, REPEAT);
         }
-        let Some(count) = repeats else { return self.moves(builder, words, found, site) };
+        let skipped = self.unless_unplaced(builder, &nc);
+        let Some(count) = repeats else {
+            self.moves(builder, words, found, site);
+            return skipped.into_iter().for_each(|after| builder.start(after));
+        };
         if count.constant().is_none_or(|count| count < 0.0 || count.fract() != 0.0) {
             self.review(span, COUNT);
         }
@@ -278,6 +282,19 @@ impl Writer<'_, '_> {
             .push(set(Expr::binary(BinOp::Sub, Expr::Var(left), Expr::Number(1.0))), SourceInfo::default());
         builder.end(TermKind::Jump(head), SourceInfo::default());
         builder.start(after);
+        skipped.into_iter().for_each(|after| builder.start(after));
+    }
+
+    /// Goes past the hole where every word of its place is vacant: the block has none then.
+    fn unless_unplaced(&self, builder: &mut Builder, nc: &Nc) -> Option<BlockId> {
+        let place = unplaced(nc).filter(|_| self.vacant)?;
+        let vacant = |word: &Expr| Cond::Compare(Relation::Equal, word.clone(), Expr::Vacant);
+        let mut all: Vec<Cond> = place.iter().map(|word| vacant(word)).collect();
+        let cond = if all.len() == 1 { all.swap_remove(0) } else { Cond::And(all) };
+        let (then, otherwise) = (builder.fresh(), builder.fresh());
+        builder.end(TermKind::Branch { cond, then, otherwise }, SourceInfo::default());
+        builder.start(otherwise);
+        Some(then)
     }
 
     /// How far over the last depth the source begins a step, in the program's unit.
