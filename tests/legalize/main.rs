@@ -3,6 +3,7 @@
 //! Programs are built in the text form of the IR, legalized by one pass, and run by the IR's own evaluator. Expected
 //! values come from the arithmetic of the standard library, bounds from the documentation of each emulation.
 
+mod arcs;
 mod bits;
 mod conditions;
 mod constants;
