@@ -43,6 +43,8 @@ pub struct Context<'a> {
     pub level: Level,
     /// True where a G code by a computed number was written out: a run may come in any that its number can be.
     pub(super) chained: bool,
+    /// True where the library drills, and its holes became moves.
+    pub(super) drills: bool,
     /// What earlier runs chose.
     pub locked: Locked<'a>,
     /// The temporaries and statics that are needed after calls, from the pass `temporaries` on.
@@ -127,6 +129,7 @@ impl<'a> Context<'a> {
             analyses: Analyses::default(),
             level: Level::default(),
             chained: false,
+            drills: false,
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
             copied: Vec::new(),

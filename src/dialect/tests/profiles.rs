@@ -34,6 +34,10 @@ fn profiles_say_what_is_wrong_and_where() {
         "dialect = \"fanuc\"\n[[site]]\ncode = \"M20\"\nop = \"jump\"\ntext = \"x\"",
         "'M20' cannot mean 'jump'",
     );
+    wrong(
+        "dialect = \"cc100\"\n[[site]]\ncode = \"M20\"\nop = \"output.on\"\ntext = \"x\"",
+        "p.toml:2:1: MG0203: 'M20' does not say which output it switches",
+    );
     let other = Profile::read("dialect = \"haas\"").unwrap();
     let fanuc = registry::find("fanuc").unwrap();
     assert!(Control::new(fanuc, other).is_err());

@@ -61,10 +61,16 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 (by_scheme, what)
             }
             Finding::Any(letter) => {
-                let what = format!(
-                    "the number of the {letter} code is computed: make sure that every code it may be \
-                     means the same on the target"
-                );
+                let what = match known.number_alike {
+                    true => format!(
+                        "the number of the {letter} code is computed: make sure that every code it may be \
+                         means the same on the target"
+                    ),
+                    false => format!(
+                        "the number of the {letter} code is computed, and the target numbers its codes otherwise: write \
+                         each code that it may be into a block of its own, after an IF"
+                    ),
+                };
                 (by_scheme, what)
             }
         };

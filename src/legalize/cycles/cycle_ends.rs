@@ -1,9 +1,10 @@
 //! Drilling cycles that the target does not end by itself.
 //!
 //! Law: where a motion code ends a cycle on the source and not on the target, the cycle is ended in a block of its own
-//! before the motion; so it is before the end of a program. Where no cycle is in force nothing is added. Side condition:
-//! none is in force at a tool change, which such a control takes for a fault: after it the source may drill on, and the
-//! target would have to be told the whole cycle again. Counter-example: `G81 X1. Z-5. R2. F100.`, `M6`, `X2.`
+//! before the motion; so it is before the end of a program. Where no cycle is in force nothing is added; a program that
+//! drills may find one in force at its start, though its own holes became moves. Side condition: none is in force at a tool
+//! change, which such a control takes for a fault: after it the source may drill on, and the target would have to be told
+//! the whole cycle again. Counter-example: `G81 X1. Z-5. R2. F100.`, `M6`, `X2.`
 
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
@@ -14,7 +15,8 @@ use crate::legalize::features::{Feature, Features};
 
 /// True if the library has cycles, or codes that may be one, and the target does not end them by motion.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let may_drill = features.any_op(Op::is_cycle) || features.has(Feature::Code) || context.chained;
+    let may_drill =
+        features.any_op(Op::is_cycle) || features.has(Feature::Code) || context.chained || context.drills;
     may_drill && ends(context.source) && !ends(context.target)
 }
 

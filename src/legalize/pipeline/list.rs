@@ -270,7 +270,7 @@ const CYCLES: &[Pass] = &[
         cycle_ends::run,
     )
     .when(|c, context| {
-        let open = c.has(Feature::Code) || context.chained;
+        let open = c.has(Feature::Code) || context.chained || context.drills;
         cycle_ends::concerns(c, context) && (open || !hole_moves::replaces(context.target))
     })
     .needs(&["cycle-here"]),

@@ -90,7 +90,11 @@ impl Finding {
             Finding::Missing(state) if is_signal(state) => {}
             Finding::Missing(state) => {
                 let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
-                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what));
+                let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+                let help = "if the position that its programs read is in these coordinates, write 'position.frame = \"machine\"' \
+                            under [behaviours] in the machine profile of the target";
+                let asked = may_be_in_frame(state, context.target);
+                context.add(index, if asked { finding.with_help(help) } else { finding });
             }
             Finding::ReadOnly(state) => {
                 let what = format!("{title} cannot write '{state}'");
@@ -248,6 +252,12 @@ fn read(
             Expr::Number(0.0)
         }
     }
+}
+
+/// True for a position that the target may have: nobody knows in which frame its one kind of position is.
+fn may_be_in_frame(state: Sys, target: &Control) -> bool {
+    let unknown = target.behaviour(Question::PositionFrame).is_some_and(|row| row.value == "unknown");
+    state == Sys::MachinePosition && unknown && target.system_run(Sys::AxisPosition).is_some()
 }
 
 /// True for a control whose one kind of position is known to be in machine coordinates.

@@ -103,7 +103,7 @@ fn replace(timer: &Timer, module: &mut Module, context: &mut Context<'_>) {
     for (index, span) in &uses {
         let what = format!(
             "{name} becomes the seconds since the start of the program, {unit}: check that the control counts parts of a \
-             second, and that no other program goes on with what this one timed"
+             second, that both count alike at a stop, and that no other program goes on with what this one timed"
         );
         context.add(*index, Diagnostic::new(Code::Conditional, *span, what));
     }

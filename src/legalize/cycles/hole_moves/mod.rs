@@ -60,6 +60,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let known = OverCalls::of(module, &flow);
     let held = flow.held(module, &known);
     let inch = named_unit(module);
+    context.drills = true;
     for (index, program) in module.programs.iter_mut().enumerate() {
         let mut writer = Writer {
             index,
