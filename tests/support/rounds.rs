@@ -9,6 +9,17 @@ use macroglot::verify::{Effort, Side};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+/// Less than a conversion is given: both ways are verified elsewhere, and what a round changes shows early.
+const EFFORT: Effort = Effort {
+    scenarios: 32,
+    tries: 80,
+    steps: 5_000,
+    all_steps: 60_000,
+    seed: 0x6d67_0001,
+    program_seconds: 60.0,
+    library_seconds: 3600.0,
+};
+
 /// What became of a library on its way to another control and back.
 pub struct Round {
     pub from: String,
@@ -51,7 +62,7 @@ pub fn round(pair: &Pair) -> Round {
     let there = inputs_of(&pair.inputs, &first);
     let second = plain(&there, &away, &home);
     let mut back = composed((&pair.inputs, &first), (&there, &second), &home, &away);
-    judge(&pair.inputs, &mut back, &home, &home, Effort::default());
+    judge(&pair.inputs, &mut back, &home, &home, EFFORT);
     let home_again = inputs_of(&there, &second);
     let there_again = inputs_of(&home_again, &plain(&home_again, &home, &away));
     let back_again = inputs_of(&there_again, &plain(&there_again, &away, &home));

@@ -73,8 +73,8 @@ impl<'m> After<'m> {
 
     fn end(&self, index: usize, kind: &TermKind) -> End {
         match kind {
-            TermKind::End { .. } | TermKind::Chain(_) => End::Over,
-            TermKind::Return { .. } | TermKind::Stray => End::Out,
+            TermKind::End { .. } | TermKind::Stray | TermKind::Chain(_) => End::Over,
+            TermKind::Return { .. } => End::Out,
             TermKind::Call { call, next } => End::Call(self.routine(index, call), *next),
             kind => End::On(kind.successors().into_iter().collect()),
         }
