@@ -152,7 +152,7 @@ part.rapid(7.0, 0.0)
 part.rapid(8.0)
 part.hole(9.0, r=2.0, bottom=-4.0)
 part.feed(10.0, f=200.0)
-part.to("fadal", "cycles/cycle_ends.rs", "cycles/cycle_planes.rs")
+part.to("fadal", "cycles/cycle_ends.rs")
 part.to("cc100", "cycles/hole_moves/mod.rs")
 
 part = Short("haas", "deep", "Six doublings of 2 with one more each are 191; (191 > 20) + (191 < 20) * 5 is 1; 123456.789 - 123450 and\n"
