@@ -1,5 +1,6 @@
 //! Drilling cycles and dwells.
 
+pub(in crate::legalize) mod bare_dwells;
 pub(in crate::legalize) mod cycle_ends;
 pub(in crate::legalize) mod cycle_here;
 pub(in crate::legalize) mod cycle_planes;

@@ -13,7 +13,9 @@ use crate::legalize::codes::{
     beside_moves, by_number, code_chains, forbidden, lookahead, machine_codes, missing, pauses, substitutes,
     waits,
 };
-use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
+use crate::legalize::cycles::{
+    bare_dwells, cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves,
+};
 use crate::legalize::expressions::{
     codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
 };
@@ -326,6 +328,9 @@ const EXPRESSIONS: &[Pass] = &[
     )
     .when(vacancy_flags::concerns)
     .changes_flow(),
+    Pass::each("bare-dwells", "dwells that may find a feed for their time get one", bare_dwells::run)
+        .when(bare_dwells::concerns)
+        .needs(&["dwell", "vacancy-flags"]),
     Pass::edits("whole-words", "words that are whole numbers are rounded before them", whole_words::run)
         .when(whole_words::concerns)
         .needs(&["vacancy-flags"]),

@@ -72,6 +72,9 @@ impl<'a> Lowering<'a> {
         }
         if let Some(at) = words.iter().map(|(_, span)| *span).reduce(Span::to) {
             self.complete(&mut nc, items, at);
+            if nc.has(Op::Dwell) && nc.word(Role::DwellS).or(nc.word(Role::DwellMs)).is_none() {
+                self.findings.not_understood(at, "no source says how long a dwell without a time waits");
+            }
             let ends = matches!(plan.flow, None | Some(Flow::End { .. }));
             if !ends && nc.moves() {
                 let message = "no source says whether the move comes before the jump or the call";
