@@ -116,7 +116,8 @@ struct Name<'t> {
 
 impl<'t> Name<'t> {
     fn of(word: &'t str) -> Option<Self> {
-        let sign = word.chars().next().filter(|sign| sign.is_ascii_alphabetic() || *sign == '#')?;
+        let sign =
+            word.chars().next().filter(|sign| sign.is_ascii_alphabetic() || sign.is_ascii_punctuation())?;
         let (sign, rest) = word.split_at_checked(sign.len_utf8())?;
         let is_number = rest.len() < 6 && rest.bytes().all(|digit| digit.is_ascii_digit());
         let is_letter = rest.len() == 1 && rest.bytes().all(|letter| letter.is_ascii_uppercase());
