@@ -3,8 +3,8 @@
 //! A forward analysis over all programs at once: the state at a program's entry
 //! joins the states at all its calls, and the state after a call is the
 //! callee's at its returns; a return to a sequence number goes on there as well. A
-//! computed call enters every program that it may be meant for. What a program without a known caller starts in, and what an
-//! unknown callee leaves, is not known.
+//! computed call enters every program that it may be meant for. What a program starts in that has no known caller or ends the
+//! run, and what an unknown callee leaves, is not known.
 
 use super::cfg::reachable;
 use super::computed_calls::{Callees, computed_calls};
@@ -112,7 +112,8 @@ impl<'m> Analysis<'m> {
         let called = self.called_programs();
         let (entry, head) = (&Rc::new(entry.clone()), &Rc::new(entry.at_head()));
         for (index, program) in self.module.programs.iter().enumerate() {
-            if !called.contains(&index) {
+            // A program that ends the run is started by the operator too, whoever calls it.
+            if !called.contains(&index) || !program.returns() {
                 // What stands without a name before the first one may go on with a program that was begun before.
                 self.go((index, BlockId(0)), if program.name.is_some() { head } else { entry });
             }

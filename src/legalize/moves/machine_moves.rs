@@ -69,7 +69,16 @@ fn replaced(
             "a move in machine coordinates that is not known to be rapid and absolute: write G0 and G90 before it",
         );
     }
-    let length = length(nc, before, rest, end)?;
+    let length = match nc.ops().find(|op| op.group() == Group::LengthComp) {
+        // The block says so itself.
+        Some(Op::LengthOff) => false,
+        Some(_) => {
+            return Err(
+                "a tool length is taken up in the block of a move in machine coordinates: write it after the move",
+            );
+        }
+        None => length(nc, before, rest, end)?,
+    };
     let mut items: Vec<NcItem> =
         nc.items.iter().filter(|item| **item != NcItem::Op(Op::MachineOnce)).cloned().collect();
     items.extend(length.then_some(NcItem::Op(Op::LengthOff)));
