@@ -29,6 +29,8 @@ pub struct Context<'a> {
     pub target: &'a Control,
     /// The modal state in which a program starts that nothing in the library calls.
     pub entry: Modal,
+    /// True where the last program goes on after its text, as a piece of a longer one.
+    pub goes_on: bool,
     /// Where lowering found errors, by program of the source: of those blocks the module may not have every word.
     pub faults: Vec<Vec<Span>>,
     /// For each program the one of the source that it comes from: passes add programs.
@@ -122,6 +124,7 @@ impl<'a> Context<'a> {
             source,
             target,
             entry: Modal::unknown(),
+            goes_on: false,
             faults: Vec::new(),
             origins: (0..programs).collect(),
             reached: Reached::default(),

@@ -32,12 +32,13 @@ pub(super) fn make(
     target: &Control,
     mut lock: Lock,
     level: opt::Level,
-    entry: Modal,
+    (entry, goes_on): (Modal, bool),
 ) -> Made {
     let count = module.programs.len();
     let short = |program: &Program| Some(program.name.as_ref()?.short().into_owned());
     let names: Vec<Option<String>> = module.programs.iter().map(short).collect();
     let mut context = context(&found, source, target, level, lock.locked(), entry);
+    context.goes_on = goes_on;
     let fault = pipeline::run(&mut module, &mut context).err();
     let registers = std::mem::take(&mut context.registers);
     let numbers = std::mem::take(&mut context.numbers);

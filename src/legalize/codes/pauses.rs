@@ -253,7 +253,8 @@ impl Place<'_> {
             }
             found.insert(number, before);
         }
-        if ends_run(&block.term.kind) {
+        let goes_on = context.goes_on && self.index + 1 == context.origins.len();
+        if ends_run(&block.term.kind) && !(goes_on && block.term.kind == TermKind::Stray) {
             (self.restarted, self.skipped) = ([false; 2], false);
             let before = self.stop(Pause::End, false, usize::MAX, block.term.site.span, context);
             if !before.is_empty() {

@@ -90,14 +90,17 @@ fn convert_pieces(
         if batch.is_empty() {
             break;
         }
-        let lowered: Option<Vec<Lowered>> =
-            batch.into_par_iter().map(|piece| lower(input, piece, source)).collect();
-        let entered: Vec<(Modal, Lowered)> = lowered?
+        let goes_on = |piece: &Piece| (piece.lines.end as usize) < input.bytes.len();
+        let lowered: Option<Vec<(bool, Lowered)>> = batch
+            .into_par_iter()
+            .map(|piece| Some((goes_on(&piece), lower(input, piece, source)?)))
+            .collect();
+        let entered: Vec<((Modal, bool), Lowered)> = lowered?
             .into_iter()
-            .map(|piece| {
+            .map(|(goes_on, piece)| {
                 let entry = state.clone();
                 piece.programs.iter().for_each(|(program, _)| step(&mut state, program));
-                (entry, piece)
+                ((entry, goes_on), piece)
             })
             .collect();
         let made: Vec<(Vec<Option<String>>, Made, bool)> = entered
@@ -181,7 +184,7 @@ fn step(state: &mut Modal, program: &Program) {
 
 fn piece_made(
     piece: Lowered,
-    entry: Modal,
+    entry: (Modal, bool),
     source: &Control,
     target: &Control,
     lock: &Lock,
