@@ -30,7 +30,8 @@ fn every_command_runs() {
     let mut ran = 0;
     for command in commands {
         let typed = command.replace("cargo run --release --", "macroglot");
-        if !typed.starts_with("macroglot ") {
+        // `tests/totals.rs` runs the first command, and reads what it prints.
+        if !typed.starts_with("macroglot ") || typed.trim_end().starts_with("macroglot convert  ") {
             continue;
         }
         let output = Command::new("sh").args(["-c", &typed]).env("PATH", &path).current_dir(root()).output();

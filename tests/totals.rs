@@ -7,12 +7,72 @@ mod support;
 
 use macroglot::diag::{Code, Severity};
 use macroglot::dialect::{Control, registry};
-use macroglot::library::{Conversion, Found, Lock, Options, Outcome, convert, gather};
+use macroglot::library::{Found, Input, Lock, Options, convert, gather};
 use macroglot::syntax::{parse_file, parse_totals};
 use macroglot::verify::Outcome as Verdict;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use support::{Pair, pairs, root};
+use support::root;
+
+/// What `macroglot convert` prints of a run.
+#[derive(serde::Deserialize)]
+struct Told {
+    programs: Vec<Program>,
+}
+
+/// A program and what became of it.
+#[derive(serde::Deserialize)]
+struct Program {
+    source: String,
+    program: Option<String>,
+    from: String,
+    to: String,
+    outcome: String,
+    verdict: Option<String>,
+    diagnostics: Vec<Finding>,
+}
+
+#[derive(serde::Deserialize)]
+struct Finding {
+    code: String,
+    severity: String,
+    message: String,
+}
+
+/// A library of the project file, and what became of its programs on the way to one of its targets.
+struct Pair {
+    from: String,
+    to: String,
+    inputs: Vec<Input>,
+    programs: Vec<Program>,
+}
+
+/// What the README's first command makes of every library, for each of its targets.
+fn pairs() -> Vec<Pair> {
+    // Without the registers and numbers that an earlier run chose.
+    let _ = std::fs::remove_dir_all(root().join("target/converted"));
+    let program = env!("CARGO_BIN_EXE_macroglot");
+    let mut run = std::process::Command::new(program);
+    let output = run.args(["convert", "--format", "json"]).current_dir(root()).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "some programs are refused: {said}");
+    let told: Told = serde_json::from_slice(&output.stdout).unwrap();
+    let mut pairs: Vec<Pair> = Vec::new();
+    for program in told.programs {
+        let is_last = |pair: &&mut Pair| (&pair.from, &pair.to) == (&program.from, &program.to);
+        match pairs.last_mut().filter(is_last) {
+            Some(pair) => pair.programs.push(program),
+            None => {
+                let Found { programs: inputs, errors, .. } =
+                    gather(&[root().join("corpus").join(&program.from)], &[]);
+                assert!(errors.is_empty(), "{errors:?}");
+                let (from, to) = (program.from.clone(), program.to.clone());
+                pairs.push(Pair { from, to, inputs, programs: vec![program] });
+            }
+        }
+    }
+    pairs
+}
 
 const HEAD: &str = "\
 # Totals over the corpus
@@ -86,10 +146,6 @@ fn fragments(entry: &registry::Entry, status: &str) -> String {
     format!("{good}/{}", rows.len())
 }
 
-fn count(conversion: &Conversion, outcome: Outcome) -> usize {
-    conversion.programs.iter().filter(|program| program.outcome == outcome).count()
-}
-
 fn conversions(out: &mut String, pairs: &[Pair]) {
     out.push_str(
         "\n## Conversion\n\nVerified, undecided, different: what the verifier says of those with a conversion.\n\n",
@@ -98,12 +154,13 @@ fn conversions(out: &mut String, pairs: &[Pair]) {
         "| from | to | programs | converted | for review | refused | verified | undecided | different |\n",
     );
     out.push_str("|---|---|---:|---:|---:|---:|---:|---:|---:|\n");
-    for Pair { from, to, conversion, certificates, .. } in pairs {
-        let [good, review, refused] =
-            [Outcome::Converted, Outcome::Review, Outcome::Refused].map(|outcome| count(conversion, outcome));
-        let [same, undecided, different] = [Verdict::Same, Verdict::Undecided, Verdict::Different]
-            .map(|verdict| conversion.programs.iter().filter(|p| p.verdict == Some(verdict)).count());
-        let all = conversion.programs.len();
+    for Pair { from, to, programs, .. } in pairs {
+        let [good, review, refused] = ["converted", "review", "refused"]
+            .map(|outcome| programs.iter().filter(|program| program.outcome == outcome).count());
+        let [same, undecided, different] = ["same", "undecided", "different"]
+            .map(|verdict| programs.iter().filter(|p| p.verdict.as_deref() == Some(verdict)).count());
+        let all = programs.len();
+        assert_eq!(good + review + refused, all);
         let _ = writeln!(
             out,
             "| {from} | {to} | {all} | {good} | {review} | {refused} | {same} | {undecided} | {different} |"
@@ -112,13 +169,11 @@ fn conversions(out: &mut String, pairs: &[Pair]) {
             different, 0,
             "{from} to {to}: what differs is refused by its own reason, before it is run"
         );
-        for program in conversion.programs.iter().filter(|p| p.outcome != Outcome::Refused) {
-            assert!(program.verdict.is_some(), "{from} to {to}: {:?} was not verified", program.name);
-            assert!(
-                certificates[program.file].is_some(),
-                "{from} to {to}: {:?} has no certificate",
-                program.name
-            );
+        for program in programs.iter().filter(|program| program.outcome != "refused") {
+            assert!(program.verdict.is_some(), "{from} to {to}: {} was not verified", program.source);
+            let name = program.source.rsplit('/').next().unwrap();
+            let certificate = format!("target/converted/{from}-{to}/{name}.certificate.json");
+            assert!(root().join(&certificate).exists(), "{certificate} is missing");
         }
     }
 }
@@ -152,7 +207,7 @@ fn there_and_back(out: &mut String, pairs: &[Pair]) {
     let (mut why, mut unknown) = (BTreeSet::new(), Vec::new());
     for pair in pairs {
         let rounds::Round { from, to, inputs, there, back, files, same_there, same_back } =
-            rounds::round(pair);
+            rounds::round(&pair.from, &pair.to, &pair.inputs);
         let [same, undecided, different] = [Verdict::Same, Verdict::Undecided, Verdict::Different]
             .map(|verdict| back.programs.iter().filter(|p| p.verdict == Some(verdict)).count());
         let came_back = same + undecided + different;
@@ -180,10 +235,10 @@ fn there_and_back(out: &mut String, pairs: &[Pair]) {
 
 /// Programs that have each code.
 fn codes(out: &mut String, pairs: &[Pair]) {
-    let mut rows: BTreeMap<Code, Vec<usize>> = BTreeMap::new();
+    let mut rows: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (at, pair) in pairs.iter().enumerate() {
-        for program in &pair.conversion.programs {
-            let codes: BTreeSet<Code> = program.diagnostics.iter().map(|d| d.code).collect();
+        for program in &pair.programs {
+            let codes: BTreeSet<&str> = program.diagnostics.iter().map(|d| &*d.code).collect();
             for code in codes {
                 rows.entry(code).or_insert_with(|| vec![0; pairs.len()])[at] += 1;
             }
@@ -193,7 +248,8 @@ fn codes(out: &mut String, pairs: &[Pair]) {
     pairs.iter().for_each(|pair| out.push_str(&format!(" {} to {} |", pair.from, pair.to)));
     let _ = writeln!(out, "\n|---|---|{}", "---:|".repeat(pairs.len()));
     for (code, counts) in rows {
-        let _ = write!(out, "| {} | {} |", code.number(), code.title());
+        let title = Code::find(code).unwrap().title();
+        let _ = write!(out, "| {code} | {title} |");
         counts.iter().for_each(|count| out.push_str(&format!(" {count} |")));
         out.push('\n');
     }
@@ -202,13 +258,13 @@ fn codes(out: &mut String, pairs: &[Pair]) {
 /// Every refused program with every reason, each said once.
 fn refusals(out: &mut String, pairs: &[Pair]) {
     out.push_str("\n## Refusals\n");
-    for Pair { from, to, inputs, conversion, .. } in pairs {
+    for Pair { from, to, programs, .. } in pairs {
         let _ = writeln!(out, "\n### {from} to {to}\n");
-        for program in conversion.programs.iter().filter(|p| p.outcome == Outcome::Refused) {
-            let _ =
-                writeln!(out, "- {} {}", inputs[program.file].name, program.name.as_deref().unwrap_or(""));
-            let errors = program.diagnostics.iter().filter(|d| d.severity() == Severity::Error);
-            let reasons: BTreeSet<(&str, &str)> = errors.map(|d| (d.code.number(), &*d.message)).collect();
+        for program in programs.iter().filter(|program| program.outcome == "refused") {
+            let name = program.source.rsplit('/').next().unwrap();
+            let _ = writeln!(out, "- {name} {}", program.program.as_deref().unwrap_or(""));
+            let errors = program.diagnostics.iter().filter(|finding| finding.severity == "error");
+            let reasons: BTreeSet<(&str, &str)> = errors.map(|d| (&*d.code, &*d.message)).collect();
             for (code, message) in reasons {
                 let _ = writeln!(out, "  - {code} {message}");
             }

@@ -1,9 +1,7 @@
 //! What several tests share.
 #![allow(dead_code)] // each test uses its part
 
-use macroglot::dialect::{Control, Profile, Question, registry};
-use macroglot::library::{Conversion, Found, Input, Lock, Options, Project, convert, gather, judge};
-use macroglot::verify::{Certificate, Effort};
+use macroglot::dialect::Question;
 use std::path::{Path, PathBuf};
 
 /// The folder of the repository.
@@ -35,45 +33,6 @@ pub fn assert_fresh(path: &str, fresh: &str) {
 pub fn asks(source: &str, question: Question) -> bool {
     let name = format!("Question::{question:?}");
     source.split(&name).skip(1).any(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
-}
-
-/// A library of the project file, converted for one of its targets and verified.
-pub struct Pair {
-    pub from: String,
-    pub to: String,
-    pub inputs: Vec<Input>,
-    pub conversion: Conversion,
-    pub certificates: Vec<Option<Certificate>>,
-}
-
-/// Every library of the project file at the root, for each of its targets.
-pub fn pairs() -> Vec<Pair> {
-    let project = Project::find(root()).unwrap().unwrap();
-    let control_of = |name: &str| {
-        let machine = &project.machines[name];
-        let entry = registry::find(&machine.dialect).unwrap();
-        match &machine.profile {
-            Some(path) => {
-                let profile = Profile::read(&std::fs::read_to_string(root().join(path)).unwrap()).unwrap();
-                Control::new(entry, profile).unwrap()
-            }
-            None => Control::plain(entry.name).unwrap(),
-        }
-    };
-    let mut pairs = Vec::new();
-    for library in project.libraries.values() {
-        for machine in library.targets.keys() {
-            let (source, target) = (control_of(&library.machine), control_of(machine));
-            let Found { programs: inputs, errors, .. } = gather(&[root().join(&library.path)], &[]);
-            assert!(errors.is_empty(), "{errors:?}");
-            let lock = Lock::new(source.name(), target.name());
-            let mut conversion = convert(&inputs, &source, &target, lock, Options::default());
-            let judged = judge(&inputs, &mut conversion, &source, &target, Effort::default());
-            let (from, to) = (source.name().into(), target.name().into());
-            pairs.push(Pair { from, to, inputs, conversion, certificates: judged.written });
-        }
-    }
-    pairs
 }
 
 /// The Rust files under a folder of the repository, with their paths from its root, in order.

@@ -1,6 +1,6 @@
 //! Programs that are converted to another control and back: the last text does what the first one did.
 
-use crate::support::{Pair, root};
+use crate::support::root;
 use macroglot::control::LoadedFile;
 use macroglot::dialect::{Control, Profile, Question, registry};
 use macroglot::library::{Conversion, Input, Lock, Options, Outcome, ProgramReport, Project, convert, judge};
@@ -53,25 +53,25 @@ fn machine(name: &str, unit: Option<&str>) -> Control {
     Control::new(registry::find(name).unwrap(), Profile::read(&text).unwrap()).unwrap()
 }
 
-/// Takes the library of a pair there and back, twice, between two machines of the project file that measure alike.
-pub fn round(pair: &Pair) -> Round {
+/// Takes a library there and back, twice, between two machines of the project file that measure alike.
+pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
     // The course's programs are metric, and so is their machine; all others measure in inches.
-    let unit = (pair.from != "cc100").then_some("inch");
-    let (home, away) = (machine(&pair.from, unit), machine(&pair.to, unit));
-    let first = plain(&pair.inputs, &home, &away);
-    let there = inputs_of(&pair.inputs, &first);
+    let unit = (from != "cc100").then_some("inch");
+    let (home, away) = (machine(from, unit), machine(to, unit));
+    let first = plain(inputs, &home, &away);
+    let there = inputs_of(inputs, &first);
     let second = plain(&there, &away, &home);
-    let mut back = composed((&pair.inputs, &first), (&there, &second), &home, &away);
-    judge(&pair.inputs, &mut back, &home, &home, EFFORT);
+    let mut back = composed((inputs, &first), (&there, &second), &home, &away);
+    judge(inputs, &mut back, &home, &home, EFFORT);
     let home_again = inputs_of(&there, &second);
     let there_again = inputs_of(&home_again, &plain(&home_again, &home, &away));
     let back_again = inputs_of(&there_again, &plain(&there_again, &away, &home));
     let same =
         |before: &[Input], after: &[Input]| after.iter().filter(|input| before.contains(input)).count();
     Round {
-        from: pair.from.clone(),
-        to: pair.to.clone(),
-        inputs: pair.inputs.clone(),
+        from: from.to_owned(),
+        to: to.to_owned(),
+        inputs: inputs.to_vec(),
         there: first.programs.iter().filter(|program| program.outcome != Outcome::Refused).count(),
         back,
         files: home_again.len(),
