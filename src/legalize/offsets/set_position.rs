@@ -5,17 +5,17 @@
 //! behind such a code is told. That no offset at all is chosen is refused: it may end the position that was set on one
 //! control, and leave it on the other. Side condition: an offset that is selected before is meant alike.
 
-use crate::canon::{Op, Role};
+use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
+use crate::ir::Module;
 use crate::ir::analysis::behind::behind;
-use crate::ir::{Expr, Module};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 
 /// True where there may be such a selection, and it is not known that both controls do the same then.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    let both = features.op(Op::SetPosition) && features.op(Op::SelectWork);
+    let both = features.op(Op::SetPosition) && (features.op(Op::SelectWork) || features.op(Op::ShiftCancel));
     both && !context.agree(Question::SelectEndsSetPosition)
 }
 
@@ -26,8 +26,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         |stmt| stmt.kind.has_op(Op::SetPosition),
         |_| false,
         |index, stmt| {
-            let number = stmt.kind.nc().and_then(|nc| nc.word(Role::WorkOffset)).and_then(Expr::constant);
-            if stmt.kind.has_op(Op::SelectWork) && number == Some(0.0) {
+            if stmt.kind.has_op(Op::ShiftCancel) {
                 let what = "all work offsets are taken away while a position that the program set may be in force: no \
                             source says for both controls whether that goes too. Select a work offset before";
                 context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
