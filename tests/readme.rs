@@ -31,7 +31,8 @@ fn every_command_runs() {
     for command in commands {
         let typed = command.replace("cargo run --release --", "macroglot");
         // `tests/totals.rs` runs the first command, and reads what it prints.
-        if !typed.starts_with("macroglot ") || typed.trim_end().starts_with("macroglot convert  ") {
+        let first = typed.split('#').next().is_some_and(|typed| typed.trim_end() == "macroglot convert");
+        if !typed.starts_with("macroglot ") || first {
             continue;
         }
         let output = Command::new("sh").args(["-c", &typed]).env("PATH", &path).current_dir(root()).output();

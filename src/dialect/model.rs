@@ -37,7 +37,7 @@ pub struct Dialect {
     pub family: String,
     /// File name extensions its programs usually have, without the point.
     pub extensions: Vec<String>,
-    /// What a person must know before the first run of what is written for it; absent where nothing is new.
+    /// What people must know before they run a converted program for the first time; absent if the control is not new here.
     pub advice: Option<String>,
     /// How numbers are written and kept.
     pub numbers: Numbers,

@@ -6,8 +6,8 @@
 //! calls. A cycle that runs where the tool stands gets the words that last named the place, turned.
 //!
 //! Side conditions, each refused by name: the plane is XY; whether a rotation is in force is known at each move; its block says
-//! its angle and its centre in absolute numbers; a move of one axis alone stands behind one of both, whose words have their
-//! values still; nothing under it asks for the position or chooses another frame. Counter-example: `G68 X0 Y0 R30.` and then
+//! its angle and its centre in absolute numbers; a move of one axis alone comes after one of both, whose words still
+//! have their values; nothing under it asks for the position or chooses another frame. Counter-example: `G68 X0 Y0 R30.` and then
 //! `G1 X10.`, whose Y is where the tool was before, turned back.
 
 mod words;
@@ -232,7 +232,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 TermKind::Return { .. } if here != Known::Off && !callees.contains(&index) => {
                     findings.push((Code::NoEquivalent, RETURNS, span));
                 }
-                TermKind::End { .. } if here != Known::Off => findings.push((Code::Conditional, ENDS, span)),
+                TermKind::End { .. } | TermKind::Stray if here != Known::Off => {
+                    findings.push((Code::Conditional, ENDS, span))
+                }
                 _ => {}
             }
         }

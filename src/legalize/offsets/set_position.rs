@@ -2,7 +2,7 @@
 //!
 //! Law: the code that says where the tool stands shifts all work offsets on some controls until it is taken back, and on
 //! others lasts until an offset is selected. Where it is not known that both controls do the same, a selection that may come
-//! behind such a code is told. That no offset at all is chosen is refused: it may end the position that was set on one
+//! after such a code is told. That no offset at all is chosen is refused: it may end the position that was set on one
 //! control, and leave it on the other. Side condition: an offset that is selected before is meant alike.
 
 use crate::canon::Op;

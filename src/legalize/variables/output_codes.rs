@@ -52,7 +52,7 @@ struct Switched {
 }
 
 impl Switched {
-    /// Whether the output is on then; none where the value is computed.
+    /// Whether the output is on then; none if the value is computed.
     fn is_on(&self) -> Option<bool> {
         let number = match &self.value {
             Expr::Vacant => 0.0,

@@ -20,7 +20,7 @@ pub(super) struct Turned {
     pub last: Option<[Expr; 2]>,
 }
 
-/// The block with its words turned, behind what it needs first; the block itself where that cannot be.
+/// Turns the words of a block, and puts what they need before it. The block comes back if it cannot be turned.
 pub(super) fn turn(
     mut stmt: Stmt,
     turned: &Turned,

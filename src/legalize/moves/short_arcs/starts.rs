@@ -162,7 +162,7 @@ pub fn vacant(program: &Program, summaries: &Summaries, given: &BTreeSet<Var>) -
     let vacancy = Vacancy::of(program, summaries, given);
     let of = |id, at, stmt: &Stmt| {
         WORDS.map(|role| match stmt.kind.nc().and_then(|nc| nc.word(role)) {
-            // The opposite of what is not there is not there either.
+            // A vacant value has no opposite: it stays vacant.
             Some(Expr::Negate(word)) => vacancy.may_yield_vacant(id, at, word),
             Some(word) => word.may_be_vacant() && vacancy.may_yield_vacant(id, at, word),
             None => false,

@@ -3,7 +3,7 @@
 //! Law: with the start at `u` from the centre and the end `w` from the start, the sweep is at most half a turn where `u`
 //! turns to `w` on the side to which the arc goes, and then the arc is the one of its radius. A longer one begins with a
 //! third of a turn, whose end is `u` turned by 120 degrees: so what is left ends within 170 degrees after two thirds at the
-//! most. Ends that lie less than 0.00005 apart, or as little behind, are one: the arc is a whole turn.
+//! most. An end within 0.00005 of the start, on either side of it, makes a whole turn.
 //!
 //! Side condition: the end lies on the arc, which the verifier tries. Counter-example: `G3 X10. Y0 I5. J1.`.
 
@@ -38,7 +38,7 @@ pub(super) struct Turn {
 }
 
 impl Turn {
-    /// The arc of a block; none where the block says more than an arc and its feed.
+    /// The arc of a block; none if the block says more than an arc and its feed.
     pub fn of(stmt: &Stmt, ccw: bool, incremental: bool, start: Option<[Expr; 2]>) -> Option<Self> {
         let nc = stmt.kind.nc()?;
         let ends = [Role::X, Role::Y].map(|role| nc.word(role).cloned());
