@@ -131,6 +131,23 @@ fn what_the_target_lacks_is_neither_the_same_nor_a_fault() {
     assert_eq!(found("fanuc", "haas", builders, "O1\nM78\nG0X1.\nM30\n").0, Outcome::Different);
 }
 
+/// Run by itself with the spindle that its caller leaves, the source says nothing of it and the target says it again.
+#[test]
+fn a_speed_that_is_said_again_as_it_was_found_is_nothing_new() {
+    let (from, to) = (r#"fanuc[units="metric"]"#, r#"fadal[units="metric";settings.format="1"]"#);
+    let source = "O1\nG21G90G80G54G17G40G49G94\nG0X0Y0S500M3\nZ20.\nM98P2\nM30\n\
+        O2\nG98G84X10.Y5.Z-10.R5.F400.\nG80\nM99\n";
+    let target = "N1 O1\nN2 G21 G90 G80 E1 G17 G40 G49 G94\nN3 G0 X0. Y0. S500 M3\nN4 Z20.\nN5 M98 P2\nN6 M2\n\
+        N1 O2\nN2 G98 G84 X10. Y5. Z-10. R0+5. Q0.8 F500\nN3 G80 F400.\nN4 M99\n";
+    let pair = Case { from: from.into(), to: to.into(), source: source.into(), ..Case::default() };
+    let by_itself = judge(&pair, target);
+    assert_eq!(by_itself.outcome, Outcome::Undecided, "no manual confirms the codes");
+    let reasons: Vec<&str> = by_itself.programs.iter().flat_map(|p| &p.reasons).map(|r| &*r.text).collect();
+    assert!(!reasons.iter().any(|text| text.contains("it differs")), "{reasons:?}");
+    // At another speed it is news.
+    assert_eq!(judge(&pair, &target.replace("Q0.8 F500", "Q0.8 F501")).outcome, Outcome::Different);
+}
+
 #[test]
 fn small_moves_do_not_add_up_unseen() {
     let source = format!("O1\nG90 G0 X1.\nG91\nG1 F10.\n{}G90\nM2\n", "X.0004\n".repeat(10));

@@ -67,6 +67,9 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
                 let said = (implied || before.told != Told::Found) && !is_open;
                 said && (implied || is_end(&event.what)) && !is_end(&before.what)
             };
+            if kind == Setting::Spindle && seen.waiting.iter().any(|(_, before)| is_as_found(before, event)) {
+                continue;
+            }
             seen.waiting.retain(|(other, before)| *other != kind || stays(before));
             seen.waiting.push((kind, event));
             continue;
@@ -90,6 +93,12 @@ pub fn observe<'r>(side: &Library<'_>, run: &'r Run, order: &Order<'r>) -> Vec<A
         seen.settle(|kind, _| kind != Setting::Work);
     }
     seen.out
+}
+
+/// True for a setting that was found so, and is said again: nothing is new, and it still counts only before a cut.
+fn is_as_found(before: &Event, event: &Event) -> bool {
+    let known = before.open == [false; 2] && event.open == [false; 2];
+    before.told == Told::Found && before.what == event.what && known
 }
 
 struct Observer<'o, 'r> {
