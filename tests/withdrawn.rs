@@ -2,8 +2,10 @@
 //!
 //! A conversion that is right differs nowhere, so a fault is put into the text that it would write.
 
-mod support;
+#[path = "support/machine.rs"]
+mod machine;
 
+use machine::machine;
 use macroglot::diag::Code;
 use macroglot::dialect::Control;
 use macroglot::library::{
@@ -21,7 +23,7 @@ struct Judged {
 
 /// Converts files, replaces what stands once in all texts by something of the same length, and judges.
 fn judged(from: &str, to: &str, files: &[(&'static str, &str)], fault: (&str, &str), draft: bool) -> Judged {
-    let [source, target] = [from, to].map(|name| Control::plain(name).unwrap());
+    let [source, target] = [from, to].map(|spec| machine(spec).unwrap());
     let inputs: Vec<Input> = files
         .iter()
         .map(|(name, text)| Input {
@@ -30,7 +32,7 @@ fn judged(from: &str, to: &str, files: &[(&'static str, &str)], fault: (&str, &s
             bytes: text.as_bytes().to_vec(),
         })
         .collect();
-    let lock = Lock::new(from, to);
+    let lock = Lock::new(source.name(), target.name());
     let options = Options { draft, ..Options::default() };
     let mut conversion = convert(&inputs, &source, &target, lock, options);
     let (old, new) = fault;
@@ -112,7 +114,7 @@ impl Judged {
             if program.outcome != Outcome::Refused {
                 assert!(text[program.range.clone()].contains(name), "{name} in {text}");
                 assert!(
-                    text[program.range.clone()].trim_end().ends_with(['0', '9', ')']),
+                    text[program.range.clone()].trim_end().ends_with(['0', '2', '9', ')']),
                     "{name} in {text}"
                 );
             }
@@ -296,4 +298,19 @@ fn macros_whose_callers_are_all_stopped_are_not_called_different() {
         |program: &&ProgramReport| program.diagnostics.iter().any(|d| d.code == Code::VerifiedDifferent);
     let all: Vec<_> = conversion.programs.iter().filter(different).map(|p| p.name.clone()).collect();
     assert!(all.is_empty(), "{all:?}");
+}
+
+/// The Fadal's programs select no unit: its operator sets that of the metric program, also where it is a caller that is
+/// run to see what a macro is given. By itself the macro is given nothing, and its words would name a register.
+#[test]
+fn a_macro_takes_what_its_metric_caller_gives() {
+    let main = "O1900\nG21G17G40G49G80G90G94G98\nG54G0X0Y0Z10.\nG65P9900A2.B-3.\nM30\n";
+    let cut = "O9900\nG0Z#1\nG1Z#2F100.\nG4P500\nM99\n";
+    let made =
+        judged("fanuc[units=\"inch\"]", "fadal", &[("o1900.nc", main), ("o9900.nc", cut)], ("", ""), false);
+    for name in ["O1900", "O9900"] {
+        let program = made.program(name);
+        assert_ne!(program.outcome, Outcome::Refused, "{name}: {:#?}", program.diagnostics);
+        assert_ne!(program.verdict, Some(Verdict::Different), "{name}");
+    }
 }

@@ -1,11 +1,10 @@
 //! One program while it is verified: what was found of it so far.
 
-use crate::canon::{Group, Op};
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::verify::certificate::{Edit, Why, Witness};
-use crate::verify::compare::{Tolerance, is_cut, lacks};
+use crate::verify::compare::{Tolerance, is_cut};
 use crate::verify::entry::given;
-use crate::verify::explore::{Coverage, asked, on_target};
+use crate::verify::explore::{Coverage, asked, on_target, set_by_hand};
 use crate::verify::sides::{Clock, Effort, EntryState, Job, of_target};
 use crate::verify::triage::Shown;
 use std::collections::{BTreeMap, BTreeSet};
@@ -113,10 +112,10 @@ impl<'v, 'j> Verifier<'v, 'j> {
     /// The circumstances of a scenario on the target, whose source ran so.
     pub(super) fn circumstances(&self, scenario: &Scenario, run: &Run) -> Scenario {
         let Job { source, target, names, .. } = self.job;
-        let mut out = on_target(scenario, names, (source, target), (self.called, &self.theirs));
+        let mut out = on_target((scenario, run), names, (source, target), (self.called, &self.theirs));
         // What is called is in the unit of its caller, on both sides.
         let of_caller = self.given.inch().or(if self.called { scenario.inch } else { None });
-        out.inch = self.set_by_hand(run).or(of_caller).or(out.inch);
+        out.inch = set_by_hand(target, run).or(of_caller).or(out.inch);
         if let Some(given) = &self.target_given {
             (out.modes, out.entry) = (given.unlike_power_on(), given.entry.clone());
         }
@@ -126,16 +125,6 @@ impl<'v, 'j> Verifier<'v, 'j> {
             out.steps = scenario.steps.saturating_mul(3);
         }
         out
-    }
-
-    /// The unit that the operator sets a target to whose programs cannot select one: that which the source comes to. In
-    /// the other one the target's check stops it before anything moves.
-    fn set_by_hand(&self, run: &Run) -> Option<bool> {
-        let target = self.job.target;
-        if target.control.units().is_some() || !lacks(target, Op::Inch) {
-            return None;
-        }
-        run.modes.iter().find(|op| op.group() == Group::Units).map(|op| *op == Op::Inch)
     }
 
     pub(super) fn run_source(&self, scenario: &Scenario) -> Run {

@@ -11,4 +11,4 @@ pub use branches::{Coverage, NotReached};
 #[cfg(test)]
 pub use inputs::Inputs;
 pub use inputs::{inputs, inputs_of_both};
-pub use scenarios::{Proposals, asked, on_target, unit};
+pub use scenarios::{Proposals, asked, on_target, set_by_hand, unit};

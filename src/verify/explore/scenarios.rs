@@ -2,7 +2,7 @@
 
 use super::inputs::{Input, Inputs};
 use super::random::Random;
-use crate::canon::Sys;
+use crate::canon::{Group, Op, Sys};
 use crate::control::scenario::{Axes, Probe, StateValue, Tool};
 use crate::control::trace::EventKind;
 use crate::control::{Run, Scenario};
@@ -332,19 +332,28 @@ pub fn unit(side: &Side<'_>, other: &Side<'_>) -> Option<bool> {
     side.control.units().or(other.control.units()).map(|units| units == Units::Inch)
 }
 
+/// The unit that the operator sets a target to whose programs cannot select one: that which the source comes to. In
+/// the other one the target's check stops it before anything moves.
+pub fn set_by_hand(target: &Side<'_>, run: &Run) -> Option<bool> {
+    if target.control.units().is_some() || target.selects_unit() {
+        return None;
+    }
+    run.modes.iter().find(|op| op.group() == Group::Units).map(|op| *op == Op::Inch)
+}
+
 /// The same circumstances on the target: variables by their names there. One that has none is left out; `theirs` are
 /// those that the target alone has.
 ///
 /// A register that nothing has set yet may be vacant there: a conversion that is run first has to see to it, one that
-/// is `called` finds what its callers left.
+/// is `called` finds what its callers left. `run` is what the source did in them.
 pub fn on_target(
-    scenario: &Scenario,
+    (scenario, run): (&Scenario, &Run),
     names: &SymbolMap,
     (source, target): (&Side<'_>, &Side<'_>),
     (called, theirs): (bool, &BTreeMap<String, f64>),
 ) -> Scenario {
     let mut out = scenario.clone();
-    out.inch = unit(target, source).or(scenario.inch);
+    out.inch = set_by_hand(target, run).or(unit(target, source)).or(scenario.inch);
     out.variables.clear();
     for (name, value) in &scenario.variables {
         let nullable = class_of(source.control, name).is_some_and(|class| class.nullable);

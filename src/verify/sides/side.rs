@@ -6,6 +6,7 @@ use super::hash::sha256;
 use super::links::Links;
 use super::program_texts::ProgramTexts;
 use super::stands::stands;
+use crate::canon::Op;
 use crate::control::{Execute, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::dialect::Control;
 use crate::syntax::{Block, ProgramName};
@@ -41,6 +42,11 @@ impl<'a> Side<'a> {
     /// True if calls have variables of their own.
     pub fn has_locals(&self) -> bool {
         self.control.classes().iter().any(|row| row.class == "local")
+    }
+
+    /// True if programs can select the unit.
+    pub fn selects_unit(&self) -> bool {
+        self.control.code_for(Op::Inch, &BTreeMap::new()).is_some()
     }
 
     /// A library on a control.

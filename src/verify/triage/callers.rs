@@ -117,8 +117,8 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
                 continue;
             }
             found.entered = true;
-            let circumstances =
-                on_target(&scenario, job.names, (job.source, job.target), (false, &BTreeMap::new()));
+            let sides = (job.source, job.target);
+            let circumstances = on_target((&scenario, &run), job.names, sides, (false, &BTreeMap::new()));
             let other = job.target.run(there, &circumstances);
             let compared = compare((job.source, &run), (job.target, &other), job.names, tolerance);
             let cut = is_cut(&run) || is_cut(&other);

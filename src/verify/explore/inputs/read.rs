@@ -2,11 +2,10 @@
 
 use super::input::Inputs;
 use super::reader::Reader;
-use crate::canon::Op;
 use crate::control::ProgramRef;
 use crate::syntax::{Item, ItemKind, Label};
 use crate::verify::sides::Side;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Reads a program that is held against one on the `other` side: only if that has locals can both be given some.
 pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs {
@@ -17,8 +16,7 @@ pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs 
 
 /// Where the target selects no unit, both machines are set to the one that the source selects: the target checks it.
 pub fn set_for(found: Inputs, target: &Side<'_>) -> Inputs {
-    let selects = target.control.code_for(Op::Inch, &BTreeMap::new()).is_some();
-    Inputs { inch: found.inch.or(found.selected.filter(|_| !selects)), ..found }
+    Inputs { inch: found.inch.or(found.selected.filter(|_| !target.selects_unit())), ..found }
 }
 
 /// Labels that a computed jump is sent to, at the most, where one side is looked at.
