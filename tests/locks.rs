@@ -65,6 +65,44 @@ fn too_few_registers_are_an_error() {
     assert!(refused(&made).contains(&true));
 }
 
+/// A program that alone needs more than the target has takes nothing from the others; what it is told, it is told once.
+#[test]
+fn a_program_that_needs_too_many_registers_is_set_aside() {
+    let [fanuc, fadal] = ["fanuc", "fadal"].map(|name| Control::plain(name).unwrap());
+    let numbers = (100..200).chain(510..516);
+    let greedy: String = numbers.map(|n| format!("#{n}=#{n}+1\n")).collect();
+    let greedy = format!("O1\nG65P2A1.\n{greedy}M30\n");
+    let files = [
+        ("1.nc", greedy.as_str()),
+        ("2.nc", "O2\nG0X#1\n#500=#500+#1\nM99\n"),
+        ("3.nc", "O3\nG65P2A2.\nM30\n"),
+    ];
+    let made = convert(&inputs(&files), &fanuc, &fadal, Lock::new("fanuc", "fadal"), Options::default());
+    assert_eq!(refused(&made), [true, false, false]);
+    let told: Vec<&str> = made.programs[0]
+        .diagnostics
+        .iter()
+        .filter(|d| d.code.number() == "MG0403")
+        .map(|d| &*d.message)
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "the target has no register left for #100, #101, #102, #103, #104, #105, #106, #107 and 98 more, which only this program uses; the other programs of the library have theirs"
+        ]
+    );
+    assert!(!codes(&made).contains(&"MG0501"));
+    // Alone it has nobody to compete with: what has the registers is told.
+    let made = convert(&inputs(&files[..1]), &fanuc, &fadal, Lock::new("fanuc", "fadal"), Options::default());
+    let told: Vec<&str> = made.programs[0]
+        .diagnostics
+        .iter()
+        .filter(|d| d.code.number() == "MG0403")
+        .map(|d| &*d.message)
+        .collect();
+    assert!(matches!(told[..], [one] if one.contains("the registers are taken by #100, #101")), "{told:?}");
+}
+
 #[test]
 fn a_program_keeps_the_number_that_it_was_given() {
     let (source, target) = (Control::plain("haas").unwrap(), Control::plain("fanuc").unwrap());

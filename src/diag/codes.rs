@@ -472,7 +472,7 @@ Put them into a block of their own."
 Check that the program stays in the domain, and that the part tolerates the error."
 
     "0403" OutOfRegisters Error "no register left"
-"Every variable that programs share needs a register of its own on the target; values in between and locals share theirs as far as they are not needed at once. The target, as the machine profile describes it, has too few, too few of the kind that words take, or too few in a row for variables with computed numbers. The message says what has them. A program that calls itself is told here too, if a value must outlive the call and has one register for all levels.
+"Every variable that programs share needs a register of its own on the target; values in between and locals share theirs as far as they are not needed at once. The target, as the machine profile describes it, has too few, too few of the kind that words take, or too few in a row for variables with computed numbers. The message says what has them. Of a library that needs too many, the program that alone uses the most is set aside, and refused, until the others have theirs. A program that calls itself is told here too, if a value must outlive the call and has one register for all levels.
 
 Shorten the profile's `reserved` list, get the option for more variables, or convert a smaller library."
 

@@ -6,6 +6,11 @@ use crate::text::Span;
 /// Emission fails again where an earlier part already said why, and lowering where reading did: the first word is
 /// enough.
 pub fn drop_echoes(diagnostics: &mut Vec<Diagnostic>) {
+    // The places that get no register say nothing beside what their program competes with.
+    let competes = |d: &Diagnostic| d.code == Code::OutOfRegisters && d.help.is_some();
+    if diagnostics.iter().any(competes) {
+        diagnostics.retain(|d| d.code != Code::OutOfRegisters || competes(d));
+    }
     let later = |code| matches!(code, Code::Unmapped | Code::NotUnderstood);
     if !diagnostics.iter().any(|d| later(d.code)) {
         return;

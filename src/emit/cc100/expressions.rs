@@ -86,8 +86,7 @@ impl Emitter<'_> {
                 }
             }
             None => {
-                let Var { class, number } = var;
-                self.out.unmapped(format_args!("the variable {class:?} {number}: it has no register"));
+                self.out.lacks_register();
             }
         }
     }

@@ -78,6 +78,11 @@ impl Sheet<'_> {
         self.refuse(Code::Unmapped, message);
     }
 
+    /// Notes that a variable of the block got no register. Who got those that there are is told of the program.
+    pub fn lacks_register(&mut self) {
+        self.refuse(Code::OutOfRegisters, "a variable of this block got no register");
+    }
+
     /// Notes it where the control lacks a statement; true where it has it.
     pub fn has_statement(&mut self, name: &str) -> bool {
         let known = self.control.statement(name).is_some();

@@ -223,10 +223,7 @@ impl Emitter<'_> {
                 self.out.integer(number);
             }
             None => {
-                self.out.unmapped(format_args!(
-                    "the variable {:?} {}: it has no register",
-                    var.class, var.number
-                ));
+                self.out.lacks_register();
             }
         }
     }

@@ -12,7 +12,7 @@ use super::names::{class_of, keeps_number, name_of, numbers_alike, reached};
 use super::needs::class_of_colour;
 use super::pool::Pool;
 use super::runs::{banks, point, run_of};
-use crate::diag::{Code, Diagnostic};
+use super::shortage::Shortage;
 use crate::ir::analysis::VarSet;
 use crate::ir::{Bank, Class, Module, Var};
 use crate::legalize::Context;
@@ -67,10 +67,39 @@ fn allocate(
     }
     let runs: Vec<(Bank, u32)> =
         banks.keys().filter_map(|bank| run_of(*bank, &mut pool, &users, &mut registers, context)).collect();
-    for (&var, &(index, span)) in &users {
-        if registers.of.contains_key(&var) {
-            continue;
+    let mut wanted: BTreeSet<Var> = users.into_keys().filter(|var| !registers.of.contains_key(var)).collect();
+    let (free, settled) = (pool, registers);
+    let (mut registers, mut short) = assign(&wanted, free.clone(), settled.clone(), module, context);
+    if !short.is_empty() {
+        let mut shortage = Shortage::of(module);
+        while !short.is_empty() {
+            let own = shortage.set_aside(&wanted, &short, context);
+            if own.is_empty() {
+                break;
+            }
+            wanted.retain(|var| !own.contains(var));
+            (registers, short) = assign(&wanted, free.clone(), settled.clone(), module, context);
         }
+        shortage.report(&short, &registers, module, context);
+    }
+    locked::check(module, &effective.variables, &registers, context);
+    let moved = registers.of.iter().filter(|(var, register)| !registers.is_own(var, register));
+    let named = moved.filter_map(|(var, _)| Some((*var, name_of(*var, module, context.source)?)));
+    registers.names = named.collect();
+    point(module, &runs);
+    registers
+}
+
+/// Gives variables their registers beside what is settled, and tells which get none.
+fn assign(
+    wanted: &BTreeSet<Var>,
+    mut pool: Pool<'_>,
+    mut registers: Registers,
+    module: &Module,
+    context: &Context<'_>,
+) -> (Registers, Vec<Var>) {
+    let mut short = Vec::new();
+    for &var in wanted {
         let name = name_of(var, module, context.source);
         let over = context.over_calls.contains(&var);
         let found = match class_of_colour(var, context.target) {
@@ -78,8 +107,7 @@ fn allocate(
             None => pool.take(var, name.as_deref(), over).map(|number| (pool.name.clone(), number)),
         };
         let Some((place, number)) = found else {
-            let what = shortage(var, &users, module, context);
-            context.add(index, Diagnostic::new(Code::OutOfRegisters, span, what));
+            short.push(var);
             continue;
         };
         if matches!(var.class, Class::Temp | Class::Static) {
@@ -94,47 +122,5 @@ fn allocate(
         }
         registers.of.insert(var, Register { name: place, number });
     }
-    locked::check(module, &effective.variables, &registers, context);
-    let moved = registers.of.iter().filter(|(var, register)| !registers.is_own(var, register));
-    let named = moved.filter_map(|(var, _)| Some((*var, name_of(*var, module, context.source)?)));
-    registers.names = named.collect();
-    point(module, &runs);
-    registers
-}
-
-/// Variables that a message about too few registers names.
-const MOST_NAMED: usize = 8;
-
-/// Says what gets no register, and what has those that there are.
-fn shortage(
-    var: Var,
-    users: &BTreeMap<Var, (usize, Span)>,
-    module: &Module,
-    context: &Context<'_>,
-) -> String {
-    let class = class_of_colour(var, context.target);
-    let wants = name_of(var, module, context.source).unwrap_or_else(|| "a value in between".into());
-    let rivals = users.iter().filter(|(other, _)| class_of_colour(**other, context.target) == class);
-    let (mut named, mut between) = (Vec::new(), 0);
-    for (other, (program, _)) in rivals.filter(|(other, _)| **other != var) {
-        let program = module.programs.get(*program).and_then(|program| program.name.as_ref());
-        match (name_of(*other, module, context.source), program) {
-            (Some(name), Some(program)) => named.push(format!("{name} (program {program})")),
-            (Some(name), None) => named.push(name),
-            (None, _) => between += 1,
-        }
-    }
-    let more = named.len().saturating_sub(MOST_NAMED);
-    named.truncate(MOST_NAMED);
-    if more > 0 {
-        named.push(format!("{more} more variables"));
-    }
-    if between > 0 {
-        named.push(format!("{between} for locals and values in between"));
-    }
-    let place = class.map_or(String::new(), |_| " that words take".into());
-    format!(
-        "the target has no register left for {wants}; the registers{place} are taken by {}",
-        named.join(", ")
-    )
+    (registers, short)
 }

@@ -14,5 +14,6 @@ pub(in crate::legalize) mod names;
 pub(in crate::legalize) mod needs;
 mod pool;
 mod runs;
+mod shortage;
 mod statics;
 pub(in crate::legalize) mod temporaries;

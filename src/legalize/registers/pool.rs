@@ -10,6 +10,7 @@ use crate::legalize::Context;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The registers of the target and which of them are taken.
+#[derive(Clone)]
 pub(super) struct Pool<'a> {
     pub name: String,
     /// Rows to take from, those that keep their values first.
