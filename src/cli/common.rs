@@ -91,7 +91,9 @@ pub fn profile(path: &Path) -> Result<Option<Profile>, u8> {
     let fault = |faults: Vec<_>| {
         complain_lines(crate::dialect::faults_as_text(&path.display().to_string(), &text, &faults))
     };
-    Profile::read(&text).map(Some).map_err(fault)
+    let mut read = Profile::read(&text).map_err(fault)?;
+    read.file = Some(path.to_owned());
+    Ok(Some(read))
 }
 
 /// The names of all dialects.

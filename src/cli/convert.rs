@@ -48,10 +48,10 @@ pub struct Arguments {
     /// How to print the outcome
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Name every file of the folders that is left out
+    /// Draw every finding at its place, and name every file of the folders that is left out
     #[arg(long)]
     verbose: bool,
-    /// Print no diagnostics, only the summary
+    /// Print no findings, only what became of each program
     #[arg(long, short)]
     quiet: bool,
     #[command(flatten)]
@@ -106,6 +106,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         .map(|((job, conversion), (targets, folder))| Part {
             from: job.source.name(),
             to: job.target.name(),
+            controls: [&job.source, &job.target],
             inputs: &job.inputs,
             conversion,
             targets,
@@ -122,10 +123,10 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         Format::Json => streams::print_by(|out| report::write_json(&parts, out))?,
         Format::Sarif => streams::print(&report::sarif(&parts))?,
         Format::Text => {
-            if !arguments.quiet {
+            if arguments.verbose && !arguments.quiet {
                 parts.iter().for_each(outcome::draw);
             }
-            outcome::summarize(&jobs, &parts)?;
+            outcome::summarize(&jobs, &parts, !arguments.quiet)?;
         }
     }
     let refused = report::Totals::of(&parts).refused > 0;

@@ -181,12 +181,12 @@ fn tell_left_out(drawings: Option<(usize, Drawings<'_>)>) {
     }
 }
 
-/// Prints the summary; where there is no output folder, standard output has the program instead.
+/// Prints what became of the programs, and what it `asks` of a person; where there is no output folder, standard output has the program instead.
 ///
 /// # Errors
 /// The exit code where it cannot be written.
-pub fn summarize(jobs: &[Job], parts: &[Part<'_>]) -> Result<(), u8> {
-    let summary = report::summary(parts);
+pub fn summarize(jobs: &[Job], parts: &[Part<'_>], asks: bool) -> Result<(), u8> {
+    let summary = if asks { report::summary(parts) } else { report::outcomes(parts) };
     match (jobs, parts) {
         ([Job { out: None, .. }], [part]) => {
             if let Some(Some(text)) = part.conversion.texts.first() {

@@ -55,4 +55,4 @@ pub use registry::Entry;
 pub use row::Row;
 pub use rows::*;
 pub use spelling::{Beside, CodeHead};
-pub use unconfirmed::{Side, to_confirm};
+pub use unconfirmed::{Settled, Side, to_confirm};

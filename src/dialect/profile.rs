@@ -52,6 +52,9 @@ pub struct Profile {
     pub site: Vec<SiteCode>,
     /// What is wired to the inputs and outputs.
     pub signal: Vec<Signal>,
+    /// The file that it was read from, for reports.
+    #[serde(skip)]
+    pub file: Option<std::path::PathBuf>,
     /// Where the file's `confirm`, `parameters`, ... stand, for reports.
     #[serde(skip)]
     pub(super) places: BTreeMap<String, std::ops::Range<usize>>,

@@ -51,9 +51,9 @@ impl Control {
         }
     }
 
-    /// What to do about a fact of this control: to state the setting that it hangs on where there is one and nobody
-    /// stated it, or else to confirm it.
-    pub fn to_settle(&self, fact: &str, side: Side) -> String {
+    /// What a machine profile says to settle a fact of this control: the setting that it hangs on where there is one and
+    /// nobody stated it, an answer, or that it is so.
+    pub fn settled_by(&self, fact: &str) -> Settled {
         let row = Question::of_fact(fact).and_then(|question| self.behaviour(question));
         let open = row.is_some_and(|row| row.value == "setting");
         // A setting answers it where each of its values does, or where nothing else does.
@@ -62,36 +62,76 @@ impl Control {
             let says = |sets: Option<&BTreeMap<String, String>>| sets.is_some_and(|s| s.contains_key(fact));
             if open { answers.any(says) } else { row.origin.confirmed && answers.all(says) }
         };
-        match self.dialect().settings.iter().filter(|row| !row.values.is_empty()).find(sets) {
+        let settings = self.dialect().settings.iter().filter(|row| !row.values.is_empty());
+        match settings.clone().find(sets) {
             Some(row) => {
                 let (section, name) = match row.name.strip_prefix("parameter.") {
                     Some(number) => ("parameters", number),
                     None => ("settings", row.name.trim_start_matches("setting.")),
                 };
-                format!(
-                    "check it on the machine, then put '{name}' under [{section}] in the machine profile of the {side}"
-                )
+                Settled::Setting { section, name: name.to_owned(), values: row.values.clone() }
             }
             None if row.is_none_or(|row| row.value == "unknown") => match Question::of_fact(fact) {
-                Some(question) if !question.answers().written(&[]).is_empty() => {
-                    to_answer(question, row.map_or(&[], |row| &row.one_of), side)
-                }
-                _ => to_confirm(fact, side),
+                Some(question) if !question.answers().written(&[]).is_empty() => Settled::Answer {
+                    question: question.to_string(),
+                    answers: question.answers().written(row.map_or(&[], |row| &row.one_of)),
+                },
+                _ => Settled::Confirmed(fact.to_owned()),
             },
-            None => to_confirm(fact, side),
+            None => Settled::Confirmed(fact.to_owned()),
         }
+    }
+
+    /// The same in words.
+    pub fn to_settle(&self, fact: &str, side: Side) -> String {
+        self.settled_by(fact).in_words(side)
     }
 }
 
-/// What to do about a question that nobody has answered.
-fn to_answer(question: Question, one_of: &[String], side: Side) -> String {
-    format!(
-        "check it on the machine, then write '{question} = {}' under [behaviours] in the machine profile of the {side}",
-        question.answers().written(one_of)
-    )
+/// What a machine profile says to settle a fact.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Settled {
+    /// A setting of the control that the fact hangs on.
+    Setting {
+        /// The profile's section.
+        section: &'static str,
+        /// The setting's name there.
+        name: String,
+        /// The values that it may have.
+        values: Vec<String>,
+    },
+    /// An answer to a question of behaviour.
+    Answer {
+        /// The question.
+        question: String,
+        /// The answers that it may have, in words.
+        answers: String,
+    },
+    /// That it is as the tables have it.
+    Confirmed(String),
+}
+
+impl Settled {
+    /// What to do on the machine and in its profile.
+    pub fn in_words(&self, side: Side) -> String {
+        let then = match self {
+            Self::Setting { section, name, .. } => {
+                format!("put '{name}' under [{section}] in the machine profile of the {side}")
+            }
+            Self::Answer { question, answers } => {
+                format!(
+                    "write '{question} = {answers}' under [behaviours] in the machine profile of the {side}"
+                )
+            }
+            Self::Confirmed(fact) => {
+                format!("add \"{fact}\" to 'confirm' in the machine profile of the {side}")
+            }
+        };
+        format!("check it on the machine, then {then}")
+    }
 }
 
 /// What to do about a fact that nothing confirms.
 pub fn to_confirm(fact: &str, side: Side) -> String {
-    format!("check it on the machine, then add \"{fact}\" to 'confirm' in the machine profile of the {side}")
+    Settled::Confirmed(fact.to_owned()).in_words(side)
 }

@@ -1,11 +1,13 @@
 //! What people and programs are told: one renderer a format, one file each.
 
+mod asked;
 mod drawn;
 mod html;
 mod json;
 mod markdown;
 mod part;
 mod plot;
+mod questions;
 mod sarif;
 mod text;
 mod totals;
@@ -17,8 +19,9 @@ pub use json::{conversion as json, write_conversion as write_json};
 pub use markdown::conversion as markdown;
 pub use part::{Part, Place};
 pub use plot::backplot;
+pub use questions::Questions;
 pub use sarif::conversion as sarif;
-pub use text::{Sheet, explain, left_out_text, summary};
+pub use text::{Sheet, explain, left_out_text, outcomes, summary};
 pub use totals::Totals;
 pub use trace::{TraceFormat, TraceWriter};
 

@@ -1,6 +1,7 @@
 //! What every renderer renders: libraries, and what became of them.
 
 use crate::diag::Diagnostic;
+use crate::dialect::Control;
 use crate::library::{Conversion, Input, LeftOut, Outcome, ProgramReport, Told};
 use crate::text::LineIndex;
 use std::path::PathBuf;
@@ -12,6 +13,8 @@ pub struct Part<'a> {
     pub from: &'a str,
     /// The dialect they were converted to.
     pub to: &'a str,
+    /// The machines that they were written for, and converted for.
+    pub controls: [&'a Control; 2],
     /// Its files.
     pub inputs: &'a [Input],
     /// What became of its programs.
@@ -89,7 +92,9 @@ mod tests {
             states_reserved: false,
             links: Vec::new(),
         };
+        let control = Control::plain("fanuc").unwrap();
         let part = Part {
+            controls: [&control, &control],
             from: "fanuc",
             to: "haas",
             inputs: &inputs,

@@ -1,6 +1,7 @@
 //! Diagnostics drawn at their source, and summaries, for people.
 
-use super::{Part, Totals};
+use super::asked::asked;
+use super::{Part, Questions, Totals};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::library::{LeftOut, Outcome, Told};
 use crate::text::{shown, shown_lines};
@@ -195,8 +196,17 @@ pub fn explain(code: Code) -> String {
     format!("{}: {}\n({severity})\n\n{}\n", code.number(), code.title(), code.page())
 }
 
-/// The programs of conversions, a line each, and their count.
+/// What became of conversions: a line each program, each question once, and the count.
 pub fn summary(parts: &[Part<'_>]) -> String {
+    told(parts, true)
+}
+
+/// The programs of conversions, a line each, and their count.
+pub fn outcomes(parts: &[Part<'_>]) -> String {
+    told(parts, false)
+}
+
+fn told(parts: &[Part<'_>], asks: bool) -> String {
     let mut out = String::new();
     for part in parts {
         if parts.len() > 1 {
@@ -208,6 +218,12 @@ pub fn summary(parts: &[Part<'_>]) -> String {
         }
         folder(&mut out, part.folder);
         out.push_str(&left_out_text(part.left_out, part.verbose));
+    }
+    if asks {
+        let questions = asked(&Questions::of(parts));
+        if !questions.is_empty() {
+            let _ = writeln!(out, "{questions}");
+        }
     }
     let _ = writeln!(out, "{}", Totals::of(parts));
     out

@@ -12,6 +12,12 @@ fn a_clean_program_is_0_and_a_refused_one_is_1() {
     assert!(run.out.ends_with("1 program in 1 file: 1 converted, 0 for review, 0 refused; 1 verified, 0 undecided, 0 different\n"), "{}", run.out);
     let run = shop.run(&format!("convert in {TO} --out both"));
     assert_eq!(run.code, 1);
+    assert!(
+        run.out.contains("error MG0301: ") && run.out.contains("      b.nc:5\n      5 | "),
+        "{}",
+        run.out
+    );
+    let run = shop.run(&format!("convert in {TO} --out both --verbose"));
     assert!(run.err.contains("in/b.nc:5:1") && run.err.contains("MG0301"), "{}", run.err);
     let all = shop.files();
     let written: Vec<&str> = names(&all).into_iter().filter(|name| name.starts_with("both/")).collect();

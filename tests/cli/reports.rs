@@ -148,7 +148,7 @@ fn time_that_is_up_decides_nothing() {
         let run = shop.run(&format!("{line} {time}"));
         assert_eq!(run.code, 0, "{}", run.err);
         assert!(run.out.contains("0 verified, 2 undecided"), "{}", run.out);
-        assert!(run.err.contains("the processor time for its verification is up"), "{}", run.err);
+        assert!(run.out.contains("the processor time for its verification is up"), "{}", run.out);
         assert!(shop.read("out/a.nc.certificate.json").contains("\"out_of_time\""));
     }
     assert!(shop.run(&format!("{line} --program-seconds 1000")).out.contains("2 verified"));
@@ -173,4 +173,29 @@ fn what_is_new_of_a_control_is_said_once() {
     assert!(!none.out.contains(new), "{}", none.out);
     let known = shop.run("convert in --from fanuc --to haas --out third");
     assert!(!known.out.contains("new in macroglot"), "{}", known.out);
+}
+
+/// What is asked of a machine stands once, however many programs it concerns; its lines, pasted into a profile, answer it.
+#[test]
+fn each_question_is_asked_once_with_the_lines_that_answer_it() {
+    let text = "O1001\nG21 G17 G90 G94 G40 G49 G80 G54 G98\nG0 X1.\nG4 P500\nM38\nM30\n";
+    let files = ["O1001", "O1002", "O1003", "O1004"].map(|name| text.replace("O1001", name));
+    let [a, b, c, d] = &files;
+    let shop = Shop::with(&[("in/a.nc", a), ("in/b.nc", b), ("in/c.nc", c), ("in/d.nc", d)]);
+    let line = "convert in --from fanuc --to haas --out out --no-verify";
+    let run = shop.run(line);
+    let wanted = "error MG0301: unknown meaning\n  the table of this control has no code M38\n      \
+        4 programs: a.nc:5, b.nc:5, c.nc:5, ...\n      5 | M38\n";
+    assert!(run.out.contains(wanted), "{}", run.out);
+    let asked = "\"behaviour:dwell.bare\", # ";
+    assert_eq!(run.out.matches(asked).count(), 1, "{}", run.out);
+    assert!(run.out.contains("(4 programs: a.nc:4, b.nc:4, c.nc:4, ...)\n"), "{}", run.out);
+    let head = "a profile for the Fanuc Custom Macro B, which --machine or macroglot.toml names (dialect = \"fanuc\"):\n";
+    let (_, lines) = run.out.split_once(head).unwrap();
+    let lines: String =
+        lines.lines().take_while(|line| line.starts_with("  ")).map(|line| format!("{line}\n")).collect();
+    assert!(lines.starts_with("  confirm = [\n") && lines.contains("\n  ]\n"), "{lines}");
+    shop.write("fanuc.toml", format!("dialect = \"fanuc\"\n{lines}").as_bytes());
+    let run = shop.run(&format!("{line} --machine fanuc.toml"));
+    assert!(!run.out.contains("dwell.bare"), "{}", run.out);
 }

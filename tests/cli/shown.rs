@@ -66,7 +66,7 @@ fn no_more_is_drawn_than_a_person_reads() {
     let shop = Shop::with(&[("a.nc", &format!("O1\n{line}{line}{line}{line}M30\n"))]);
     for (line, hint) in [
         ("ir a.nc --dialect fanuc", ""),
-        ("convert a.nc --from fanuc --to haas --no-verify", "; `--report FILE.json` has all"),
+        ("convert a.nc --from fanuc --to haas --no-verify --verbose", "; `--report FILE.json` has all"),
     ] {
         let run = shop.run(line);
         assert_eq!(run.code, 1, "{line}");

@@ -1,0 +1,177 @@
+//! What a person must look at or answer: each thing once, with the programs that it concerns.
+//!
+//! A library has one finding at hundreds of places. Who reads them one by one stops reading; so they are gathered by what
+//! they say, over all libraries of a run, the gravest and most frequent first.
+
+use super::Part;
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::dialect::{Control, Settled, Side};
+use crate::text::LineIndex;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Places that are named of a question.
+const NAMED: usize = 3;
+
+/// Something that stands at one or more places.
+#[derive(Clone, Debug)]
+pub struct Question<'a> {
+    /// Its code.
+    pub code: Code,
+    /// What is the matter.
+    pub text: &'a str,
+    /// What to do about it.
+    pub help: Option<&'a str>,
+    /// How many programs it concerns.
+    pub programs: usize,
+    /// The first places, as `file:line`.
+    pub places: Vec<String>,
+    /// The line of the first of them, and its number.
+    pub line: (u32, String),
+}
+
+/// A fact that a machine profile can settle.
+#[derive(Clone, Debug)]
+pub struct Fact<'a> {
+    /// What the profile says to settle it.
+    pub settled_by: Settled,
+    /// What the fact is, and where it counts.
+    pub asked: Question<'a>,
+}
+
+/// The facts of one machine.
+#[derive(Clone, Debug)]
+pub struct Machine<'a> {
+    /// The control.
+    pub control: &'a Control,
+    /// In the order of the profile's sections, the most frequent first.
+    pub facts: Vec<Fact<'a>>,
+}
+
+/// All that is asked of a person.
+#[derive(Clone, Debug, Default)]
+pub struct Questions<'a> {
+    /// What no profile settles: refusals, then reviews.
+    pub open: Vec<Question<'a>>,
+    /// What the profiles of machines can settle.
+    pub machines: Vec<Machine<'a>>,
+    /// How many notes there are, which ask nothing.
+    pub notes: usize,
+}
+
+/// A question while it is gathered.
+struct Gathered<'a> {
+    finding: &'a Diagnostic,
+    /// By file and place in the library: one that goes to two machines is one.
+    programs: BTreeSet<(&'a Path, usize)>,
+    places: Vec<String>,
+    line: (u32, String),
+}
+
+impl<'a> Questions<'a> {
+    /// Gathers the findings of conversions.
+    pub fn of(parts: &[Part<'a>]) -> Self {
+        let mut all: BTreeMap<Key<'a>, Gathered<'a>> = BTreeMap::new();
+        let mut controls: Vec<&'a Control> = Vec::new();
+        let mut notes = 0;
+        for part in parts {
+            // The lines of a file are counted when the first place in it is named.
+            let mut lines: Option<(usize, LineIndex)> = None;
+            for (index, program) in part.conversion.programs.iter().enumerate() {
+                for finding in &program.diagnostics {
+                    if finding.severity() == Severity::Note {
+                        notes += 1;
+                        continue;
+                    }
+                    let fresh = || Gathered {
+                        finding,
+                        programs: BTreeSet::new(),
+                        places: Vec::new(),
+                        line: (0, String::new()),
+                    };
+                    let entry = all.entry(key(finding, part, &mut controls)).or_insert_with(fresh);
+                    entry.programs.insert((&part.inputs[program.file].path, index));
+                    if entry.places.len() == NAMED {
+                        continue;
+                    }
+                    let file = program.file;
+                    if lines.as_ref().is_none_or(|(of, _)| *of != file) {
+                        lines = Some((file, LineIndex::new(&part.inputs[file].bytes)));
+                    }
+                    let Some((_, lines)) = &lines else { continue };
+                    let place = part.place(file, lines, finding);
+                    if entry.places.is_empty() {
+                        entry.line = (place.line, String::from_utf8_lossy(place.text).trim().to_owned());
+                    }
+                    let place = format!("{}:{}", part.inputs[file].name, place.line);
+                    if !entry.places.contains(&place) {
+                        entry.places.push(place);
+                    }
+                }
+            }
+        }
+        let mut questions = Self { notes, ..Self::default() };
+        questions.machines = controls.iter().map(|control| Machine { control, facts: Vec::new() }).collect();
+        for (key, gathered) in all {
+            let Gathered { finding, programs, places, line } = gathered;
+            let (text, help) = (&*finding.message, finding.help.as_deref());
+            let asked = Question { code: key.code, text, help, programs: programs.len(), places, line };
+            match key.settled {
+                Some((machine, settled_by)) => {
+                    questions.machines[machine].facts.push(Fact { settled_by, asked });
+                }
+                None => questions.open.push(asked),
+            }
+        }
+        let order = |question: &Question<'_>| {
+            let severity = std::cmp::Reverse(question.code.severity());
+            (severity, question.code, std::cmp::Reverse(question.programs))
+        };
+        questions.open.sort_by_key(order);
+        for machine in &mut questions.machines {
+            machine.facts.sort_by_key(|fact| std::cmp::Reverse(fact.asked.programs));
+        }
+        questions.machines.retain(|machine| !machine.facts.is_empty());
+        questions
+    }
+}
+
+/// What makes two findings one question.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Key<'a> {
+    severity: std::cmp::Reverse<Severity>,
+    code: Code,
+    /// The machine, by its place in the list, and what its profile says.
+    settled: Option<(usize, Settled)>,
+    /// What it says, and what to do; one fact has other words on either side of a conversion.
+    says: Option<(&'a str, Option<&'a str>)>,
+}
+
+fn key<'a>(finding: &'a Diagnostic, part: &Part<'a>, controls: &mut Vec<&'a Control>) -> Key<'a> {
+    let code = finding.code;
+    let settled = settled(finding, part).map(|(control, settled)| {
+        let known = controls.iter().position(|other| is_one(other, control));
+        let at = known.unwrap_or_else(|| {
+            controls.push(control);
+            controls.len() - 1
+        });
+        (at, settled)
+    });
+    let says = settled.is_none().then(|| (&*finding.message, finding.help.as_deref()));
+    Key { severity: std::cmp::Reverse(finding.severity()), code, settled, says }
+}
+
+/// The machine whose profile settles a finding, and by what.
+fn settled<'a>(finding: &Diagnostic, part: &Part<'a>) -> Option<(&'a Control, Settled)> {
+    let fact = finding.fact()?;
+    let sides = [Side::Source, Side::Target].into_iter().zip(part.controls);
+    let mut all = sides.map(|(side, control)| (side, control, control.settled_by(fact)));
+    let (_, control, settled) =
+        all.find(|(side, _, settled)| finding.help.as_deref() == Some(&*settled.in_words(*side)))?;
+    Some((control, settled))
+}
+
+/// True where one profile is both.
+fn is_one(one: &Control, other: &Control) -> bool {
+    one.name() == other.name() && one.profile().file == other.profile().file
+}
