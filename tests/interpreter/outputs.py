@@ -165,8 +165,10 @@ class Cc100(Control):
             result = {"SQR": lambda: math.sqrt(x), "SIN": lambda: math.sin(math.radians(x)),
                       "COS": lambda: math.cos(math.radians(x)), "ATN": lambda: math.degrees(math.atan(x))}[of[2]]()
             self.put(of[1], result)
-        elif load := re.fullmatch(rf"({name})=(-?[\d.]+|{name})", line):
-            self.put(load[1], self.value(load[2]))
+        elif re.fullmatch(rf"({name}=(-?[\d.]+|{name}) ?)+", line):
+            # Loads may share a block (seed 004:603).
+            for load in re.findall(rf"({name})=(-?[\d.]+|{name})", line):
+                self.put(load[0], self.value(load[1]))
         elif table := re.fullmatch(r"TRF=G(5[4-9]) (.*)", line):
             for part in table[2].split():
                 left, right = part.split("=")
@@ -174,7 +176,7 @@ class Cc100(Control):
                     self.tool.offsets[(table[1], left)] = self.value(right)
                 else:
                     self.put(left, self.tool.offsets.get((table[1], right), 0.0))
-        elif re.match(r"(COR|TIM|TRF|DAT)\b|G8[0-9]\d|V\w+=T", line):
+        elif re.match(r"(COR|TIM|TRF|DAT)\b|G8[0-9]\d|V\w+=[T-Z]$", line):
             raise LeftOut(line)
         else:
             self.words(line)
