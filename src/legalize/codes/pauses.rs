@@ -2,7 +2,7 @@
 //!
 //! Law: what the source ends at a stop is ended by codes before it, wherever no source says that the target's stop does so:
 //! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
-//! change is left to the machine. What a stop ends matters after it where the program cuts before it says itself what
+//! change is left to the machine, but for what is known to run where its table says nothing of it. What a stop ends matters after it where the program cuts before it says itself what
 //! runs: then the facts that no source confirms are named.
 //! What a message leaves running, and a stop that is written for it ends, is started again after it where it is known.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
@@ -173,7 +173,9 @@ fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
 fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
     let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
     let nc = |items: Vec<NcItem>| StmtKind::Nc(Nc { items });
-    if let StmtKind::Nc(block) = &mut stmt.kind {
+    if let StmtKind::Nc(block) = &mut stmt.kind
+        && !block.has(Op::ToolChange)
+    {
         let (stop, words) = std::mem::take(&mut block.items)
             .into_iter()
             .partition(|item| matches!(item, NcItem::Op(Op::Stop | Op::OptionalStop)));
@@ -244,7 +246,9 @@ impl Place<'_> {
             self.restarted = Running::ALL.map(|running| restarts(&stmt.kind, running));
             self.skipped = stmt.site.skip.is_some();
             let Some((pause, optional)) = pause else { continue };
-            let before = self.stop(pause, optional, number + 1, stmt.site.span, context);
+            // What stands beside a move is left: before it, the move would find it ended.
+            let moves = pause == Pause::Change && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.moves());
+            let before = self.stop((pause, optional, moves), number + 1, stmt.site.span, context);
             if before.is_empty() {
                 continue;
             }
@@ -256,7 +260,7 @@ impl Place<'_> {
         let goes_on = context.goes_on && self.index + 1 == context.origins.len();
         if ends_run(&block.term.kind) && !(goes_on && block.term.kind == TermKind::Stray) {
             (self.restarted, self.skipped) = ([false; 2], false);
-            let before = self.stop(Pause::End, false, usize::MAX, block.term.site.span, context);
+            let before = self.stop((Pause::End, false, false), usize::MAX, block.term.site.span, context);
             if !before.is_empty() {
                 found.insert(block.stmts.len(), before);
             }
@@ -273,11 +277,11 @@ impl Place<'_> {
         }
     }
 
-    /// What has to be ended before a stop; `number` is that of the statement after it.
+    /// What has to be ended before a stop, which may be passed over or change the tool beside a move; `number` is that of
+    /// the statement after it.
     fn stop(
         &mut self,
-        pause: Pause,
-        optional: bool,
+        (pause, optional, moves): (Pause, bool, bool),
         number: usize,
         span: Span,
         context: &mut Context<'_>,
@@ -295,7 +299,9 @@ impl Place<'_> {
             }
             let (_, op) = ends(running);
             if here.answer == Some(true) && !(there.known && there.answer == Some(true)) {
-                let left = optional || pause == Pause::Change;
+                let runs = self.state.op(ends(running).0).is_some_and(|op| starts(running).contains(&op));
+                let changes_by_itself = moves || !runs || there.answer.is_some();
+                let left = optional || (pause == Pause::Change && changes_by_itself);
                 if !left {
                     if running == Running::Spindle
                         && self.holds
