@@ -161,18 +161,42 @@ pub fn dialect_of(named: Option<&str>, inputs: &[Input]) -> Result<String, u8> {
     }
 }
 
-/// Runs something long, with a spinner where standard error is a terminal.
-pub fn with_progress<T>(files: usize, work: impl FnOnce() -> T) -> T {
-    use std::io::IsTerminal;
-    if !std::io::stderr().is_terminal() {
-        return work();
-    }
-    let bar = indicatif::ProgressBar::new_spinner();
-    bar.set_message(format!("converting {files} files"));
-    bar.enable_steady_tick(std::time::Duration::from_millis(100));
+/// Runs something long; what it does and how long it has taken is shown where standard error is a terminal.
+pub fn with_spinner<T>(what: String, work: impl FnOnce() -> T) -> T {
+    let bar = shown(indicatif::ProgressBar::new_spinner(), "{spinner} {msg}, {elapsed}");
+    bar.set_message(what);
     let done = work();
     bar.finish_and_clear();
     done
+}
+
+/// Runs something long that tells when so many of all are done: their count, their rate and the time left are shown too.
+pub fn with_progress<T>(
+    what: &'static str,
+    all: usize,
+    work: impl FnOnce(&(dyn Fn(usize) + Sync)) -> T,
+) -> T {
+    let bar = shown(
+        indicatif::ProgressBar::new(all as u64),
+        "{spinner} {msg} {pos} of {len} programs, {per_sec}, {eta} left",
+    );
+    bar.set_message(what);
+    let done = work(&|count| bar.inc(count as u64));
+    bar.finish_and_clear();
+    done
+}
+
+/// A bar in this form that moves by itself; nothing where standard error is no terminal.
+fn shown(bar: indicatif::ProgressBar, form: &str) -> indicatif::ProgressBar {
+    use std::io::IsTerminal;
+    if !std::io::stderr().is_terminal() {
+        return indicatif::ProgressBar::hidden();
+    }
+    if let Ok(style) = indicatif::ProgressStyle::with_template(form) {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(std::time::Duration::from_millis(100));
+    bar
 }
 
 /// How long verification may take.

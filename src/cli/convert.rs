@@ -2,7 +2,7 @@
 
 use super::jobs::{Job, Wish, jobs};
 use super::{FOUND, WELL, common, outcome, streams};
-use crate::library::{Certificates, Conversion, Options, convert, judge};
+use crate::library::{Certificates, Conversion, Options, Outcome, ProgramReport, convert, judge_telling};
 use crate::opt::Level;
 use crate::report::{self, Part};
 use std::path::PathBuf;
@@ -82,14 +82,14 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     outcome::check_reports(&arguments.report, &jobs, &read)?;
     let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
     let options = Options { level, draft: arguments.draft };
-    let files = jobs.iter().map(|job| job.inputs.len()).sum();
+    let files: usize = jobs.iter().map(|job| job.inputs.len()).sum();
     // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
-    let mut conversions: Vec<Conversion> = common::with_progress(files, || {
+    let mut conversions: Vec<Conversion> = common::with_spinner(format!("converting {files} files"), || {
         let made =
             |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock(arguments.prune), options);
         rayon::scope(|_| jobs.iter().map(made).collect())
     });
-    let certificates = common::with_progress(files, || verified(arguments, &jobs, &mut conversions));
+    let certificates = verified(arguments, &jobs, &mut conversions);
     let (mut changes, mut folders) = (Vec::new(), Vec::new());
     for (at, (job, conversion)) in jobs.iter().zip(&conversions).enumerate() {
         let wanted = |out| outcome::wanted(job, out, conversion, certificates.get(at));
@@ -138,13 +138,17 @@ fn verified(arguments: &Arguments, jobs: &[Job], conversions: &mut [Conversion])
     if arguments.no_verify && !arguments.verify {
         return Vec::new();
     }
-    let judged =
-        jobs.iter().zip(conversions).map(|(job, conversion)| match job.source.is_same_machine(&job.target) {
-            // A program that stays on its machine is copied, byte for byte.
-            true => Certificates::default(),
-            false => {
-                judge(&job.inputs, conversion, &job.source, &job.target, common::effort(&arguments.time))
+    let open = |program: &&ProgramReport| program.outcome != Outcome::Refused;
+    let all = conversions.iter().map(|conversion| conversion.programs.iter().filter(open).count()).sum();
+    common::with_progress("verifying", all, |done| {
+        let effort = common::effort(&arguments.time);
+        let judged = jobs.iter().zip(conversions).map(|(job, conversion)| {
+            match job.source.is_same_machine(&job.target) {
+                // A program that stays on its machine is copied, byte for byte.
+                true => Certificates::default(),
+                false => judge_telling(&job.inputs, conversion, (&job.source, &job.target), effort, done),
             }
         });
-    judged.collect()
+        judged.collect()
+    })
 }

@@ -40,5 +40,5 @@ pub use publish::{
     abandon, changes, check, is_pending, publish, write_file,
 };
 pub use unread::{InputError, LeftOut, WhyNot};
-pub use verified::judge;
+pub use verified::{judge, judge_telling};
 pub use withdrawn::Certificates;

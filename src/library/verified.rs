@@ -31,6 +31,17 @@ pub fn judge(
     target: &Control,
     effort: Effort,
 ) -> Certificates {
+    judge_telling(inputs, conversion, (source, target), effort, &|_| ())
+}
+
+/// The same, and tells how many programs of a file are done, whenever one is.
+pub fn judge_telling(
+    inputs: &[Input],
+    conversion: &mut Conversion,
+    (source, target): (&Control, &Control),
+    effort: Effort,
+    done: &(dyn Fn(usize) + Sync),
+) -> Certificates {
     let (Some(run), Some(run_there)) = (source.entry().execute, target.entry().execute) else {
         open(conversion).for_each(|program| undecided(program, "there is no emulated control to run it on"));
         return Certificates::none(inputs.len());
@@ -86,7 +97,9 @@ pub fn judge(
         .par_iter()
         .map(|wanted| {
             let programs: Vec<ProgramRef> = wanted.iter().map(|(_, program)| *program).collect();
-            (!programs.is_empty()).then(|| verify::verify(&job, &programs))
+            let found = (!programs.is_empty()).then(|| verify::verify(&job, &programs));
+            done(programs.len());
+            found
         })
         .collect();
     verify::implicate(verified.iter_mut().flatten());
