@@ -37,26 +37,22 @@ pub struct Round {
     pub same_back: usize,
 }
 
-/// A machine of the project file for programs of others, with the unit that it measures in where its profile names none.
-fn machine(name: &str, unit: Option<&str>) -> Control {
+/// A machine of the project file for programs of others, set to the unit.
+fn machine(name: &str, unit: &str) -> Control {
     let project = Project::find(root()).unwrap().unwrap();
     let targets = project.libraries.values().flat_map(|library| library.targets.keys());
     let mut machines = targets.map(|name| &project.machines[name]).filter(|machine| machine.dialect == name);
     let path = machines.next().and_then(|machine| machine.profile.as_ref()).unwrap();
     let text = std::fs::read_to_string(root().join(path)).unwrap();
-    let text = match unit {
-        Some(unit) if !text.contains("\nunits") => {
-            text.replacen("\ndialect", &format!("\nunits = \"{unit}\"\ndialect"), 1)
-        }
-        _ => text,
-    };
+    let others = text.lines().filter(|line| !line.starts_with("units = "));
+    let text = format!("units = \"{unit}\"\n{}", others.collect::<Vec<_>>().join("\n"));
     Control::new(registry::find(name).unwrap(), Profile::read(&text).unwrap()).unwrap()
 }
 
 /// Takes a library there and back, twice, between two machines of the project file that measure alike.
 pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
     // The course's programs are metric, and so is their machine; all others measure in inches.
-    let unit = (from != "cc100").then_some("inch");
+    let unit = if from == "cc100" { "metric" } else { "inch" };
     let (home, away) = (machine(from, unit), machine(to, unit));
     let first = plain(inputs, &home, &away);
     let there = inputs_of(inputs, &first);

@@ -10,7 +10,7 @@ use crate::ir::{Comment, SourceInfo};
 use crate::text::Span;
 
 /// Characters of a comment: the longest that the course prints has 63 (seed 004:1570).
-const COMMENT: usize = 60;
+const COMMENT: usize = 63;
 
 /// No source says that the control has a switch for it.
 pub(super) const SKIP: &str = "a block skip: no source says that it has one. Put a jump on a variable round the block, \
@@ -53,6 +53,11 @@ impl<'p> Emitter<'p> {
         if !same {
             self.page.waiting.extend(&site.comments);
         }
+    }
+
+    /// Takes a comment away from those that wait.
+    pub(super) fn hold_back(&mut self, comment: Option<&Comment>) {
+        self.page.waiting.retain(|waits| comment.is_none_or(|comment| !std::ptr::eq(*waits, comment)));
     }
 
     /// The comments that wait for a line.

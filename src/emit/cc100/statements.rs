@@ -98,8 +98,13 @@ impl<'p> Emitter<'p> {
         }
     }
 
-    /// `M0`, and after it what the operator reads.
+    /// `M0`, and after it what the operator reads: its text, or the comment behind a stop's own words.
     fn stop(&mut self, stmt: &'p Stmt, text: &str) {
+        self.carry(&stmt.site);
+        let behind = stmt.site.comments.iter().find(|comment| !comment.leading);
+        let shown = behind.filter(|_| matches!(stmt.kind, StmtKind::Nc(_)));
+        self.hold_back(shown);
+        let text = shown.map_or(text, |comment| &comment.text);
         self.begin(&stmt.site);
         match &stmt.kind {
             StmtKind::Nc(nc) => self.words(nc),

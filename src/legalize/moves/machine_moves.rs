@@ -2,17 +2,21 @@
 //!
 //! Law: under cancelled shifts coordinates are machine coordinates, so a block that moves in them for once is the
 //! cancelling, the move, and the selection of the work offset that was in force. Where another offset is selected, the
-//! program ends, or another such move comes before anything counts from an offset, nothing is selected in between.
+//! program ends, or another such move comes before anything counts from an offset, nothing is selected in between. Ways
+//! through other blocks, and into programs that are called, are looked at too.
 //! Side conditions: the offset in force is known from the text; the move is rapid and absolute there, as it is on both
 //! controls; no tool length counts in it, so one that is in force is ended before, which the text must allow: a length
 //! is named, or a tool changed, before the next move along Z.
 //! Counter-example: `G53 Z0` in a macro whose callers select G54 and G55.
+
+mod counting;
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
 use crate::legalize::{Context, Modal, Setting};
+use counting::Counting;
 use std::collections::BTreeMap;
 
 /// True if the target cancels shifts for good only.
@@ -24,6 +28,7 @@ pub fn concerns(target: &Control) -> bool {
 /// Cancels the shifts before these moves.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    let counting = counting::of(module);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let ids: Vec<_> = program.ids().collect();
         for (id, block) in ids.into_iter().zip(&mut program.blocks) {
@@ -39,7 +44,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 state.step(stmt);
                 if moves(stmt) {
                     let rest = old.get(at + 1..).unwrap_or_default();
-                    match replaced(stmt, &before, &state, rest, &block.term.kind) {
+                    let rest = Rest { stmts: rest, end: &block.term.kind, counting: &counting, index };
+                    match replaced(stmt, &before, &state, &rest) {
                         Ok(stmts) => out.extend(stmts),
                         Err(what) => {
                             let finding = Diagnostic::new(Code::NoEquivalent, stmt.site.span, what);
@@ -55,14 +61,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
 }
 
+/// What comes after a move.
+struct Rest<'r> {
+    stmts: &'r [Stmt],
+    end: &'r TermKind,
+    counting: &'r Counting,
+    /// The program.
+    index: usize,
+}
+
 /// What stands for the move.
-fn replaced(
-    stmt: &Stmt,
-    before: &Modal,
-    state: &Modal,
-    rest: &[Stmt],
-    end: &TermKind,
-) -> Result<Vec<Stmt>, &'static str> {
+fn replaced(stmt: &Stmt, before: &Modal, state: &Modal, rest: &Rest<'_>) -> Result<Vec<Stmt>, &'static str> {
     let StmtKind::Nc(nc) = &stmt.kind else { return Ok(vec![stmt.clone()]) };
     if state.op(Group::Motion) != Some(Op::Rapid) || state.op(Group::Distance) != Some(Op::Absolute) {
         return Err(
@@ -77,7 +86,7 @@ fn replaced(
                 "a tool length is taken up in the block of a move in machine coordinates: write it after the move",
             );
         }
-        None => length(nc, before, rest, end)?,
+        None => length(nc, before, rest.stmts, rest.end)?,
     };
     let mut items: Vec<NcItem> =
         nc.items.iter().filter(|item| **item != NcItem::Op(Op::MachineOnce)).cloned().collect();
@@ -85,7 +94,7 @@ fn replaced(
     let site = || SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
     let block = |items, site| Stmt { kind: StmtKind::Nc(Nc { items }), site };
     let mut out = vec![block(vec![NcItem::Op(Op::ShiftCancel)], stmt.site.clone()), block(items, site())];
-    if needs_offset(rest, end) {
+    if rest.counting.after(rest.index, rest.stmts, rest.end) {
         match before.of(Group::WorkOffset) {
             Setting::Known(Op::SelectWork, Some(number)) => out.push(block(
                 vec![
@@ -104,22 +113,6 @@ fn replaced(
         }
     }
     Ok(out)
-}
-
-/// True if something counts from the offset that was in force before the block.
-fn needs_offset(rest: &[Stmt], end: &TermKind) -> bool {
-    for stmt in rest {
-        if stmt.site.skip.is_some() {
-            return true;
-        }
-        match &stmt.kind {
-            StmtKind::Nc(nc) if nc.has(Op::SelectWork) || nc.has(Op::MachineOnce) => return false,
-            StmtKind::Nc(nc) if nc.names_axis() => return true,
-            StmtKind::Nc(_) | StmtKind::Comment => {}
-            _ => return true,
-        }
-    }
-    !matches!(end, TermKind::End { .. })
 }
 
 /// True if a tool length has to be ended with the move.

@@ -12,6 +12,7 @@
 //! A program that nothing in the library calls, takes up one length alone and changes to no tool is run with that tool: a
 //! person must look at that. Counter-example: `T1 M6`, `G0 Z5.`, `G43 H1`: on the target Z5 counts the length.
 
+mod again;
 mod loaded;
 
 use crate::assume::Predicate;
@@ -236,6 +237,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         .collect();
     let loaded = loaded::of(module, &called);
     let facts = context.modal_facts(module);
+    if again {
+        // What is in force does not change: the facts of the ways before hold on the ways that are left.
+        again::run(module, &facts, context);
+    }
     let rules = Rules { facts: &facts, again, change_ends, loaded: &loaded };
     let states = OverCalls::of(module, &rules);
     for (index, program) in module.programs.iter_mut().enumerate() {
