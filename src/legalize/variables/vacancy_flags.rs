@@ -3,7 +3,7 @@
 //! Law: the flag of a variable is 1 if it was given a number and vacant (0 on the target) if not, and the variable holds
 //! 0 while it is vacant. So a comparison that tells vacant from 0 asks the flag, and a block whose word may be vacant
 //! stands once with the word and once without. Only what may be vacant where someone asks has a flag, and what is
-//! copied to it: the analysis of vacancy decides, and most variables have none.
+//! copied to it: the analysis of vacancy decides, and most variables have none. `IF v EQ vacant THEN v=0` asks nothing: v is 0 then.
 //!
 //! Side condition: nothing else writes the variable. Counter-example: `#[#1]=5.` with #1 at 100 would leave the flag of
 //! #100 as it was. Such programs are refused, and so is a block with more words that may be vacant than [`MOST_WORDS`].

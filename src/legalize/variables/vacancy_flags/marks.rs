@@ -7,7 +7,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{Holds, Summaries, Vacancy};
 use crate::ir::{
-    Bank, BlockId, Call, Callee, Class, Expr, Module, NcItem, Place, Program, Stmt, StmtKind, TermKind, Var,
+    Bank, BlockId, Call, Callee, Class, Cond, Expr, Module, NcItem, Place, Program, Relation, Stmt, StmtKind,
+    TermKind, Var,
 };
 use crate::legalize::Context;
 use crate::syntax::ProgramName;
@@ -29,6 +30,8 @@ pub(super) struct Marks {
     may: Vec<BTreeSet<(At, Var)>>,
     /// By program: what no flag can say.
     refused: Vec<Vec<(Span, String)>>,
+    /// By program: blocks that make a variable 0 that is vacant, and do nothing else.
+    zeroed: Vec<BTreeMap<BlockId, Var>>,
     names: Names,
 }
 
@@ -53,6 +56,7 @@ impl Marks {
         let mut entries = Entries::of(module, &marks.names);
         let count = module.programs.len();
         (marks.may, marks.refused) = (vec![BTreeSet::new(); count], vec![Vec::new(); count]);
+        marks.zeroed = vec![BTreeMap::new(); count];
         for index in std::mem::take(&mut entries.order) {
             let program = &module.programs[index];
             let set = entries.of_program(index);
@@ -62,6 +66,7 @@ impl Marks {
                 names: &marks.names,
                 may: BTreeSet::new(),
                 refused: Vec::new(),
+                zeroed: BTreeMap::new(),
                 all: &mut gathered,
                 entries: &mut entries,
             };
@@ -74,6 +79,7 @@ impl Marks {
                 },
             );
             (marks.may[index], marks.refused[index]) = (own.may, own.refused);
+            marks.zeroed[index] = own.zeroed;
         }
         marks.flagged = reached(gathered.asked.iter().copied(), |from: Key, go| {
             gathered.copies.get(&from).into_iter().flatten().for_each(|to| go(*to));
@@ -88,6 +94,12 @@ impl Marks {
     /// The flag of a variable, if it has one.
     pub fn flag(&self, program: usize, var: Var) -> Option<Var> {
         self.flagged.contains(&key(program, var)).then(|| var.flag())
+    }
+
+    /// True in a block that only makes a variable 0 which is 0 while it is vacant: nothing asks for its flag.
+    pub fn needless(&self, program: usize, block: BlockId) -> bool {
+        let var = self.zeroed.get(program).and_then(|zeroed| zeroed.get(&block));
+        var.is_some_and(|var| self.flag(program, *var).is_none())
     }
 
     /// True if a local of a program that the call may run has a flag.
@@ -126,6 +138,30 @@ impl Marks {
             }
         }
     }
+}
+
+/// The block that stands between `IF v EQ vacant` and what comes after it, if it is `v=0` alone, and the variable.
+fn makes_zero(program: &Program, kind: &TermKind) -> Option<(BlockId, Var)> {
+    let TermKind::Branch { cond: Cond::Compare(relation, Expr::Var(var), Expr::Vacant), then, otherwise } =
+        kind
+    else {
+        return None;
+    };
+    let (set, past) = match relation {
+        Relation::Equal => (*then, *otherwise),
+        Relation::NotEqual => (*otherwise, *then),
+        _ => return None,
+    };
+    let block = program.blocks.get(set.index())?;
+    let zero = |stmt: &Stmt| {
+        let value = Expr::Number(0.0);
+        stmt.kind == StmtKind::Assign { target: Place::Var(*var), value } && stmt.site.comments.is_empty()
+    };
+    let alone = block.labels.is_empty() && matches!(block.stmts.as_slice(), [stmt] if zero(stmt));
+    let ends = block.term.kind == TermKind::Jump(past) && block.term.site.comments.is_empty();
+    let ways = program.blocks.iter().flat_map(|block| block.term.kind.successors());
+    let only = ways.filter(|way| *way == set).take(2).count() == 1;
+    (alone && ends && only).then_some((set, *var))
 }
 
 /// What stands after the minus of a word: if it is vacant, the word is not there.
@@ -174,6 +210,7 @@ struct Own<'o> {
     names: &'o Names,
     may: BTreeSet<(At, Var)>,
     refused: Vec<(Span, String)>,
+    zeroed: BTreeMap<BlockId, Var>,
     all: &'o mut Gathered,
     entries: &'o mut Entries,
 }
@@ -188,7 +225,11 @@ impl Own<'_> {
                 }
                 None => {
                     block.term.kind.exprs(&mut |e| self.note((id, at), e, may));
-                    self.end(&block.term.kind, block.term.site.span, may);
+                    // What is 0 while it is vacant need not be made 0.
+                    match makes_zero(program, &block.term.kind) {
+                        Some((set, var)) => drop(self.zeroed.insert(set, var)),
+                        None => self.end(&block.term.kind, block.term.site.span, may),
+                    }
                 }
             });
         }

@@ -13,6 +13,7 @@ pub(super) fn program(index: usize, program: &mut Program, marks: &Marks) {
     let mut at: At = (BlockId(0), 0);
     rebuild(program, &mut |builder, part| match part {
         Part::Start(id) => at = (id, 0),
+        Part::Stmt(_) if marks.needless(index, at.0) => {}
         Part::Stmt(stmt) => {
             Here { index, at, marks }.stmt(stmt, builder);
             at.1 += 1;
