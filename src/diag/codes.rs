@@ -317,7 +317,7 @@ Multiply by -1 in a step of its own: `V1=V2* -1`."
 
     // ---- 02: dialects and machine profiles ----
     "0201" UnconfirmedFact Review "no manual confirms this"
-"The conversion depends on how a control behaves here, and no maker's text confirms it. The message names the fact and the control; the fact's row is in `dialects/`.
+"The conversion depends on how a control behaves here, and no maker's text confirms it. The message names the fact and the control; `macroglot dialects` with the control's name prints the fact, and where it is from.
 
 Check it on the machine or in its manual, then put it into the machine profile: a fact by its name in `confirm`, the answer to a question under `[behaviours]`, such as `divide.by.zero = \"alarm\"`."
 
@@ -329,11 +329,11 @@ Correct the row shown. `dialects/README.md` says what the columns mean."
     "0203" MachineProfile Error "the machine profile is wrong"
 "The profile of a machine has a key that nothing reads, a value that its control cannot have, or names a fact that its table does not hold. A setting that is not understood would make every conversion for that machine doubtful, so nothing is converted.
 
-Correct the line shown. The profiles in `machines/` are examples; `macroglot dialects` lists what a control can be set to."
+Correct the line shown. `macroglot dialects` lists what a control can be set to."
 
     // ---- 03: lowering ----
     "0301" NotUnderstood Error "unknown meaning"
-"The block can be read, but the table of its control in `dialects/` has no meaning for this word or statement. Nothing is guessed: the program is refused.
+"The block can be read, but the table of its control has no meaning for this word or statement. Nothing is guessed: the program is refused.
 
 If a machine builder defined the word, give its meaning in the machine profile."
 
@@ -496,7 +496,7 @@ Nothing needs to be done. If a letter of a message has no substitute, MG0507 say
 
     // ---- 05: emission ----
     "0501" Unmapped Error "the target has no spelling for this"
-"The table of the target control in `dialects/` has no row for something that the program needs: a code, a letter, a function, a register. Nothing is written in its place, so the program is refused.
+"The table of the target control has no row for something that the program needs: a code, a letter, a function, a register. Nothing is written in its place, so the program is refused.
 
 The message names what is missing. If the machine has it, say so in its profile or in the table. If not, macroglot should have replaced it earlier: please report that."
 
@@ -580,7 +580,7 @@ Load all of the programs into the machine. If a value in the old register matter
     "0801" VerifiedDifferent Error "the conversion differs from its source"
 "Source and conversion were run on their emulated controls, and they do not do the same. The message names the first difference; the certificate has the start values, both blocks and both events. The program is not written, and neither are its callers (MG0606); other programs of its file are. The certificate is `NAME.not-written.json` in the output folder.
 
-The fault is in the conversion, in one of the emulated controls, or in a table of `dialects/`. Please report the program with its certificate."
+The fault is in the conversion, in one of the emulated controls, or in a table of what the controls do. Please report the program with its certificate."
 
     "0802" NotDecided Review "verification is not complete"
 "Source and conversion were run on their emulated controls, and no difference was found. But part of the program was not decided: a branch that no scenario reached, a run that did not end, a called program that is not in the library, an unconfirmed fact that mattered. The message says which.
