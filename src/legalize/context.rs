@@ -39,6 +39,8 @@ pub struct Context<'a> {
     pub(super) reached: Reached,
     /// What stands in the library, as it was last counted: perhaps less by now, never more.
     pub(super) features: Features,
+    /// What stands in each program as it is now, while nothing has changed any since it was counted.
+    counted: Option<Vec<Features>>,
     /// What is known of the library as it is now.
     pub(super) analyses: Analyses,
     /// How much is optimized.
@@ -129,6 +131,7 @@ impl<'a> Context<'a> {
             origins: (0..programs).collect(),
             reached: Reached::default(),
             features: Features::default(),
+            counted: None,
             analyses: Analyses::default(),
             level: Level::default(),
             chained: false,
@@ -181,6 +184,36 @@ impl<'a> Context<'a> {
             entry.start_in(Op::Absolute);
         }
         self.analyses.modal_facts(module, &entry)
+    }
+
+    /// Counts what stands in each program, unless that is known.
+    pub(super) fn count(&mut self, module: &Module) {
+        if self.counted.is_none() {
+            self.keep_counted(module.programs.iter().map(Features::of_program).collect());
+        }
+    }
+
+    /// Keeps what was counted in each program, and what that makes of the library.
+    pub(super) fn keep_counted(&mut self, programs: Vec<Features>) {
+        self.features = Features::default();
+        programs.iter().for_each(|features| self.features.add_all(features));
+        self.counted = Some(programs);
+    }
+
+    /// What was counted in each program, if that is still so.
+    pub(super) fn take_counted(&mut self) -> Option<Vec<Features>> {
+        self.counted.take()
+    }
+
+    /// False where it is known of a program, as it was before the present pass, that it has nothing of these.
+    pub(super) fn may_concern(&self, program: usize, these: impl Fn(&Features) -> bool) -> bool {
+        self.counted.as_ref().and_then(|all| all.get(program)).is_none_or(these)
+    }
+
+    /// Forgets what is known of the library as it was: it is another now.
+    pub(super) fn forget(&mut self) {
+        self.analyses.drop_all();
+        self.counted = None;
     }
 
     /// What programs of the library may write.

@@ -63,7 +63,7 @@ pub enum Feature {
 }
 
 /// The features of programs: which operations, words and things stand in them.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Features {
     ops: [u64; 4],
     roles: [u64; 4],
@@ -74,10 +74,14 @@ impl Features {
     /// Of these programs.
     pub fn of(programs: &[Program]) -> Self {
         let mut features = Self::default();
-        for block in programs.iter().flat_map(|program| &program.blocks) {
-            block.stmts.iter().for_each(|stmt| features.stmt(&stmt.kind));
-            features.term(&block.term.kind);
-        }
+        programs.iter().for_each(|program| features.program(program));
+        features
+    }
+
+    /// Of one program.
+    pub fn of_program(program: &Program) -> Self {
+        let mut features = Self::default();
+        features.program(program);
         features
     }
 
@@ -110,6 +114,13 @@ impl Features {
 
     fn add(&mut self, thing: Feature) {
         self.things |= 1 << thing as u32;
+    }
+
+    fn program(&mut self, program: &Program) {
+        for block in &program.blocks {
+            block.stmts.iter().for_each(|stmt| self.stmt(&stmt.kind));
+            self.term(&block.term.kind);
+        }
     }
 
     fn stmt(&mut self, kind: &StmtKind) {

@@ -27,6 +27,10 @@ const MOST: usize = 8;
 
 /// True if the library has codes that are known by number only.
 pub fn concerns(features: &Features, _: &Context<'_>) -> bool {
+    has_codes(features)
+}
+
+fn has_codes(features: &Features) -> bool {
     features.has(Feature::Code)
 }
 
@@ -35,6 +39,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let summaries = context.summaries(module);
     let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
+        if !context.may_concern(index, has_codes) {
+            continue;
+        }
         let chains = chains(program, &summaries, context);
         if chains.is_empty() {
             continue;
