@@ -25,6 +25,7 @@ use numbers::{Numbers, Table};
 pub(in crate::legalize) use shift::constant_part;
 use shift::shift;
 use std::cell::LazyCell;
+use std::sync::Arc;
 
 /// Computed numbers are followed for so many of a program; others are not known.
 const MOST_LOOKED_UP: usize = 500;
@@ -132,18 +133,35 @@ pub fn report(_: &Module, context: &mut Context<'_>) {
     let numbers = Numbers::new(context.source, context.target, reached.table);
     let alike = numbers.all_alike();
     let taken: Vec<u32> = context.registers.taken().collect();
+    // Programs suppose few things, again and again.
+    let mut known: Vec<(Finding, Supposed)> = Vec::new();
     for (index, found) in reached.open {
-        let supposed = found.finding.supposed(&numbers);
-        let safe = supposed.without(taken.iter().copied());
-        let hit = safe != supposed;
+        let at = known.iter().position(|(finding, _)| *finding == found.finding).unwrap_or_else(|| {
+            let supposed = found.finding.supposed(&numbers);
+            let safe = supposed.without(taken.iter().copied());
+            let hit = safe != supposed;
+            let (code, what) = found.finding.clone().told(context, &safe, hit);
+            known.push((found.finding.clone(), Supposed { safe, hit, code, what: what.into() }));
+            known.len() - 1
+        });
+        let (_, Supposed { safe, hit, code, what }) = &known[at];
         if alike && !hit {
             continue;
         }
-        let (code, what) = found.finding.clone().told(context, &safe, hit);
         let span = found.places.first().copied().unwrap_or_default();
-        let told = Diagnostic::new(code, span, what.clone()).assuming(found.predicate(&safe));
-        context.add_once(index, &what, told);
+        let told = Diagnostic::new(*code, span, what.clone()).assuming(found.predicate(safe));
+        context.add_once(index, what, told);
     }
+}
+
+/// What is supposed of a computed number, now that registers are taken.
+struct Supposed {
+    /// The numbers that it must be one of.
+    safe: analysis::Numbers,
+    /// True where registers were taken among them.
+    hit: bool,
+    code: Code,
+    what: Arc<str>,
 }
 
 /// What is known of a computed number.
