@@ -39,8 +39,8 @@ pub struct Context<'a> {
     pub(super) reached: Reached,
     /// What stands in the library, as it was last counted: perhaps less by now, never more.
     pub(super) features: Features,
-    /// What stands in each program as it is now, while nothing has changed any since it was counted.
-    counted: Option<Vec<Features>>,
+    /// What stands in each program as it is now; none of one that was changed since it was counted.
+    counted: Vec<Option<Features>>,
     /// What is known of the library as it is now.
     pub(super) analyses: Analyses,
     /// How much is optimized.
@@ -131,7 +131,7 @@ impl<'a> Context<'a> {
             origins: (0..programs).collect(),
             reached: Reached::default(),
             features: Features::default(),
-            counted: None,
+            counted: Vec::new(),
             analyses: Analyses::default(),
             level: Level::default(),
             chained: false,
@@ -188,32 +188,42 @@ impl<'a> Context<'a> {
 
     /// Counts what stands in each program, unless that is known.
     pub(super) fn count(&mut self, module: &Module) {
-        if self.counted.is_none() {
-            self.keep_counted(module.programs.iter().map(Features::of_program).collect());
-        }
+        let known = self.take_counted().into_iter().chain(std::iter::repeat(None));
+        let all = module.programs.iter().zip(known);
+        self.keep_counted(all.map(|(program, known)| Features::of_known(known, program)));
     }
 
     /// Keeps what was counted in each program, and what that makes of the library.
-    pub(super) fn keep_counted(&mut self, programs: Vec<Features>) {
+    pub(super) fn keep_counted(&mut self, programs: impl IntoIterator<Item = Features>) {
+        self.counted = programs.into_iter().map(Some).collect();
         self.features = Features::default();
-        programs.iter().for_each(|features| self.features.add_all(features));
-        self.counted = Some(programs);
+        self.counted.iter().flatten().for_each(|features| self.features.add_all(features));
     }
 
-    /// What was counted in each program, if that is still so.
-    pub(super) fn take_counted(&mut self) -> Option<Vec<Features>> {
-        self.counted.take()
+    /// What was counted in each program, where that is still so.
+    pub(super) fn take_counted(&mut self) -> Vec<Option<Features>> {
+        std::mem::take(&mut self.counted)
     }
 
     /// False where it is known of a program, as it was before the present pass, that it has nothing of these.
     pub(super) fn may_concern(&self, program: usize, these: impl Fn(&Features) -> bool) -> bool {
-        self.counted.as_ref().and_then(|all| all.get(program)).is_none_or(these)
+        self.counted.get(program).and_then(Option::as_ref).is_none_or(these)
     }
 
     /// Forgets what is known of the library as it was: it is another now.
     pub(super) fn forget(&mut self) {
         self.analyses.drop_all();
-        self.counted = None;
+        self.counted.clear();
+    }
+
+    /// The same where only these programs are others.
+    pub(super) fn forget_some(&mut self, programs: &[usize]) {
+        self.analyses.drop_all();
+        for index in programs {
+            if let Some(counted) = self.counted.get_mut(*index) {
+                *counted = None;
+            }
+        }
     }
 
     /// What programs of the library may write.

@@ -85,6 +85,13 @@ impl Features {
         features
     }
 
+    /// Of one program, of which this is known.
+    pub fn of_known(known: Option<Self>, program: &Program) -> Self {
+        let features = known.unwrap_or_else(|| Self::of_program(program));
+        debug_assert_eq!(features, Self::of_program(program), "a program has changed uncounted");
+        features
+    }
+
     /// Adds what stands elsewhere.
     pub fn add_all(&mut self, other: &Self) {
         self.ops.iter_mut().zip(other.ops).for_each(|(ops, more)| *ops |= more);

@@ -108,7 +108,7 @@ const STRUCTURE: &[Pass] = &[
 ];
 
 const BLOCKS: &[Pass] = &[
-    Pass::edits(
+    Pass::edits_some(
         "code-chains",
         "codes by a computed number become comparisons with each number",
         code_chains::run,
@@ -184,7 +184,7 @@ const VARIABLES: &[Pass] = &[
     Pass::reports("banks", "looks up computed numbers of a space of their own", banks::run)
         .when(|c, _| c.has(Feature::Indirect))
         .needs(&["subscript-chains"]),
-    Pass::edits(
+    Pass::edits_some(
         "computed-numbers",
         "computed numbers of variables reach what they reached",
         computed_numbers::run,
@@ -231,7 +231,7 @@ const VARIABLES: &[Pass] = &[
     Pass::each("signals", "inputs and outputs are on where they were on", signals::run)
         .when(|c, _| c.has(Feature::System))
         .needs(&["output-codes"]),
-    Pass::edits("state", "state of the machine is read and written in the target's form", state::run)
+    Pass::edits_some("state", "state of the machine is read and written in the target's form", state::run)
         .when(|c, _| state::concerns(c))
         .needs(&[
             "vacant-writes",

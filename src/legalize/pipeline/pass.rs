@@ -72,6 +72,8 @@ pub(super) enum Run {
     Rewrites(fn(&mut Module, &mut Context<'_>)),
     /// Finds nothing to change in most libraries that concern it; true if it changed anything.
     Edits(fn(&mut Module, &mut Context<'_>) -> bool),
+    /// The same, where most programs stay as they are; gives the indexes of those that do not.
+    EditsSome(fn(&mut Module, &mut Context<'_>) -> Vec<usize>),
     /// Looks at one program alone, whose index it is given; true if it changed anything.
     Each(fn(&mut Program, usize, &mut Context<'_>) -> bool),
 }
@@ -107,6 +109,14 @@ impl Pass {
         run: fn(&mut Module, &mut Context<'_>) -> bool,
     ) -> Self {
         Self::new(name, does, Run::Edits(run), Changes::Statements)
+    }
+
+    pub(super) const fn edits_some(
+        name: &'static str,
+        does: &'static str,
+        run: fn(&mut Module, &mut Context<'_>) -> Vec<usize>,
+    ) -> Self {
+        Self::new(name, does, Run::EditsSome(run), Changes::Statements)
     }
 
     pub(super) const fn each(
@@ -169,6 +179,13 @@ impl Pass {
                 true
             }
             Run::Edits(run) => run(module, context),
+            Run::EditsSome(run) => {
+                let changed = run(module, context);
+                if !changed.is_empty() {
+                    context.forget_some(&changed);
+                }
+                return !changed.is_empty();
+            }
             // Counts what it leaves.
             Run::Each(_) => return each(&[self], module, context),
         };
@@ -182,11 +199,10 @@ impl Pass {
 /// Takes each program through passes that look at one alone, and counts anew what stands in those that they change; true
 /// if they changed anything.
 pub(super) fn each(passes: &[&Pass], module: &mut Module, context: &mut Context<'_>) -> bool {
-    let mut known = context.take_counted().unwrap_or_default().into_iter();
+    let mut known = context.take_counted().into_iter();
     let (mut counted, mut any) = (Vec::with_capacity(module.programs.len()), false);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut features = known.next().unwrap_or_else(|| Features::of_program(program));
-        debug_assert_eq!(features, Features::of_program(program), "program {index} has changed uncounted");
+        let mut features = Features::of_known(known.next().flatten(), program);
         for pass in passes {
             let Run::Each(run) = pass.run else { continue };
             if (pass.concerns)(&features, context) && run(program, index, context) {

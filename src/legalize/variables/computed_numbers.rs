@@ -58,17 +58,22 @@ impl Reached {
     }
 }
 
-/// Shifts computed numbers, and notes what they may be.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+/// Shifts computed numbers, and notes what they may be; gives the programs in which any is shifted.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let table = Table::default();
     let mut numbers = Numbers::new(context.source, context.target, table.clone());
     context.reached = Reached { table, ..look(module, &mut numbers, context) };
     let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
-    let shifts = numbers.known.values().any(moves);
-    if shifts {
-        module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
+    if !numbers.known.values().any(moves) {
+        return Vec::new();
     }
-    shifts
+    let mut shifted = Vec::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        if shift(program, &mut numbers) {
+            shifted.push(index);
+        }
+    }
+    shifted
 }
 
 fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -> Reached {

@@ -40,15 +40,15 @@ pub fn concerns(features: &Features) -> bool {
     features.has(Feature::System) || features.op(Op::WriteRadius) || features.op(Op::WriteRadiusWear)
 }
 
-/// Rewrites machine state to what the target has; true if there is any.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+/// Rewrites machine state to what the target has; gives the programs that have any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let (source, target) = (context.source, context.target);
-    let (mut timed, mut any) = (BTreeSet::new(), false);
+    let (mut timed, mut changed) = (BTreeSet::new(), Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
         if !context.may_concern(index, concerns) {
             continue;
         }
-        any = true;
+        changed.push(index);
         let mut found: Vec<(Span, Finding)> = Vec::new();
         rewrite_program(
             program,
@@ -71,9 +71,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
-        cycle_seconds::start(module, timed, context);
+        changed.extend(cycle_seconds::start(module, timed, context));
     }
-    any
+    changed
 }
 
 enum Finding {
