@@ -23,6 +23,18 @@ pub enum Class {
 }
 
 impl Class {
+    /// All of them, in order.
+    pub const ALL: [Self; 8] = [
+        Self::Local,
+        Self::Common,
+        Self::Retained,
+        Self::Global,
+        Self::Parametric,
+        Self::Register,
+        Self::Temp,
+        Self::Static,
+    ];
+
     /// True where a variable of the class may be vacant.
     pub const fn nullable(self) -> bool {
         matches!(self, Class::Local | Class::Common | Class::Retained)

@@ -39,6 +39,8 @@ pub struct Context<'a> {
     pub(super) reached: Reached,
     /// What stands in the library, as it was last counted: perhaps less by now, never more.
     pub(super) features: Features,
+    /// What stands in each program as it is now; none of one that was changed since it was counted.
+    counted: Vec<Option<Features>>,
     /// What is known of the library as it is now.
     pub(super) analyses: Analyses,
     /// How much is optimized.
@@ -129,6 +131,7 @@ impl<'a> Context<'a> {
             origins: (0..programs).collect(),
             reached: Reached::default(),
             features: Features::default(),
+            counted: Vec::new(),
             analyses: Analyses::default(),
             level: Level::default(),
             chained: false,
@@ -181,6 +184,46 @@ impl<'a> Context<'a> {
             entry.start_in(Op::Absolute);
         }
         self.analyses.modal_facts(module, &entry)
+    }
+
+    /// Counts what stands in each program, unless that is known.
+    pub(super) fn count(&mut self, module: &Module) {
+        let known = self.take_counted().into_iter().chain(std::iter::repeat(None));
+        let all = module.programs.iter().zip(known);
+        self.keep_counted(all.map(|(program, known)| Features::of_known(known, program)));
+    }
+
+    /// Keeps what was counted in each program, and what that makes of the library.
+    pub(super) fn keep_counted(&mut self, programs: impl IntoIterator<Item = Features>) {
+        self.counted = programs.into_iter().map(Some).collect();
+        self.features = Features::default();
+        self.counted.iter().flatten().for_each(|features| self.features.add_all(features));
+    }
+
+    /// What was counted in each program, where that is still so.
+    pub(super) fn take_counted(&mut self) -> Vec<Option<Features>> {
+        std::mem::take(&mut self.counted)
+    }
+
+    /// False where it is known of a program, as it was before the present pass, that it has nothing of these.
+    pub(super) fn may_concern(&self, program: usize, these: impl Fn(&Features) -> bool) -> bool {
+        self.counted.get(program).and_then(Option::as_ref).is_none_or(these)
+    }
+
+    /// Forgets what is known of the library as it was: it is another now.
+    pub(super) fn forget(&mut self) {
+        self.analyses.drop_all();
+        self.counted.clear();
+    }
+
+    /// The same where only these programs are others.
+    pub(super) fn forget_some(&mut self, programs: &[usize]) {
+        self.analyses.drop_all();
+        for index in programs {
+            if let Some(counted) = self.counted.get_mut(*index) {
+                *counted = None;
+            }
+        }
     }
 
     /// What programs of the library may write.

@@ -63,21 +63,32 @@ pub enum Feature {
 }
 
 /// The features of programs: which operations, words and things stand in them.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Features {
     ops: [u64; 4],
     roles: [u64; 4],
-    things: u32,
+    things: Things,
 }
 
 impl Features {
     /// Of these programs.
     pub fn of(programs: &[Program]) -> Self {
         let mut features = Self::default();
-        for block in programs.iter().flat_map(|program| &program.blocks) {
-            block.stmts.iter().for_each(|stmt| features.stmt(&stmt.kind));
-            features.term(&block.term.kind);
-        }
+        programs.iter().for_each(|program| features.program(program));
+        features
+    }
+
+    /// Of one program.
+    pub fn of_program(program: &Program) -> Self {
+        let mut features = Self::default();
+        features.program(program);
+        features
+    }
+
+    /// Of one program, of which this is known.
+    pub fn of_known(known: Option<Self>, program: &Program) -> Self {
+        let features = known.unwrap_or_else(|| Self::of_program(program));
+        debug_assert_eq!(features, Self::of_program(program), "a program has changed uncounted");
         features
     }
 
@@ -90,7 +101,7 @@ impl Features {
 
     /// True where there is one.
     pub fn has(&self, thing: Feature) -> bool {
-        self.things >> thing as u32 & 1 == 1
+        self.things & bit(thing) != 0
     }
 
     /// True where an NC block has the operation.
@@ -109,7 +120,14 @@ impl Features {
     }
 
     fn add(&mut self, thing: Feature) {
-        self.things |= 1 << thing as u32;
+        self.things |= bit(thing);
+    }
+
+    fn program(&mut self, program: &Program) {
+        for block in &program.blocks {
+            block.stmts.iter().for_each(|stmt| self.stmt(&stmt.kind));
+            self.term(&block.term.kind);
+        }
     }
 
     fn stmt(&mut self, kind: &StmtKind) {
@@ -132,9 +150,9 @@ impl Features {
         }
         kind.exprs(&mut |e| self.value(e));
         kind.target().iter().for_each(|place| match place {
-            Place::Var(var) => self.variable(*var),
+            Place::Var(var) => self.things |= in_variable(*var),
             Place::System(..) => self.add(Feature::System),
-            Place::Indirect(bank, _) => self.indirect(*bank),
+            Place::Indirect(bank, _) => self.things |= in_computed_number(*bank),
         });
     }
 
@@ -149,7 +167,7 @@ impl Features {
                     self.roles[*role as usize / 64] |= 1 << (*role as usize % 64);
                     // Most words are numbers.
                     match value {
-                        Expr::Number(value) => self.number(*value),
+                        Expr::Number(value) => self.things |= in_number(*value),
                         value => self.value(value),
                     }
                 }
@@ -176,62 +194,59 @@ impl Features {
         kind.exprs(&mut |e| self.value(e));
     }
 
-    fn variable(&mut self, var: Var) {
-        self.add(Feature::Variable);
-        if var.class == Class::Temp {
-            self.add(Feature::Temp);
-        }
-    }
-
-    fn indirect(&mut self, bank: Bank) {
-        self.add(Feature::Indirect);
-        if bank != Bank::Numbered {
-            self.add(Feature::Banked);
-        }
-    }
-
     fn callee(&mut self, callee: &Callee) {
         self.add(if matches!(callee, Callee::Block(_)) { Feature::LocalCall } else { Feature::Call });
     }
 
-    fn number(&mut self, value: f64) {
-        if is_long(value) {
-            self.add(Feature::Long);
-        }
-    }
-
     fn value(&mut self, e: &Expr) {
-        match e {
-            Expr::Number(value) => return self.number(*value),
-            Expr::Increments(_) => return self.add(Feature::Increments),
-            Expr::Negate(inner) => return self.value(inner),
-            Expr::Var(var) => self.variable(*var),
-            Expr::System(_, subscripts) => {
-                self.add(Feature::System);
-                subscripts.iter().for_each(|subscript| self.value(subscript));
-            }
-            Expr::Indirect(bank, index) => {
-                self.indirect(*bank);
-                self.value(index);
-            }
-            Expr::Binary(op, operands) => {
-                if matches!(op, BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor) {
-                    self.add(Feature::Function);
-                }
-                operands.iter().for_each(|operand| self.value(operand));
-            }
-            Expr::Call(_, arguments) => {
-                self.add(Feature::Function);
-                arguments.iter().for_each(|argument| self.value(argument));
-            }
-            Expr::Truth(cond) => {
-                self.add(Feature::Truth);
-                cond.exprs(&mut |operand| self.value(operand));
-            }
-            Expr::Vacant => {}
-        }
-        self.add(Feature::Computed);
+        self.things |= in_value(e);
     }
+}
+
+/// Kinds of things, a bit each.
+type Things = u32;
+
+const fn bit(thing: Feature) -> Things {
+    1 << thing as u32
+}
+
+/// What stands in a value: most of a library is values.
+fn in_value(e: &Expr) -> Things {
+    let all = |operands: &[Expr]| operands.iter().fold(0, |things, operand| things | in_value(operand));
+    let things = match e {
+        Expr::Number(value) => return in_number(*value),
+        Expr::Increments(_) => return bit(Feature::Increments),
+        Expr::Negate(inner) => return in_value(inner),
+        Expr::Var(var) => in_variable(*var),
+        Expr::System(_, subscripts) => bit(Feature::System) | all(subscripts),
+        Expr::Indirect(bank, index) => in_computed_number(*bank) | in_value(index),
+        Expr::Binary(BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor, operands) => {
+            bit(Feature::Function) | all(&**operands)
+        }
+        Expr::Binary(_, operands) => all(&**operands),
+        Expr::Call(_, arguments) => bit(Feature::Function) | all(arguments),
+        Expr::Truth(cond) => {
+            let mut things = bit(Feature::Truth);
+            cond.exprs(&mut |operand| things |= in_value(operand));
+            things
+        }
+        Expr::Vacant => 0,
+    };
+    things | bit(Feature::Computed)
+}
+
+fn in_number(value: f64) -> Things {
+    if is_long(value) { bit(Feature::Long) } else { 0 }
+}
+
+fn in_variable(var: Var) -> Things {
+    let temp = if var.class == Class::Temp { bit(Feature::Temp) } else { 0 };
+    bit(Feature::Variable) | temp
+}
+
+fn in_computed_number(bank: Bank) -> Things {
+    let banked = if bank == Bank::Numbered { 0 } else { bit(Feature::Banked) };
+    bit(Feature::Indirect) | banked
 }
 
 /// False where four digits before and four after the point write the number.

@@ -1,8 +1,8 @@
 //! A library of one lowered module through the passes and the emitter, and what was written read back.
 
-use super::Lock;
 use super::names::naming;
 use super::refused_calls::{self, Link};
+use super::{Lock, Options};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::emit::{Emitted, Writer};
@@ -31,13 +31,13 @@ pub(super) fn make(
     source: &Control,
     target: &Control,
     mut lock: Lock,
-    level: opt::Level,
+    options: Options,
     (entry, goes_on): (Modal, bool),
 ) -> Made {
     let count = module.programs.len();
     let short = |program: &Program| Some(program.name.as_ref()?.short().into_owned());
     let names: Vec<Option<String>> = module.programs.iter().map(short).collect();
-    let mut context = context(&found, source, target, level, lock.locked(), entry);
+    let mut context = context(&found, source, target, options.level, lock.locked(), entry);
     context.goes_on = goes_on;
     let fault = pipeline::run(&mut module, &mut context).err();
     let registers = std::mem::take(&mut context.registers);
@@ -79,7 +79,15 @@ pub(super) fn make(
     let programs = std::mem::take(&mut module.programs);
     let emitted = programs.into_par_iter().enumerate().map(|(at, program)| {
         let findings = origins.get(at).and_then(|origin| found.get(*origin)).map_or(&[][..], Vec::as_slice);
-        Valid::of(&program, at).map(|valid| emit(valid, write.as_ref(), target, findings))
+        let mut made = Valid::of(&program, at).map(|valid| emit(valid, write.as_ref(), target, findings));
+        // What is found in the text of a refused program counts, but nobody reads that.
+        if let Ok(Ok(emitted)) = &mut made
+            && !options.draft
+            && findings.iter().any(|finding| finding.severity() == Severity::Error)
+        {
+            (emitted.text, emitted.blocks) = (String::new(), Vec::new());
+        }
+        made
     });
     let emitted: Vec<Result<_, Vec<Invalid>>> = emitted.collect();
     let broken: Vec<String> =

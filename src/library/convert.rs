@@ -90,8 +90,7 @@ pub fn convert(
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];
     let original = options.draft.then(|| (module.clone(), found.clone()));
-    let mut made =
-        make(module, found, source, target, lock.clone(), options.level, (Modal::unknown(), false));
+    let mut made = make(module, found, source, target, lock.clone(), options, (Modal::unknown(), false));
     if let Some((original, found)) = original {
         // Each round stops the machine where the last one found a hole, until none is left.
         for _ in 0..4 {
@@ -101,15 +100,8 @@ pub fn convert(
             }
             let mut module = original.clone();
             super::draft::fill(&mut module, &holes);
-            let mut next = make(
-                module,
-                found.clone(),
-                source,
-                target,
-                lock.clone(),
-                options.level,
-                (Modal::unknown(), false),
-            );
+            let mut next =
+                make(module, found.clone(), source, target, lock.clone(), options, (Modal::unknown(), false));
             super::draft::keep_findings(&made.found, &mut next.found);
             made = next;
         }

@@ -7,9 +7,12 @@
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
 use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
-use crate::text::{LineIndex, write_json_pretty};
+use crate::text::{LineIndex, Texts, write_json_pretty};
 use crate::verify;
+use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
+use serde_json::value::RawValue;
+use std::cell::RefCell;
 use std::io::{self, Write};
 
 #[derive(Serialize)]
@@ -35,19 +38,19 @@ struct Program<'a> {
     outcome: Outcome,
     verdict: Option<verify::Outcome>,
     #[serde(serialize_with = "findings")]
-    diagnostics: (&'a ProgramReport, &'a str, &'a LineIndex),
+    diagnostics: (&'a ProgramReport, &'a str, &'a LineIndex, &'a RefCell<Texts<'a>>),
 }
 
 #[derive(Serialize)]
 struct Finding<'a> {
     code: Code,
     severity: Severity,
-    file: &'a str,
+    file: &'a RawValue,
     line: u32,
     column: u32,
-    message: &'a str,
+    message: &'a RawValue,
     #[serde(skip_serializing_if = "Option::is_none")]
-    help: Option<&'a str>,
+    help: Option<&'a RawValue>,
 }
 
 /// The conversions as JSON text.
@@ -80,6 +83,8 @@ pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
 
 fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S::Error> {
     let files: Vec<Vec<(String, LineIndex)>> = parts.iter().map(files).collect();
+    let texts = RefCell::default();
+    let texts = &texts;
     let programs = parts.iter().zip(&files).flat_map(|(part, files)| {
         part.conversion.programs.iter().map(move |program| {
             let (file, index) = &files[program.file];
@@ -94,7 +99,7 @@ fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S
                 to: part.to,
                 outcome: program.outcome,
                 verdict: program.verdict,
-                diagnostics: (program, file, index),
+                diagnostics: (program, file, index, texts),
             }
         })
     });
@@ -115,13 +120,27 @@ fn files(part: &Part<'_>) -> Vec<(String, LineIndex)> {
     part.inputs.iter().zip(ends).map(index).collect()
 }
 
-fn findings<S: Serializer>(
-    (program, file, index): &(&ProgramReport, &str, &LineIndex),
+fn findings<'a, S: Serializer>(
+    (program, file, index, texts): &(&'a ProgramReport, &'a str, &LineIndex, &RefCell<Texts<'a>>),
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(program.diagnostics.iter().map(|d| {
+    let mut texts = texts.borrow_mut();
+    let file = &*texts.escaped(file).map_err(S::Error::custom)?;
+    let mut all = serializer.serialize_seq(Some(program.diagnostics.len()))?;
+    for d in &program.diagnostics {
         let (line, column) = index.place(d.span.start);
-        let (message, help) = (&*d.message, d.help.as_deref());
-        Finding { code: d.code, severity: d.severity(), file, line, column, message, help }
-    }))
+        let message = texts.escaped(&d.message).map_err(S::Error::custom)?;
+        let help = d.help.as_deref().map(|help| texts.escaped(help));
+        let help = help.transpose().map_err(S::Error::custom)?;
+        all.serialize_element(&Finding {
+            code: d.code,
+            severity: d.severity(),
+            file,
+            line,
+            column,
+            message: &message,
+            help: help.as_deref(),
+        })?;
+    }
+    all.end()
 }

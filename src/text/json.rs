@@ -1,10 +1,38 @@
 //! JSON that may be shown on a terminal: what would act there is written as its escape, which means the same.
 
 use super::shown::acts;
+use foldhash::HashMap;
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
+use serde_json::value::RawValue;
 use std::io::{self, Write};
+use std::rc::Rc;
+
+/// Texts as JSON: one that comes again, as those of findings do, is not escaped again.
+#[derive(Default)]
+pub struct Texts<'t>(HashMap<&'t str, Rc<RawValue>>);
+
+/// More texts than this are not kept.
+const MOST_KEPT: usize = 2048;
+
+impl<'t> Texts<'t> {
+    /// A text as it is written.
+    ///
+    /// # Errors
+    /// None that a text can have.
+    pub fn escaped(&mut self, text: &'t str) -> serde_json::Result<Rc<RawValue>> {
+        if let Some(known) = self.0.get(text) {
+            return Ok(Rc::clone(known));
+        }
+        let made: Rc<RawValue> = RawValue::from_string(json(&text))?.into();
+        if self.0.len() >= MOST_KEPT {
+            self.0.clear();
+        }
+        self.0.insert(text, Rc::clone(&made));
+        Ok(made)
+    }
+}
 
 /// A value on one line. Empty if it has what JSON cannot say.
 pub fn json(value: &impl Serialize) -> String {
@@ -86,6 +114,15 @@ impl<F: Formatter> Formatter for Shown<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_text_that_comes_again_is_written_alike() {
+        let texts: Vec<String> = (0..3 * MOST_KEPT).map(|at| format!("\"\u{9b}\" {}", at % 3000)).collect();
+        let mut known = Texts::default();
+        for text in &texts {
+            assert_eq!(known.escaped(text).unwrap().get(), json(text));
+        }
+    }
 
     #[test]
     fn what_acts_is_escaped_and_means_the_same() {

@@ -13,7 +13,7 @@ mod shown;
 mod span;
 
 pub use columns::CodePoints;
-pub use json::{json, json_pretty, write_json, write_json_pretty};
+pub use json::{Texts, json, json_pretty, write_json, write_json_pretty};
 pub use letters::{decode, likeness};
 pub use lines::{Line, Lines, MAX_FILE};
 pub use shown::{acts, shown, shown_lines};

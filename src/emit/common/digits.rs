@@ -36,9 +36,19 @@ pub(in crate::emit) fn write_integer(out: &mut Vec<u8>, value: u64) {
 
 /// Writes a whole number with a point before its last `places` digits, and one digit at least before the point.
 fn write_decimal(out: &mut Vec<u8>, value: u64, places: usize) {
-    // The most digits that 64 bits have, and those of a number below one.
-    let mut text = [b'0'; 24];
+    // The most digits that 64 bits have, and a point among them, or a number below one.
+    let mut text = [0; 24];
     let (mut at, mut rest) = (text.len(), value);
+    for _ in 0..places {
+        at -= 1;
+        text[at] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+    }
+    if places > 0 {
+        at -= 1;
+        text[at] = b'.';
+    }
+    let whole = at;
     // Two digits at a time: half as many divisions.
     while rest >= 10 {
         at -= 2;
@@ -46,17 +56,11 @@ fn write_decimal(out: &mut Vec<u8>, value: u64, places: usize) {
         (text[at], text[at + 1]) = (b'0' + two / 10, b'0' + two % 10);
         rest /= 100;
     }
-    if rest > 0 {
+    if rest > 0 || at == whole {
         at -= 1;
         text[at] = b'0' + rest as u8;
     }
-    let point = text.len() - places;
-    let (whole, fraction) = text.split_at(point);
-    out.extend_from_slice(&whole[at.min(point - 1)..]);
-    if places > 0 {
-        out.push(b'.');
-        out.extend_from_slice(fraction);
-    }
+    out.extend_from_slice(&text[at..]);
 }
 
 /// Writes a whole number with leading zeros.

@@ -5,6 +5,7 @@
 
 use super::Emitter;
 use crate::ir::Class;
+use crate::ir::analysis::VarSet;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Characters of a comment line, its brackets aside.
@@ -14,7 +15,11 @@ impl Emitter<'_> {
     /// Writes the comment, on as many lines as it takes; none if the program takes no register.
     pub(super) fn taken_registers(&mut self) {
         let (mut named, mut scratch) = (BTreeMap::new(), BTreeSet::new());
+        let mut vars = VarSet::default();
         self.program.variables(&mut |var| {
+            vars.insert(var);
+        });
+        vars.iter().for_each(|var| {
             let Some(number) = self.register(var) else { return };
             let label = self.names.variable(var).and_then(|register| register.label.as_deref());
             match (label, var.class) {

@@ -14,7 +14,8 @@ type Ways = SmallVec<[BlockId; 2]>;
 #[derive(Clone, Debug, Default)]
 pub struct Cfg {
     succs: Vec<Ways>,
-    preds: Vec<Ways>,
+    /// Who looks back asks for them.
+    preds: OnceCell<Vec<Ways>>,
     roots: Vec<BlockId>,
     /// Few ask for it.
     order: OnceCell<Vec<BlockId>>,
@@ -106,16 +107,22 @@ impl Cfg {
 
     fn new(mut succs: Vec<Ways>, program: &Program) -> Self {
         let count = succs.len();
-        let mut preds = vec![Ways::new(); count];
-        for (from, targets) in succs.iter_mut().enumerate() {
+        for targets in &mut succs {
             targets.sort_unstable();
             targets.dedup();
             targets.retain(|to| to.index() < count);
-            targets.iter().for_each(|to| preds[to.index()].push(BlockId(from as u32)));
         }
         let mut roots: Vec<BlockId> = [BlockId(0)].into_iter().chain(entries(program)).collect();
         roots.retain(|root| root.index() < program.blocks.len());
-        Self { succs, preds, roots, order: OnceCell::new() }
+        Self { succs, preds: OnceCell::new(), roots, order: OnceCell::new() }
+    }
+
+    fn turned(&self) -> Vec<Ways> {
+        let mut preds = vec![Ways::new(); self.succs.len()];
+        for (from, targets) in (0..).map(BlockId).zip(&self.succs) {
+            targets.iter().for_each(|to| preds[to.index()].push(from));
+        }
+        preds
     }
 
     fn number(&self) -> Vec<BlockId> {
@@ -151,7 +158,7 @@ impl Cfg {
 
     /// Where control can come from.
     pub fn preds(&self, id: BlockId) -> &[BlockId] {
-        self.preds.get(id.index()).map_or(&[], Ways::as_slice)
+        self.preds.get_or_init(|| self.turned()).get(id.index()).map_or(&[], Ways::as_slice)
     }
 
     /// Where control enters: the entry first, then the blocks that calls enter.

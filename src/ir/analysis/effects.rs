@@ -13,7 +13,44 @@ pub struct Vars {
     /// Single ones.
     pub vars: VarSet,
     /// All of these classes.
-    pub classes: BTreeSet<Class>,
+    pub classes: Classes,
+}
+
+/// A set of classes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Classes(u8);
+
+impl Classes {
+    /// Adds a class.
+    pub fn insert(&mut self, class: Class) {
+        self.0 |= 1 << class as u8;
+    }
+
+    /// Takes a class out.
+    pub fn remove(&mut self, class: Class) {
+        self.0 &= !(1 << class as u8);
+    }
+
+    /// True where the class is in.
+    pub fn contains(self, class: Class) -> bool {
+        self.0 >> class as u8 & 1 == 1
+    }
+
+    /// True where none is in.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The classes, in order.
+    pub fn iter(self) -> impl Iterator<Item = Class> {
+        Class::ALL.into_iter().filter(move |class| self.contains(*class))
+    }
+}
+
+impl Extend<Class> for Classes {
+    fn extend<I: IntoIterator<Item = Class>>(&mut self, classes: I) {
+        classes.into_iter().for_each(|class| self.insert(class));
+    }
 }
 
 /// What every program of a module may write, its temporaries aside.
@@ -46,7 +83,7 @@ impl Seen<'_> {
 
     /// True where there are none.
     pub fn is_empty(&self) -> bool {
-        self.vars().next().is_none() && self.classes().next().is_none()
+        self.classes().next().is_none() && self.vars().next().is_none()
     }
 
     /// The single ones.
@@ -56,7 +93,7 @@ impl Seen<'_> {
 
     /// The whole classes.
     pub fn classes(&self) -> impl Iterator<Item = Class> + '_ {
-        self.vars.classes.iter().copied().filter(|class| !self.hides(*class))
+        self.vars.classes.iter().filter(|class| !self.hides(*class))
     }
 
     fn hides(&self, class: Class) -> bool {
@@ -76,7 +113,9 @@ const SHARED: [Class; 5] =
 impl Vars {
     /// All that other programs see.
     pub fn shared() -> Self {
-        Self { vars: VarSet::default(), classes: SHARED.into() }
+        let mut classes = Classes::default();
+        classes.extend(SHARED);
+        Self { vars: VarSet::default(), classes }
     }
 
     /// All that a body in the same program sees.
@@ -97,21 +136,21 @@ impl Vars {
 
     /// True where the variable is among them.
     pub fn contains(&self, var: Var) -> bool {
-        self.classes.contains(&var.class) || self.vars.contains(var)
+        self.classes.contains(var.class) || self.vars.contains(var)
     }
 
     /// Adds all of another; true where that changed it.
     pub fn join<'v>(&mut self, other: impl Into<Seen<'v>>) -> bool {
-        let (other, before) = (other.into(), self.classes.len());
+        let (other, before) = (other.into(), self.classes);
         let changed = self.vars.join(&other.vars.vars, |class| !other.hides(class));
         self.classes.extend(other.classes());
-        changed || before != self.classes.len()
+        changed || before != self.classes
     }
 
     /// Without the variables of a class.
     #[must_use]
     pub fn without(mut self, class: Class) -> Self {
-        self.classes.remove(&class);
+        self.classes.remove(class);
         self.vars.remove_class(class);
         self
     }
@@ -123,7 +162,7 @@ impl Vars {
                 self.vars.insert(*var);
             }
             Expr::Indirect(bank, _) => {
-                self.classes.extend(Self::bank(*bank));
+                self.classes.extend(Self::bank(*bank).iter().copied());
             }
             _ => {}
         });
@@ -136,7 +175,7 @@ impl Vars {
                 self.vars.insert(*var);
             }
             Place::Indirect(bank, _) => {
-                self.classes.extend(Self::bank(*bank));
+                self.classes.extend(Self::bank(*bank).iter().copied());
             }
             Place::System(..) => {}
         }
@@ -265,7 +304,7 @@ pub(super) fn moves_values(nc: &Nc) -> bool {
 fn write(out: &mut Vars, kind: &StmtKind) {
     kind.target().iter().for_each(|place| out.write(place));
     match kind {
-        StmtKind::ClearAll(class) => drop(out.classes.insert(*class)),
+        StmtKind::ClearAll(class) => out.classes.insert(*class),
         StmtKind::Nc(nc) if moves_values(nc) => drop(out.join(&Vars::everything())),
         _ => {}
     }

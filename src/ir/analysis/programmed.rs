@@ -75,7 +75,7 @@ impl Programmed {
         let mut written = Vars::default();
         stmt.kind.target().iter().for_each(|place| written.write(place));
         match &stmt.kind {
-            StmtKind::ClearAll(class) => drop(written.classes.insert(*class)),
+            StmtKind::ClearAll(class) => written.classes.insert(*class),
             StmtKind::Nc(nc) => {
                 written.join(summaries.by_nc(nc));
                 // A rotation takes the tool along only where it runs the cycle in force.

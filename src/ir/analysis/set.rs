@@ -8,7 +8,31 @@ use smallvec::{SmallVec, smallvec};
 pub struct Universe {
     vars: Vec<Var>,
     /// By class and 64 neighbours: which are in, and how many are before them.
-    words: Vec<(Class, u32, u64, usize)>,
+    words: Vec<(Key, u64, usize)>,
+}
+
+/// 64 neighbours of a class, in the order of variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Key(u32);
+
+impl Key {
+    /// Bits that tell apart the neighbours of a class.
+    const BITS: u32 = u32::BITS - 6;
+
+    const fn of(var: Var) -> Self {
+        Self(((var.class as u32) << Self::BITS) | (var.number / 64))
+    }
+
+    /// The first of them; the bits of all count from it.
+    fn first(self) -> Var {
+        let number = (self.0 & ((1 << Self::BITS) - 1)) * 64;
+        Var { class: Class::ALL[(self.0 >> Self::BITS) as usize], number }
+    }
+}
+
+/// The bit of a variable among its neighbours.
+const fn bit(var: Var) -> u64 {
+    1 << (var.number % 64)
 }
 
 /// A subset of a [`Universe`].
@@ -23,12 +47,11 @@ impl Universe {
     pub fn new(mut vars: Vec<Var>) -> Self {
         vars.sort_unstable();
         vars.dedup();
-        let mut words: Vec<(Class, u32, u64, usize)> = Vec::new();
+        let mut words: Vec<(Key, u64, usize)> = Vec::new();
         for (at, var) in vars.iter().enumerate() {
-            let (word, bit) = (var.number / 64, 1 << (var.number % 64));
             match words.last_mut() {
-                Some((class, last, bits, _)) if (*class, *last) == (var.class, word) => *bits |= bit,
-                _ => words.push((var.class, word, bit, at)),
+                Some((last, bits, _)) if *last == Key::of(*var) => *bits |= bit(*var),
+                _ => words.push((Key::of(*var), bit(*var), at)),
             }
         }
         Self { vars, words }
@@ -36,10 +59,9 @@ impl Universe {
 
     /// A variable's place.
     pub fn place(&self, var: Var) -> Option<usize> {
-        let key = (var.class, var.number / 64);
-        let at = find(&self.words, key, |(class, word, ..)| (*class, *word)).ok()?;
-        let (_, _, bits, before) = self.words[at];
-        let bit = 1 << (var.number % 64);
+        let at = find(&self.words, Key::of(var), |(key, ..)| *key).ok()?;
+        let (_, bits, before) = self.words[at];
+        let bit = bit(var);
         (bits & bit != 0).then(|| before + (bits & (bit - 1)).count_ones() as usize)
     }
 
@@ -76,7 +98,8 @@ impl Universe {
 }
 
 /// The place of a key among entries in its order, or where it would stand.
-fn find<T>(entries: &[T], key: (Class, u32), of: impl Fn(&T) -> (Class, u32)) -> Result<usize, usize> {
+#[inline]
+fn find<T>(entries: &[T], key: Key, of: impl Fn(&T) -> Key) -> Result<usize, usize> {
     // Programs name neighbours: the entries are few.
     if entries.len() > 8 {
         return entries.binary_search_by_key(&key, of);
@@ -137,28 +160,28 @@ impl BitRow {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VarSet {
     /// In order, and none empty.
-    words: Vec<(Class, u32, u64)>,
+    words: Vec<(Key, u64)>,
 }
 
 impl VarSet {
-    fn find(&self, class: Class, word: u32) -> Result<usize, usize> {
-        find(&self.words, (class, word), |(class, word, _)| (*class, *word))
+    fn find(&self, key: Key) -> Result<usize, usize> {
+        find(&self.words, key, |(key, _)| *key)
     }
 
     /// Adds a variable; true where it was not in.
     pub fn insert(&mut self, var: Var) -> bool {
-        self.add(var.class, var.number / 64, 1 << (var.number % 64))
+        self.add(Key::of(var), bit(var))
     }
 
-    fn add(&mut self, class: Class, word: u32, more: u64) -> bool {
-        match self.find(class, word) {
+    fn add(&mut self, key: Key, more: u64) -> bool {
+        match self.find(key) {
             Ok(at) => {
-                let before = self.words[at].2;
-                self.words[at].2 |= more;
+                let before = self.words[at].1;
+                self.words[at].1 |= more;
                 more & !before != 0
             }
             Err(at) => {
-                self.words.insert(at, (class, word, more));
+                self.words.insert(at, (key, more));
                 true
             }
         }
@@ -166,8 +189,7 @@ impl VarSet {
 
     /// True where the variable is in.
     pub fn contains(&self, var: Var) -> bool {
-        let at = self.find(var.class, var.number / 64);
-        at.is_ok_and(|at| self.words[at].2 >> (var.number % 64) & 1 == 1)
+        self.find(Key::of(var)).is_ok_and(|at| self.words[at].1 & bit(var) != 0)
     }
 
     /// True where none is in.
@@ -177,20 +199,21 @@ impl VarSet {
 
     /// Adds the variables of another that are of these classes; true where that changed it.
     pub fn join(&mut self, other: &Self, test: impl Fn(Class) -> bool) -> bool {
-        let wanted = other.words.iter().filter(|(class, ..)| test(*class));
-        wanted.fold(false, |changed, (class, word, more)| self.add(*class, *word, *more) || changed)
+        let wanted = other.words.iter().filter(|(key, _)| test(key.first().class));
+        wanted.fold(false, |changed, (key, more)| self.add(*key, *more) || changed)
     }
 
     /// Takes out the variables of a class.
     pub fn remove_class(&mut self, class: Class) {
-        self.words.retain(|(other, ..)| *other != class);
+        self.words.retain(|(key, _)| key.first().class != class);
     }
 
     /// The variables, in order.
     pub fn iter(&self) -> impl Iterator<Item = Var> + '_ {
-        self.words.iter().flat_map(|(class, word, bits)| {
+        self.words.iter().flat_map(|(key, bits)| {
+            let Var { class, number } = key.first();
             let set = (0..64).filter(move |bit| bits >> bit & 1 == 1);
-            set.map(move |bit| Var { class: *class, number: word * 64 + bit })
+            set.map(move |bit| Var { class, number: number + bit })
         })
     }
 }

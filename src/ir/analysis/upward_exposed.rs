@@ -35,14 +35,15 @@ impl UpwardExposed {
     pub fn among(module: &Module, universe: Universe) -> Self {
         let callees = Callees::of(module);
         let written = Written::of(module, &callees, &universe);
-        let none = universe.none();
+        let (none, everything) = (universe.none(), universe.all());
         let own = (0..module.programs.len()).map(|index| (index, BlockId(0)));
         let routines = written.routines().chain(own);
         let mut entries: BTreeMap<Routine, BitRow> =
             routines.map(|routine| (routine, none.clone())).collect();
         callees.graph(module).fixpoint(|index| {
             let program = &module.programs[index];
-            let transfer = |block| Transfer::of(block, &universe, |call| callees.called(index, call));
+            let rows = [&none, &everything];
+            let transfer = |block| Transfer::of(block, rows, &universe, |call| callees.called(index, call));
             let transfers: Vec<Transfer> = program.blocks.iter().map(transfer).collect();
             let mut anywhere = none.clone();
             if transfers.iter().any(Transfer::calls_any) {
@@ -75,10 +76,10 @@ impl UpwardExposed {
         Self { universe, entries }
     }
 
-    /// True where a variable is exposed at the entry of a program.
-    pub fn is_at_entry(&self, program: usize, var: Var) -> bool {
+    /// Tells of variables whether they are exposed at the entry of a program.
+    pub fn at_entry_of(&self, program: usize) -> impl Fn(Var) -> bool {
         let row = self.entries.get(&(program, BlockId(0)));
-        row.is_some_and(|row| self.universe.place(var).is_some_and(|at| row.has(at)))
+        move |var| row.is_some_and(|row| self.universe.place(var).is_some_and(|at| row.has(at)))
     }
 
     /// What is exposed at the entry of a program.
@@ -224,8 +225,14 @@ impl Transfer {
         all.into_iter().any(|callee| matches!(callee, Called::Any))
     }
 
-    fn of(block: &Block, universe: &Universe, callee: impl Fn(&Call) -> Option<Called>) -> Self {
-        let mut rows = [universe.none(), universe.all()];
+    /// `rows` are none of the variables, and all.
+    fn of(
+        block: &Block,
+        rows: [&BitRow; 2],
+        universe: &Universe,
+        callee: impl Fn(&Call) -> Option<Called>,
+    ) -> Self {
+        let mut rows = rows.map(Clone::clone);
         block.term.kind.exprs(&mut |e| note(e, &mut rows, universe));
         backward(&block.stmts, &mut rows, universe);
         let modal = block.stmts.iter().enumerate().filter_map(|(at, stmt)| {

@@ -24,13 +24,7 @@ pub fn concerns(features: &Features) -> bool {
 
 /// Reports what the programs of a library rest on.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    let cycles = module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
-    let cycles = cycles
-        .filter_map(|stmt| match &stmt.kind {
-            StmtKind::Nc(nc) => Some(nc),
-            _ => None,
-        })
-        .any(|nc| nc.ops().any(Op::is_cycle));
+    let cycles = context.features.any_op(Op::is_cycle);
     let modal = cycles.then(|| ModalFacts::of(module, &Modal::unknown()));
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks) {

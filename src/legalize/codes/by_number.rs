@@ -14,6 +14,7 @@ use crate::dialect::{Control, Question};
 use crate::ir::analysis::{Assigned, Constant};
 use crate::ir::{BlockId, Expr, Module, NcItem, StmtKind};
 use crate::legalize::Context;
+use crate::legalize::features::Feature;
 use crate::text::Span;
 use std::cell::LazyCell;
 use std::collections::BTreeMap;
@@ -25,6 +26,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
+        if !context.may_concern(index, |features| features.has(Feature::Code)) {
+            continue;
+        }
         let assigned = LazyCell::new(|| Assigned::new(program, &summaries));
         for (id, block) in program.ids().zip(&program.blocks) {
             for (at, stmt) in block.stmts.iter().enumerate() {

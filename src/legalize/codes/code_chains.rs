@@ -27,19 +27,26 @@ const MOST: usize = 8;
 
 /// True if the library has codes that are known by number only.
 pub fn concerns(features: &Features, _: &Context<'_>) -> bool {
+    has_codes(features)
+}
+
+fn has_codes(features: &Features) -> bool {
     features.has(Feature::Code)
 }
 
-/// Writes codes by computed numbers out.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+/// Writes codes by computed numbers out; gives the programs that have any which can be.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let summaries = context.summaries(module);
-    let mut changed = false;
+    let mut changed = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
+        if !context.may_concern(index, has_codes) {
+            continue;
+        }
         let chains = chains(program, &summaries, context);
         if chains.is_empty() {
             continue;
         }
-        changed = true;
+        changed.push(index);
         for ((id, at), chain) in &chains {
             context.chained |= chain.letter == 'G';
             let span = program.blocks[id.index()].stmts[*at].site.span;

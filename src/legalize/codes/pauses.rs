@@ -64,6 +64,7 @@ const LETS_GO: &str = "the M5 before this stop releases a spindle that M19 holds
 
 /// Ends before stops what the source ends at them; true if that changed anything.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    context.count(module);
     let stops = stops(module, context);
     let changes = !stops.is_empty();
     for Stop { place: (index, id), before, again } in stops {
@@ -90,7 +91,7 @@ fn stops(module: &Module, context: &mut Context<'_>) -> Vec<Stop> {
     }
     let facts = context.modal_facts(module);
     let (after, started) = (After::of(module, &facts), started(module, context));
-    let holds = Features::of(&module.programs).op(Op::SpindleOrient);
+    let holds = context.features.op(Op::SpindleOrient);
     for (index, program) in module.programs.iter().enumerate() {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(_, block)| stops_in(block)) {
             let mut place = Place {
@@ -149,12 +150,10 @@ fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>, again: &[(usize,
 
 /// For each program, what it, those that it calls, or those that call it start.
 fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
-    let mut found: Vec<[bool; 2]> = (module.programs.iter())
-        .map(|program| {
-            let features = Features::of(std::slice::from_ref(program));
-            Running::ALL.map(|running| starts_in(&features, running))
-        })
-        .collect();
+    let starts = |index| {
+        Running::ALL.map(|running| context.may_concern(index, |features| starts_in(features, running)))
+    };
+    let mut found: Vec<[bool; 2]> = (0..module.programs.len()).map(starts).collect();
     let mut callees = vec![BTreeSet::new(); found.len()];
     for (caller, callee) in context.called(module).pairs(module) {
         callees[caller].insert((callee, false));

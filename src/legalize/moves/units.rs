@@ -46,7 +46,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let checked: Vec<Option<Units>> =
         module.programs.iter_mut().map(|program| take_checks(program, &mut changed)).collect();
     if changed {
-        context.analyses.drop_all();
+        context.forget();
     }
     let (ours, theirs) = (context.source.units(), context.target.units());
     if ours.is_some() && ours == theirs && selects_unit(context.source) {

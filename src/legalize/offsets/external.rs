@@ -11,6 +11,7 @@ use crate::dialect::Question;
 use crate::ir::analysis::behind::behind;
 use crate::ir::{Expr, Module, Nc, NcItem, Place, StmtKind};
 use crate::legalize::Context;
+use crate::legalize::features::Feature;
 use crate::text::Span;
 
 const ONE: Question = Question::ShiftLocalIsExternal;
@@ -18,14 +19,22 @@ const ENDS: Question = Question::SetPositionEndsLocal;
 const CLEARS: Question = Question::EndClearsLocal;
 const AXES: [Role; 6] = [Role::X, Role::Y, Role::Z, Role::A, Role::B, Role::C];
 
-/// Keeps the shifts apart, or together.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// Keeps the shifts apart, or together; true if that changed anything.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     set_positions(module, context);
     match (context.source.is(ONE), context.target.is(ONE)) {
         (true, false) => to_local(module, context),
-        (false, true) => to_one(module, context),
-        _ => {}
+        (false, true) => {
+            to_one(module, context);
+            false
+        }
+        _ => false,
     }
+}
+
+/// True where the register may be used.
+fn may_use(index: usize, context: &Context<'_>) -> bool {
+    context.may_concern(index, |features| features.has(Feature::System) || features.op(Op::WriteWork))
 }
 
 /// A position that is set while a local shift may be in force.
@@ -60,11 +69,15 @@ fn set_positions(module: &Module, context: &mut Context<'_>) {
 }
 
 /// The source has one register, the target two: what is written into it is a local shift.
-fn to_local(module: &mut Module, context: &mut Context<'_>) {
+fn to_local(module: &mut Module, context: &mut Context<'_>) -> bool {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     // What a block adds under incremental coordinates no local shift adds.
     let adds = stmts().any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(Op::Incremental)));
+    let mut changed = false;
     for (index, program) in module.programs.iter_mut().enumerate() {
+        if !may_use(index, context) {
+            continue;
+        }
         for block in &mut program.blocks {
             let mut reads = None;
             block.term.kind.exprs(&mut |e| read(e, block.term.site.span, &mut reads));
@@ -81,11 +94,13 @@ fn to_local(module: &mut Module, context: &mut Context<'_>) {
                         };
                         let word = NcItem::Word(*role, std::mem::replace(value, Expr::Vacant));
                         context.rests_on_source(index, span, ONE);
+                        changed = true;
                         stmt.kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::LocalShift), word] });
                     }
                     StmtKind::Nc(nc) if adds && writes(nc) == Some(true) => reads = Some(span),
                     StmtKind::Nc(nc) if writes(nc) == Some(true) => {
                         context.rests_on_source(index, span, ONE);
+                        changed = true;
                         nc.items.retain(|item| !matches!(item, NcItem::Word(Role::OffsetRow, _)));
                         for item in &mut nc.items {
                             if *item == NcItem::Op(Op::WriteWork) {
@@ -104,6 +119,7 @@ fn to_local(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+    changed
 }
 
 fn read(e: &Expr, span: Span, found: &mut Option<Span>) {
@@ -127,6 +143,9 @@ fn to_one(module: &Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let local = stmts().any(|stmt| stmt.kind.nc().is_some_and(|nc| nc.has(Op::LocalShift)));
     for (index, program) in module.programs.iter().enumerate() {
+        if !may_use(index, context) {
+            continue;
+        }
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let mut reads = None;
             stmt.kind.exprs(&mut |e| read(e, stmt.site.span, &mut reads));

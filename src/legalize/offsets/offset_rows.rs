@@ -7,33 +7,36 @@
 use crate::canon::{Func, Sys};
 use crate::dialect::Control;
 use crate::ir::{
-    Bank, BinOp, Class, Cond, Expr, Module, Place, Program, Relation, SourceInfo, StmtKind, TermKind, Var,
+    Bank, BinOp, Class, Cond, Expr, Place, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::{Part, PreStatement, highest_temp, rebuild, rewrite_program};
 use crate::legalize::{Context, Rewriter};
 
 /// Where a run begins, the number of its first variable, and the distance of two rows.
 type Run = (u32, u32, u32);
 
-/// Picks the run that a computed number is in.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// True where state is used, and both controls keep work offsets in several runs.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
     let several = |control: &Control| control.system_runs(Sys::WorkOffset).count() > 1;
-    if !several(context.source) || !several(context.target) {
-        return;
-    }
+    features.has(Feature::System) && several(context.source) && several(context.target)
+}
+
+/// Picks the run that a computed number is in; true if there is one.
+pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let (source, target) = (context.source, context.target);
-    for program in &mut module.programs {
-        write(program, source, target);
-        rewrite_program(program, |e| matches!(e, Expr::System(Sys::WorkOffset, _)), &mut |e, _, rewriter| {
-            match &e {
-                Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, source, target) {
-                    Some((row, runs)) => read(row.clone(), &runs, rewriter),
-                    None => e,
-                },
-                _ => e,
-            }
-        });
-    }
+    let written = write(program, source, target);
+    rewrite_program(
+        program,
+        |e| matches!(e, Expr::System(Sys::WorkOffset, _)),
+        &mut |e, _, rewriter| match &e {
+            Expr::System(Sys::WorkOffset, subscripts) => match computed(subscripts, source, target) {
+                Some((row, runs)) => read(row.clone(), &runs, rewriter),
+                None => e,
+            },
+            _ => e,
+        },
+    ) || written
 }
 
 /// The computed number of a row, and the runs of its axis in the order of numbers.
@@ -110,7 +113,12 @@ fn number(row: &Expr, (from, first, step): Run) -> Expr {
     binary(BinOp::Add, rows, Expr::Number(base))
 }
 
-fn write(program: &mut Program, source: &Control, target: &Control) {
+/// Writes by a computed number; true where there are any writes of offsets.
+fn write(program: &mut Program, source: &Control, target: &Control) -> bool {
+    let offset = |stmt: &Stmt| matches!(stmt.kind.target(), Some(Place::System(Sys::WorkOffset, _)));
+    if !program.blocks.iter().flat_map(|block| &block.stmts).any(offset) {
+        return false;
+    }
     let mut highest = highest_temp(program);
     rebuild(program, &mut |builder, part| {
         let Part::Stmt(stmt) = &part else { return part.keep(builder) };
@@ -144,4 +152,5 @@ fn write(program: &mut Program, source: &Control, target: &Control) {
             builder.start(otherwise);
         }
     });
+    true
 }

@@ -9,6 +9,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::eval::whole;
 use crate::ir::{Bank, BinOp, BlockId, Expr, Module, Program, TermKind};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::variables::computed_numbers::constant_part;
 use crate::legalize::{Context, ModalFacts, Setting, rewrite_program};
 use crate::text::Span;
@@ -27,8 +28,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     if ours == theirs && (context.source.name() == context.target.name() || ours == Some((true, true))) {
         return false;
     }
-    let asks: Vec<usize> =
-        (0..module.programs.len()).filter(|index| asks(&module.programs[*index], context.source)).collect();
+    let reads_any = |features: &Features| features.has(Feature::System) || features.has(Feature::Indirect);
+    let mut asks: Vec<usize> =
+        (0..module.programs.len()).filter(|index| context.may_concern(*index, reads_any)).collect();
+    asks.retain(|index| self::asks(&module.programs[*index], context.source));
     if asks.is_empty() {
         return false;
     }

@@ -9,6 +9,7 @@ use crate::dialect::Control;
 use crate::ir::analysis::tool_word::ToolWord;
 use crate::ir::{Block, Expr, Module, Program};
 use crate::legalize::Context;
+use crate::legalize::features::Feature;
 use crate::text::Span;
 
 /// The letter number of T in [`Sys::Address`].
@@ -17,7 +18,9 @@ pub const ADDRESS_T: u32 = 20;
 /// Asks wherever the tool in the spindle is read and the target tells the last tool word in its place: that is the
 /// same after a change, is for review where none is seen, and an error where a tool may wait for its change.
 pub fn run(module: &Module, context: &mut Context<'_>) {
-    if !stands_in(context.target) || !module.programs.iter().any(reads) {
+    let may_read = |index| context.may_concern(index, |features| features.has(Feature::System));
+    let mut programs = module.programs.iter().enumerate();
+    if !stands_in(context.target) || !programs.any(|(index, program)| may_read(index) && reads(program)) {
         return;
     }
     let facts = context.modal_facts(module);

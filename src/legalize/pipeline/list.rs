@@ -108,7 +108,7 @@ const STRUCTURE: &[Pass] = &[
 ];
 
 const BLOCKS: &[Pass] = &[
-    Pass::edits(
+    Pass::edits_some(
         "code-chains",
         "codes by a computed number become comparisons with each number",
         code_chains::run,
@@ -184,7 +184,7 @@ const VARIABLES: &[Pass] = &[
     Pass::reports("banks", "looks up computed numbers of a space of their own", banks::run)
         .when(|c, _| c.has(Feature::Indirect))
         .needs(&["subscript-chains"]),
-    Pass::edits(
+    Pass::edits_some(
         "computed-numbers",
         "computed numbers of variables reach what they reached",
         computed_numbers::run,
@@ -203,7 +203,7 @@ const VARIABLES: &[Pass] = &[
     Pass::rewrites("touch-points", "places where the probe touched are kept as point 1", touch_points::run)
         .when(touch_points::concerns)
         .needs(&["computed-numbers"]),
-    Pass::rewrites("modal-reads", "modal codes that are read become constants or tests", modal_reads::run)
+    Pass::edits("modal-reads", "modal codes that are read become constants or tests", modal_reads::run)
         .when(modal_reads::concerns)
         .changes_flow(),
     Pass::rewrites("timers", "a timer that programs set becomes the seconds since the start", timers::run)
@@ -217,22 +217,22 @@ const VARIABLES: &[Pass] = &[
         tool_word::run,
     )
     .when(|c, _| c.has(Feature::System)),
-    Pass::rewrites(
+    Pass::each(
         "offset-rows",
         "work offsets by a computed number are found in the target's runs",
         offset_rows::run,
     )
-    .when(|c, _| c.has(Feature::System))
+    .when(offset_rows::concerns)
     .changes_flow(),
-    Pass::edits("output-codes", "outputs are switched by codes of the target's builder", output_codes::run)
+    Pass::each("output-codes", "outputs are switched by codes of the target's builder", output_codes::run)
         .when(output_codes::concerns)
         .needs(&["computed-numbers"])
         .changes_flow(),
-    Pass::rewrites("signals", "inputs and outputs are on where they were on", signals::run)
+    Pass::each("signals", "inputs and outputs are on where they were on", signals::run)
         .when(|c, _| c.has(Feature::System))
         .needs(&["output-codes"]),
-    Pass::rewrites("state", "state of the machine is read and written in the target's form", state::run)
-        .when(|c, _| c.has(Feature::System) || c.op(Op::WriteRadius) || c.op(Op::WriteRadiusWear))
+    Pass::edits_some("state", "state of the machine is read and written in the target's form", state::run)
+        .when(|c, _| state::concerns(c))
         .needs(&[
             "vacant-writes",
             "modal-reads",

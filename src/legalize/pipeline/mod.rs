@@ -93,6 +93,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> Result<(), Broken>
 pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -> Result<(), Broken> {
     let passes: Vec<&Pass> = passes().map(|(_, pass)| pass).take(count).collect();
     context.features = Features::default();
+    context.forget();
     let mut fresh = false;
     for passes in passes.chunk_by(|a, b| goes_on(a, b)) {
         let [pass] = passes else {
@@ -101,7 +102,8 @@ pub fn run_first(count: usize, module: &mut Module, context: &mut Context<'_>) -
         };
         // What stood there before may be gone: then the pass finds nothing to do.
         if !fresh && !(pass.concerns)(&context.features, context) {
-            (context.features, fresh) = (Features::of(&module.programs), true);
+            context.count(module);
+            fresh = true;
         }
         if !(pass.concerns)(&context.features, context) {
             continue;
@@ -145,13 +147,11 @@ fn run_together(
     let tidy = |pass: &&Pass| if let Run::Tidies(tidy) = pass.run { Some(tidy) } else { None };
     let tidies: Vec<&dyn opt::Pass> = passes.iter().filter_map(tidy).collect();
     if !tidies.is_empty() {
-        context.analyses.drop_all();
+        context.forget();
         return opt::run(module, &tidies, context.level).map_err(|(pass, first)| Broken { pass, first });
     }
     if !*fresh || passes.iter().any(|pass| (pass.concerns)(&context.features, context)) {
-        if each(passes, module, context) {
-            context.analyses.drop_all();
-        }
+        each(passes, module, context);
         *fresh = true;
     }
     Ok(())

@@ -20,7 +20,7 @@ pub(super) const MOVES: &[Pass] = &[
         .when(|c, _| c.op(Op::ArcCw) || c.op(Op::ArcCcw)),
     Pass::reports("set-position", "checks work offsets selected after a set position", set_position::run)
         .when(set_position::concerns),
-    Pass::rewrites("external", "shifts that share a register on one control are kept apart", external::run)
+    Pass::edits("external", "shifts that share a register on one control are kept apart", external::run)
         .when(|c, _| c.has(Feature::System) || c.op(Op::WriteWork) || c.op(Op::LocalShift)),
     Pass::rewrites("shaped", "mirrors, rotations and scalings mean the same", shaped::run)
         .when(|c, _| c.op(Op::RotateOn) || c.op(Op::ScaleOn) || c.op(Op::MirrorOn)),

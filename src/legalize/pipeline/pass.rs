@@ -72,6 +72,8 @@ pub(super) enum Run {
     Rewrites(fn(&mut Module, &mut Context<'_>)),
     /// Finds nothing to change in most libraries that concern it; true if it changed anything.
     Edits(fn(&mut Module, &mut Context<'_>) -> bool),
+    /// The same, where most programs stay as they are; gives the indexes of those that do not.
+    EditsSome(fn(&mut Module, &mut Context<'_>) -> Vec<usize>),
     /// Looks at one program alone, whose index it is given; true if it changed anything.
     Each(fn(&mut Program, usize, &mut Context<'_>) -> bool),
 }
@@ -107,6 +109,14 @@ impl Pass {
         run: fn(&mut Module, &mut Context<'_>) -> bool,
     ) -> Self {
         Self::new(name, does, Run::Edits(run), Changes::Statements)
+    }
+
+    pub(super) const fn edits_some(
+        name: &'static str,
+        does: &'static str,
+        run: fn(&mut Module, &mut Context<'_>) -> Vec<usize>,
+    ) -> Self {
+        Self::new(name, does, Run::EditsSome(run), Changes::Statements)
     }
 
     pub(super) const fn each(
@@ -145,7 +155,8 @@ impl Pass {
 
     /// Runs it alone, if anything concerns it.
     pub fn apply(&self, module: &mut Module, context: &mut Context<'_>) {
-        context.features = Features::of(&module.programs);
+        context.forget();
+        context.count(module);
         if (self.concerns)(&context.features, context) {
             self.run_on(module, context);
         }
@@ -153,15 +164,7 @@ impl Pass {
 
     /// Runs it; true if that may have changed the library. Then what was known of it is dropped.
     pub(super) fn run_on(&self, module: &mut Module, context: &mut Context<'_>) -> bool {
-        let changed = self.change(module, context);
-        if changed {
-            context.analyses.drop_all();
-        }
-        changed
-    }
-
-    fn change(&self, module: &mut Module, context: &mut Context<'_>) -> bool {
-        match self.run {
+        let changed = match self.run {
             // Broken IR shows where it is validated next.
             Run::Tidies(pass) => {
                 let _ = opt::run(module, &[pass], context.level);
@@ -176,25 +179,41 @@ impl Pass {
                 true
             }
             Run::Edits(run) => run(module, context),
-            Run::Each(_) => each(&[self], module, context),
+            Run::EditsSome(run) => {
+                let changed = run(module, context);
+                if !changed.is_empty() {
+                    context.forget_some(&changed);
+                }
+                return !changed.is_empty();
+            }
+            // Counts what it leaves.
+            Run::Each(_) => return each(&[self], module, context),
+        };
+        if changed {
+            context.forget();
         }
+        changed
     }
 }
 
-/// Takes each program through passes that look at one alone, and counts anew what stands in the library; true
+/// Takes each program through passes that look at one alone, and counts anew what stands in those that they change; true
 /// if they changed anything.
 pub(super) fn each(passes: &[&Pass], module: &mut Module, context: &mut Context<'_>) -> bool {
-    let (mut all, mut any) = (Features::default(), false);
+    let mut known = context.take_counted().into_iter();
+    let (mut counted, mut any) = (Vec::with_capacity(module.programs.len()), false);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut features = Features::of(std::slice::from_ref(program));
+        let mut features = Features::of_known(known.next().flatten(), program);
         for pass in passes {
             let Run::Each(run) = pass.run else { continue };
             if (pass.concerns)(&features, context) && run(program, index, context) {
-                (features, any) = (Features::of(std::slice::from_ref(program)), true);
+                (features, any) = (Features::of_program(program), true);
             }
         }
-        all.add_all(&features);
+        counted.push(features);
     }
-    context.features = all;
+    if any {
+        context.forget();
+    }
+    context.keep_counted(counted);
     any
 }

@@ -25,6 +25,7 @@ use numbers::{Numbers, Table};
 pub(in crate::legalize) use shift::constant_part;
 use shift::shift;
 use std::cell::LazyCell;
+use std::sync::Arc;
 
 /// Computed numbers are followed for so many of a program; others are not known.
 const MOST_LOOKED_UP: usize = 500;
@@ -57,17 +58,22 @@ impl Reached {
     }
 }
 
-/// Shifts computed numbers, and notes what they may be.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+/// Shifts computed numbers, and notes what they may be; gives the programs in which any is shifted.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let table = Table::default();
     let mut numbers = Numbers::new(context.source, context.target, table.clone());
     context.reached = Reached { table, ..look(module, &mut numbers, context) };
     let moves = |finding: &Finding| matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
-    let shifts = numbers.known.values().any(moves);
-    if shifts {
-        module.programs.iter_mut().for_each(|program| shift(program, &mut numbers));
+    if !numbers.known.values().any(moves) {
+        return Vec::new();
     }
-    shifts
+    let mut shifted = Vec::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        if shift(program, &mut numbers) {
+            shifted.push(index);
+        }
+    }
+    shifted
 }
 
 fn look(module: &Module, numbers: &mut Numbers<'_>, context: &mut Context<'_>) -> Reached {
@@ -132,18 +138,35 @@ pub fn report(_: &Module, context: &mut Context<'_>) {
     let numbers = Numbers::new(context.source, context.target, reached.table);
     let alike = numbers.all_alike();
     let taken: Vec<u32> = context.registers.taken().collect();
+    // Programs suppose few things, again and again.
+    let mut known: Vec<(Finding, Supposed)> = Vec::new();
     for (index, found) in reached.open {
-        let supposed = found.finding.supposed(&numbers);
-        let safe = supposed.without(taken.iter().copied());
-        let hit = safe != supposed;
+        let at = known.iter().position(|(finding, _)| *finding == found.finding).unwrap_or_else(|| {
+            let supposed = found.finding.supposed(&numbers);
+            let safe = supposed.without(taken.iter().copied());
+            let hit = safe != supposed;
+            let (code, what) = found.finding.clone().told(context, &safe, hit);
+            known.push((found.finding.clone(), Supposed { safe, hit, code, what: what.into() }));
+            known.len() - 1
+        });
+        let (_, Supposed { safe, hit, code, what }) = &known[at];
         if alike && !hit {
             continue;
         }
-        let (code, what) = found.finding.clone().told(context, &safe, hit);
         let span = found.places.first().copied().unwrap_or_default();
-        let told = Diagnostic::new(code, span, what.clone()).assuming(found.predicate(&safe));
-        context.add_once(index, &what, told);
+        let told = Diagnostic::new(*code, span, what.clone()).assuming(found.predicate(safe));
+        context.add_once(index, what, told);
     }
+}
+
+/// What is supposed of a computed number, now that registers are taken.
+struct Supposed {
+    /// The numbers that it must be one of.
+    safe: analysis::Numbers,
+    /// True where registers were taken among them.
+    hit: bool,
+    code: Code,
+    what: Arc<str>,
 }
 
 /// What is known of a computed number.

@@ -21,9 +21,14 @@ fn callers_of(module: &Module, programs: BTreeSet<usize>) -> BTreeSet<usize> {
     reached(programs, |index, go| callers.get(&index).into_iter().flatten().for_each(|caller| go(*caller)))
 }
 
-/// Sets the timer to 0 where each main program starts that reads it, itself or in what it calls.
-pub(super) fn start(module: &mut Module, timed: BTreeSet<usize>, context: &mut Context<'_>) {
-    for index in callers_of(module, timed) {
+/// Sets the timer to 0 where each main program starts that reads it, itself or in what it calls; gives all that do.
+pub(super) fn start(
+    module: &mut Module,
+    timed: BTreeSet<usize>,
+    context: &mut Context<'_>,
+) -> BTreeSet<usize> {
+    let callers = callers_of(module, timed);
+    for &index in &callers {
         let program = &mut module.programs[index];
         if program.ends()
             && let Some(block) = program.blocks.first_mut()
@@ -39,4 +44,5 @@ pub(super) fn start(module: &mut Module, timed: BTreeSet<usize>, context: &mut C
             context.add_once(index, "cycle seconds", finding);
         }
     }
+    callers
 }

@@ -20,12 +20,18 @@ pub fn concerns(features: &Features, _: &Context<'_>) -> bool {
     features.has(Feature::System)
 }
 
-/// Replaces modal codes that are read.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
-    known(module, context);
-    if context.target.system_run(Sys::CodeTest).is_some() {
-        tested(module, context);
-    }
+/// Replaces modal codes that are read; true if there are any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    context.count(module);
+    let cycles = context.features.any_op(Op::is_cycle);
+    let changed = known(module, context);
+    let tests = context.target.system_run(Sys::CodeTest).is_some();
+    tests && tested(module, cycles, context) || changed
+}
+
+/// True where state may be read.
+fn may_read(index: usize, context: &Context<'_>) -> bool {
+    context.may_concern(index, |features| features.has(Feature::System))
 }
 
 /// The group that is read, by its common number, and what is added to its code; none for one that the target can read.
@@ -79,18 +85,22 @@ fn number_of(state: &Modal, group: Group, source: &Control) -> Option<f64> {
 }
 
 /// Puts constants where the text says what is in force.
-fn known(module: &mut Module, context: &Context<'_>) {
+fn known(module: &mut Module, context: &Context<'_>) -> bool {
+    let mut changed = false;
     let facts = context.modal_facts(module);
     let (source, target) = (context.source, context.target);
-    for (index, program) in module.programs.iter_mut().enumerate() {
+    for (index, program) in
+        module.programs.iter_mut().enumerate().filter(|(index, _)| may_read(*index, context))
+    {
         for (id, block) in (0..).map(crate::ir::BlockId).zip(&mut program.blocks) {
             let mut state = facts.at(index, id);
-            let put = |e: &mut Expr, state: &Modal| {
+            let mut put = |e: &mut Expr, state: &Modal| {
                 e.walk_mut(&mut |e| {
                     if let Some((group, more)) = group_of(e, target)
                         && let Some(number) = number_of(state, group, source)
                     {
                         *e = Expr::Number(number + more);
+                        changed = true;
                     }
                 });
             };
@@ -101,15 +111,19 @@ fn known(module: &mut Module, context: &Context<'_>) {
             block.term.kind.exprs_mut(&mut |e| put(e, &state));
         }
     }
+    changed
 }
 
 /// Puts tests where it does not.
-fn tested(module: &mut Module, context: &mut Context<'_>) {
+fn tested(module: &mut Module, cycles: bool, context: &mut Context<'_>) -> bool {
+    let mut changed = false;
     let (source, target) = (context.source, context.target);
-    let cycles = Features::of(&module.programs).any_op(Op::is_cycle);
     for (index, program) in module.programs.iter_mut().enumerate() {
+        if !may_read(index, context) {
+            continue;
+        }
         let mut found: Vec<Span> = Vec::new();
-        rewrite_program(
+        changed |= rewrite_program(
             program,
             |e| matches!(e, Expr::System(Sys::Modal | Sys::ModalMotionPlus1, _)),
             &mut |e, _: Position, rewriter: &mut Rewriter<'_>| {
@@ -135,6 +149,7 @@ fn tested(module: &mut Module, context: &mut Context<'_>) {
             context.add_once(index, what, Diagnostic::new(Code::Conditional, span, what));
         }
     }
+    changed
 }
 
 /// The number on the source that is left if no test holds, and those of the tests with the numbers that they test.

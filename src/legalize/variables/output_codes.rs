@@ -9,7 +9,7 @@
 use crate::canon::{Op, Role, Sys};
 use crate::dialect::Control;
 use crate::ir::{
-    BinOp, Builder, Cond, Expr, Module, Nc, NcItem, Place, Relation, SourceInfo, StmtKind, TermKind,
+    BinOp, Builder, Cond, Expr, Nc, NcItem, Place, Program, Relation, SourceInfo, StmtKind, TermKind,
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
@@ -23,24 +23,20 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 }
 
 /// Puts codes in the place of assignments.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let target = context.target;
-    let mut changed = false;
-    for program in &mut module.programs {
-        let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
-        if !stmts.into_iter().any(|stmt| switched(&stmt.kind, target).is_some()) {
-            continue;
-        }
-        changed = true;
-        rebuild(program, &mut |builder, part| match part {
-            Part::Stmt(stmt) => match switched(&stmt.kind, target) {
-                Some(switched) => write(builder, switched, stmt.site),
-                None => builder.push(stmt.kind, stmt.site),
-            },
-            other => other.keep(builder),
-        });
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    if !stmts.any(|stmt| switched(&stmt.kind, target).is_some()) {
+        return false;
     }
-    changed
+    rebuild(program, &mut |builder, part| match part {
+        Part::Stmt(stmt) => match switched(&stmt.kind, target) {
+            Some(switched) => write(builder, switched, stmt.site),
+            None => builder.push(stmt.kind, stmt.site),
+        },
+        other => other.keep(builder),
+    });
+    true
 }
 
 /// An output, and what switches it.

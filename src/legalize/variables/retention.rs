@@ -50,10 +50,10 @@ fn check(module: &Module, registers: &Registers, context: &mut Context<'_>) {
     let mut said: HashMap<Vec<usize>, Arc<str>> = HashMap::new();
     for index in roots(module) {
         let span = module.programs[index].site.span;
+        let is_at_entry = upward_exposed.at_entry_of(index);
         for kept in [true, false] {
             let shown = lives.iter().enumerate();
-            let shown =
-                shown.filter(|(_, (var, k, _))| *k == kept && upward_exposed.is_at_entry(index, *var));
+            let shown = shown.filter(|(_, (var, k, _))| *k == kept && is_at_entry(*var));
             let shown: Vec<usize> = shown.map(|(at, _)| at).collect();
             if shown.is_empty() {
                 continue;

@@ -8,7 +8,7 @@
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BinOp, Cond, Expr, Module, Place, Relation, StmtKind};
+use crate::ir::{BinOp, Cond, Expr, Place, Program, Relation, StmtKind};
 use crate::legalize::{Context, rewrite_program};
 use crate::text::Span;
 
@@ -20,43 +20,43 @@ const OPPOSITES: [(Sys, Sys); 4] = [
     (Sys::OutputInverted, Sys::Output),
 ];
 
-/// Reads and writes signals as the target shows them.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// Reads and writes signals as the target shows them; true if there are any.
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
     let target = context.target;
-    for (index, program) in module.programs.iter_mut().enumerate() {
-        let mut missing: Vec<(Span, Sys, Option<u32>)> = Vec::new();
-        let shows = |e: &Expr| matches!(e, Expr::System(state, _) if is_signal(*state));
-        rewrite_program(program, shows, &mut |e, _, rewriter| {
-            let Expr::System(state, subscripts) = e else { return e };
-            let there = held(state, &subscripts, target);
-            missing.extend(there.err().map(|number| (rewriter.span, state, number)));
-            match there {
-                Ok(other) if other != state => {
-                    Expr::binary(BinOp::Sub, Expr::Number(1.0), Expr::System(other, subscripts))
-                }
-                _ => Expr::System(state, subscripts),
+    let mut missing: Vec<(Span, Sys, Option<u32>)> = Vec::new();
+    let shows = |e: &Expr| matches!(e, Expr::System(state, _) if is_signal(*state));
+    let mut any = rewrite_program(program, shows, &mut |e, _, rewriter| {
+        let Expr::System(state, subscripts) = e else { return e };
+        let there = held(state, &subscripts, target);
+        missing.extend(there.err().map(|number| (rewriter.span, state, number)));
+        match there {
+            Ok(other) if other != state => {
+                Expr::binary(BinOp::Sub, Expr::Number(1.0), Expr::System(other, subscripts))
             }
-        });
-        for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
-            let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else {
-                continue;
-            };
-            if !is_signal(*state) {
-                continue;
-            }
-            match held(*state, subscripts, target) {
-                Ok(other) if other != *state => {
-                    *state = other;
-                    *value = is_zero(std::mem::replace(value, Expr::Vacant));
-                }
-                Ok(_) => {}
-                Err(number) => missing.push((stmt.site.span, *state, number)),
-            }
+            _ => Expr::System(state, subscripts),
         }
-        for (span, state, number) in missing {
-            report(index, span, state, number, context);
+    });
+    for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+        let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else {
+            continue;
+        };
+        if !is_signal(*state) {
+            continue;
+        }
+        any = true;
+        match held(*state, subscripts, target) {
+            Ok(other) if other != *state => {
+                *state = other;
+                *value = is_zero(std::mem::replace(value, Expr::Vacant));
+            }
+            Ok(_) => {}
+            Err(number) => missing.push((stmt.site.span, *state, number)),
         }
     }
+    for (span, state, number) in missing {
+        report(index, span, state, number, context);
+    }
+    any
 }
 
 /// True for the state of an input or output.

@@ -8,6 +8,7 @@ use crate::canon::{Op, Role, Sys};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::{BinOp, Expr, Module, Nc, NcItem, Place, Stmt, StmtKind};
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::offsets::tool_word;
 use crate::legalize::variables::cycle_seconds;
 use crate::legalize::variables::signals::is_signal;
@@ -34,11 +35,20 @@ const SCALED: &[(Sys, Sys, f64)] = &[
     (Sys::DiameterWear, Sys::DiameterOrRadiusWear, 1.0),
 ];
 
-/// Rewrites machine state to what the target has.
-pub fn run(module: &mut Module, context: &mut Context<'_>) {
+/// True where state is used.
+pub fn concerns(features: &Features) -> bool {
+    features.has(Feature::System) || features.op(Op::WriteRadius) || features.op(Op::WriteRadiusWear)
+}
+
+/// Rewrites machine state to what the target has; gives the programs that have any.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> Vec<usize> {
     let (source, target) = (context.source, context.target);
-    let mut timed = BTreeSet::new();
+    let (mut timed, mut changed) = (BTreeSet::new(), Vec::new());
     for (index, program) in module.programs.iter_mut().enumerate() {
+        if !context.may_concern(index, concerns) {
+            continue;
+        }
+        changed.push(index);
         let mut found: Vec<(Span, Finding)> = Vec::new();
         rewrite_program(
             program,
@@ -61,8 +71,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         }
     }
     if !timed.is_empty() && target.system_run(Sys::CycleSeconds).is_none() {
-        cycle_seconds::start(module, timed, context);
+        changed.extend(cycle_seconds::start(module, timed, context));
     }
+    changed
 }
 
 enum Finding {

@@ -198,7 +198,7 @@ fn piece_made(
         module.programs.push(program);
         found.push(diagnostics);
     }
-    let mut made = make(module, found, source, target, lock.clone(), options.level, entry);
+    let mut made = make(module, found, source, target, lock.clone(), options, entry);
     // Which target block came from where is a table as long as the file.
     made.parts.iter_mut().flatten().for_each(|part| part.blocks = Vec::new());
     (names, made, piece.tape)

@@ -1,5 +1,6 @@
 //! Which variables are followed: those that a question is about, and what they are made of or compared with.
 
+use crate::ir::analysis::VarSet;
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::{Call, Callee, Cond, Expr, NcItem, Place, Program, StmtKind, TermKind, Var};
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,7 +10,7 @@ const VARS: usize = 64;
 
 /// The variables in words that are whole numbers.
 pub(super) fn in_whole_words(program: &Program) -> BTreeSet<Var> {
-    let mut found = BTreeSet::new();
+    let mut found = VarSet::default();
     for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
         let StmtKind::Nc(nc) = &stmt.kind else { continue };
         for item in &nc.items {
@@ -20,12 +21,12 @@ pub(super) fn in_whole_words(program: &Program) -> BTreeSet<Var> {
             }
         }
     }
-    found
+    found.iter().collect()
 }
 
 /// The variables in computed numbers.
 pub(super) fn in_numbers(program: &Program) -> BTreeSet<Var> {
-    let mut found = BTreeSet::new();
+    let mut found = VarSet::default();
     for block in &program.blocks {
         let mut note = |e: &Expr| {
             e.walk(&mut |e| {
@@ -45,12 +46,12 @@ pub(super) fn in_numbers(program: &Program) -> BTreeSet<Var> {
             _ => {}
         }
     }
-    found
+    found.iter().collect()
 }
 
 /// Variables in the numbers of codes.
 pub(super) fn in_codes(program: &Program) -> BTreeSet<Var> {
-    let mut found = BTreeSet::new();
+    let mut found = VarSet::default();
     for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
         let StmtKind::Nc(nc) = &stmt.kind else { continue };
         for item in &nc.items {
@@ -59,7 +60,7 @@ pub(super) fn in_codes(program: &Program) -> BTreeSet<Var> {
             }
         }
     }
-    found
+    found.iter().collect()
 }
 
 /// These variables, and those that they depend on: what they are made of, and what they are compared with.
@@ -67,7 +68,7 @@ pub(super) fn followed(program: &Program, found: BTreeSet<Var>) -> BTreeSet<Var>
     if found.is_empty() {
         return found;
     }
-    let mut others: BTreeMap<Var, BTreeSet<Var>> = BTreeMap::new();
+    let mut others: BTreeMap<Var, VarSet> = BTreeMap::new();
     for block in &program.blocks {
         for stmt in &block.stmts {
             if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
@@ -84,17 +85,29 @@ pub(super) fn followed(program: &Program, found: BTreeSet<Var>) -> BTreeSet<Var>
             });
         }
     }
-    let found = reached(found, |var, go| others.get(&var).into_iter().flatten().for_each(|other| go(*other)));
+    let found =
+        reached(found, |var, go| others.get(&var).iter().for_each(|all| all.iter().for_each(&mut *go)));
     if found.len() > VARS { BTreeSet::new() } else { found }
 }
 
-fn add(e: &Expr, found: &mut BTreeSet<Var>) {
-    e.variables(&mut |var| {
-        found.insert(var);
-    });
+/// The variables that the program assigns, or a branch looks at: of others nothing is ever known.
+pub(super) fn told_of(program: &Program) -> VarSet {
+    let mut told = VarSet::default();
+    for block in &program.blocks {
+        let targets = block.stmts.iter().filter_map(|stmt| stmt.kind.target());
+        told.extend(targets.filter_map(|place| if let Place::Var(var) = place { Some(*var) } else { None }));
+        if let TermKind::Branch { cond, .. } = &block.term.kind {
+            cond.exprs(&mut |e| add(e, &mut told));
+        }
+    }
+    told
 }
 
-fn numbered(call: &Call, found: &mut BTreeSet<Var>) {
+fn add(e: &Expr, found: &mut impl Extend<Var>) {
+    e.variables(&mut |var| found.extend([var]));
+}
+
+fn numbered(call: &Call, found: &mut VarSet) {
     if let Callee::Computed(number) = &call.callee {
         add(number, found);
     }

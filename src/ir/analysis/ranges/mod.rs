@@ -20,12 +20,12 @@ pub use evaluate::evaluate;
 pub use numbers::Numbers;
 pub use values::Values;
 
-use super::Cfg;
 use super::cfg::labelled;
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve_within};
 use super::effects::{Summaries, Vars};
+use super::{Cfg, VarSet};
 use crate::ir::{Bank, Block, BlockId, Callee, Cond, Expr, Place, Program, Stmt, StmtKind, TermKind, Var};
-use followed::{followed, in_codes, in_numbers, in_whole_words, stops};
+use followed::{followed, in_codes, in_numbers, in_whole_words, stops, told_of};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -191,9 +191,11 @@ impl<'p> Ranges<'p> {
         inputs: BTreeSet<(BlockId, usize)>,
         vars: BTreeSet<Var>,
     ) -> Self {
-        let places: BTreeMap<Var, usize> =
-            followed(program, vars).into_iter().enumerate().map(|(at, var)| (var, at)).collect();
-        let limit = STEPS.checked_div(places.len());
+        let followed = followed(program, vars);
+        let limit = STEPS.checked_div(followed.len());
+        let told = if followed.is_empty() { VarSet::default() } else { told_of(program) };
+        let kept = followed.into_iter().filter(|var| told.contains(*var));
+        let places: BTreeMap<Var, usize> = kept.enumerate().map(|(at, var)| (var, at)).collect();
         let rules = Rules { program, summaries, places, inputs, stops: stops(program) };
         let starts = limit.and_then(|limit| solve_within(&rules, program, &Cfg::of(program), limit));
         Self { rules, starts, cursor: RefCell::default() }

@@ -9,7 +9,6 @@ use crate::ir::Expr;
 use crate::ir::analysis;
 use crate::ir::eval::whole;
 use crate::legalize::offsets::position_length;
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -20,26 +19,31 @@ const GAP: u32 = 20;
 pub(super) struct Numbers<'c> {
     source: &'c Control,
     target: &'c Control,
-    /// Made when it is first asked for: most programs compute no number.
     table: Table,
     /// By the constant part of a number.
     pub(super) known: BTreeMap<u32, Finding>,
-    runs: OnceCell<Vec<(u32, u32)>>,
-    listed: OnceCell<analysis::Numbers>,
 }
 
-/// By number: true where both controls mean the same, none where neither means anything.
-pub(super) type Table = Arc<OnceLock<Vec<Option<bool>>>>;
+/// What is known of all numbers of two controls.
+pub(super) type Table = Arc<Compared>;
+
+/// How two controls compare, each part made when it is first asked for: most programs compute no number.
+#[derive(Debug, Default)]
+pub(super) struct Compared {
+    /// By number: true where both mean the same, none where neither means anything.
+    alike: OnceLock<Vec<Option<bool>>>,
+    runs: OnceLock<Vec<(u32, u32)>>,
+    listed: OnceLock<analysis::Numbers>,
+}
 
 impl<'c> Numbers<'c> {
     /// `table` is of the same two controls.
     pub(super) fn new(source: &'c Control, target: &'c Control, table: Table) -> Self {
-        let (runs, listed) = (OnceCell::new(), OnceCell::new());
-        Self { source, target, table, known: BTreeMap::new(), runs, listed }
+        Self { source, target, table, known: BTreeMap::new() }
     }
 
     fn table(&self) -> &[Option<bool>] {
-        self.table.get_or_init(|| self.compared())
+        self.table.alike.get_or_init(|| self.compared())
     }
 
     fn compared(&self) -> Vec<Option<bool>> {
@@ -169,7 +173,7 @@ impl<'c> Numbers<'c> {
 
     /// Runs of numbers that mean the same, over gaps that stand for axes that are not there.
     fn runs(&self) -> &[(u32, u32)] {
-        self.runs.get_or_init(|| self.found_runs())
+        self.table.runs.get_or_init(|| self.found_runs())
     }
 
     fn found_runs(&self) -> Vec<(u32, u32)> {
@@ -188,7 +192,7 @@ impl<'c> Numbers<'c> {
 
     /// The numbers that mean the same, whatever is in force.
     pub(super) fn list(&self) -> &analysis::Numbers {
-        self.listed.get_or_init(|| self.made_list())
+        self.table.listed.get_or_init(|| self.made_list())
     }
 
     fn made_list(&self) -> analysis::Numbers {
@@ -202,7 +206,8 @@ impl<'c> Numbers<'c> {
             matches!(meaning(self.source, *number), Some(Meaning::State(state, axis))
                 if position_length::is_position(state) && axis == [position_length::DEPTH])
         };
-        let depths: Vec<u32> = (0..self.table().len() as u32).filter(is_depth).collect();
+        let listed = self.runs().iter().flat_map(|(first, last)| *first..=*last);
+        let depths: Vec<u32> = listed.filter(is_depth).collect();
         runs.without(depths)
     }
 }

@@ -17,11 +17,17 @@ pub fn constant_part(number: &Expr) -> Option<f64> {
     }
 }
 
-/// Adds the distance to computed numbers that the target has elsewhere, and names what it counts otherwise.
-pub(super) fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
+/// Adds the distance to computed numbers that the target has elsewhere, and names what it counts otherwise; true if
+/// there are any.
+pub(super) fn shift(program: &mut Program, numbers: &mut Numbers<'_>) -> bool {
+    let mut any = false;
     let mut moved = |number: Expr| match *numbers.of(&number) {
-        Finding::Shifted(.., by) => Place::Indirect(Bank::Numbered, Box::new(add(number, by as f64))),
+        Finding::Shifted(.., by) => {
+            any = true;
+            Place::Indirect(Bank::Numbered, Box::new(add(number, by as f64)))
+        }
         Finding::Counted(state, first, _, from) => {
+            any = true;
             let count = match add(number, f64::from(from) - f64::from(first)) {
                 // What is left of the number is the count itself.
                 Expr::Binary(BinOp::Add, sum) if sum[0] == Expr::Number(0.0) => {
@@ -45,6 +51,7 @@ pub(super) fn shift(program: &mut Program, numbers: &mut Numbers<'_>) {
         Expr::Indirect(Bank::Numbered, number) => moved(*number).read(),
         other => other,
     });
+    any
 }
 
 /// Adds to the first constant of a sum.
