@@ -1,5 +1,6 @@
 //! What people and programs are told: one renderer a format, one file each.
 
+pub mod diff;
 mod drawn;
 mod html;
 mod json;

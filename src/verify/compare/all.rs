@@ -1,0 +1,105 @@
+//! All that differs between two runs, not the first difference alone.
+//!
+//! Two runs are walked through as far as they go together, by the same rules as where one difference is enough. At a
+//! difference the walk goes on at the next pair of an alignment of both runs: what stands before that on one side was
+//! added or taken out, and what is paired there was changed.
+
+use super::aligned::aligned;
+use super::exit_state::left_differs;
+use super::kinds::is_cut;
+use super::loose::{Found, farthest};
+use super::observe::Act;
+use super::pairs::{Pairs, acts, end_differs};
+use super::paths::{apart, ends};
+use super::tolerance::Tolerance;
+use super::variables::all_variables;
+use crate::control::Run;
+use crate::control::trace::{Event, EventKind};
+use crate::verify::sides::{Side, SymbolMap};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+/// What one side does and the other does not, or does otherwise.
+#[derive(Clone, Debug)]
+pub struct Apart<'r> {
+    /// The block and what is seen of it on the source; none for what the target alone does.
+    pub source: Option<(&'r Event, Cow<'r, EventKind>)>,
+    /// The same on the target.
+    pub target: Option<(&'r Event, Cow<'r, EventKind>)>,
+    /// What differs, in words.
+    pub what: String,
+}
+
+/// The differences of two runs, at the most so many, and what differs at their ends. With `strict`, what lies apart by
+/// less than a least increment differs too.
+pub fn differences<'r>(
+    source: (&Side<'_>, &'r Run),
+    target: (&Side<'_>, &'r Run),
+    names: &SymbolMap,
+    (tolerance, strict): (Tolerance, bool),
+    most: usize,
+) -> (Vec<Apart<'r>>, Vec<String>) {
+    let cut = is_cut(source.1) || is_cut(target.1);
+    let [ours, theirs] = farthest([source.1, target.1], |orders| {
+        let sides = acts(source, target, orders);
+        let mut pairs = Pairs::new(source.0, target.0, tolerance);
+        pairs.strict = strict;
+        let (i, j) = pairs.walk(&sides[0], &sides[1], cut);
+        let blocks = pairs.found.difference.as_ref().map(|found| [found.source, found.target]);
+        let is_one = blocks.is_some();
+        let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
+        Found { what: sides, pairs: is_one.then_some(i + j), blocks }
+    });
+    let met = aligned(&ours, &theirs, tolerance.rounded);
+    let mut pairs = Pairs::new(source.0, target.0, tolerance);
+    pairs.strict = strict;
+    let (mut i, mut j, mut out) = (0, 0, Vec::new());
+    while out.len() < most {
+        let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());
+        let (di, dj) = pairs.walk(here, there, cut);
+        (i, j) = (i + di, j + dj);
+        let Some(difference) = pairs.found.difference.take() else { break };
+        let next = met.partition_point(|(p, q)| *p < i || *q < j);
+        let (p, q) = met.get(next).copied().unwrap_or((ours.len(), theirs.len()));
+        if let (true, Some(a), Some(b)) = ((p, q) == (i, j), ours.get(i), theirs.get(j)) {
+            if out.is_empty() || !starts_elsewhere(a, b, tolerance.rounded) {
+                out.push(Apart { source: seen(a), target: seen(b), what: difference.what });
+            }
+            pairs.moved(0, a);
+            pairs.moved(1, b);
+            (i, j) = (i + 1, j + 1);
+            continue;
+        }
+        for act in ours.get(i..p).unwrap_or_default() {
+            out.push(Apart { source: seen(act), target: None, what: "taken out".into() });
+            pairs.moved(0, act);
+        }
+        for act in theirs.get(j..q).unwrap_or_default() {
+            out.push(Apart { source: None, target: seen(act), what: "added".into() });
+            pairs.moved(1, act);
+        }
+        // A side that has nothing left goes no farther.
+        if (p, q) == (i, j) {
+            break;
+        }
+        (i, j) = (p, q);
+    }
+    if cut {
+        return (out, Vec::new());
+    }
+    let end = end_differs(&source.1.end, &target.1.end);
+    let variables = all_variables(source, target, names).into_iter().map(|found| found.what);
+    let left = left_differs(source, target, tolerance, &mut BTreeSet::new());
+    let at_end = end.into_iter().chain(variables).chain(left).collect();
+    (out, at_end)
+}
+
+fn seen<'r>(act: &Act<'r>) -> Option<(&'r Event, Cow<'r, EventKind>)> {
+    Some((act.event, act.what.clone()))
+}
+
+/// True for two rapid moves to one place, of which only the starts differ: what was told before put the tool there.
+fn starts_elsewhere(a: &Act<'_>, b: &Act<'_>, allowed: f64) -> bool {
+    let both = matches!((&*a.what, &*b.what), (EventKind::Rapid { .. }, EventKind::Rapid { .. }));
+    both && ends(&a.what).zip(ends(&b.what)).is_some_and(|((_, a), (_, b))| apart(&a, &b) <= allowed)
+}
