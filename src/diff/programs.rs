@@ -9,7 +9,7 @@ use super::whole::Levels;
 use crate::control::ProgramRef;
 use crate::syntax::ProgramName;
 use crate::verify::{
-    Job, Listing, Moment, Outcome, ProgramCertificate, Side, SymbolMap, class_of, listed, verify,
+    Job, Listing, Moment, Outcome, ProgramCertificate, Reason, Side, SymbolMap, Why, class_of, listed, verify,
 };
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -230,13 +230,18 @@ fn changed(
     most: usize,
 ) -> ProgramDiff {
     let mut out = paired(job, (old, new));
+    // What no manual confirms of a machine holds for both programs alike, where it mattered in the same blocks of both.
+    let shared = changes.one_machine && certificate.doubts[0] == certificate.doubts[1];
+    let reasons = certificate.reasons.iter().filter(|reason| !shared || reason.why != Why::Unconfirmed);
+    let reasons: Vec<&Reason> = reasons.collect();
     out.verdict = match certificate.outcome {
         Outcome::Same => Verdict::Same,
+        Outcome::Undecided if reasons.is_empty() => Verdict::Same,
         Outcome::Undecided => Verdict::Undecided,
         Outcome::Different => Verdict::Different,
     };
     if out.verdict == Verdict::Undecided {
-        out.why.extend(certificate.reasons.iter().take(REASONS).map(|reason| reason.text.clone()));
+        out.why.extend(reasons.iter().take(REASONS).map(|reason| reason.text.clone()));
     }
     if levels.structure {
         let (ours, theirs) = (changes.old(old), changes.new_text(new));

@@ -90,6 +90,34 @@ pub struct FileDiff {
     pub normalised: Option<Text>,
 }
 
+impl FileDiff {
+    /// The levels that were asked for, with their names; a normalised text is left out where the same lines changed in it.
+    pub fn told(&self) -> impl Iterator<Item = (&'static str, &Text)> {
+        let same = self.says_the_same();
+        let normalised = self.normalised.as_ref().filter(|_| !same);
+        let all = [("text", self.text.as_ref()), ("normalised", normalised)];
+        all.into_iter().filter_map(|(level, text)| Some((level, text.filter(|text| !text.is_empty())?)))
+    }
+
+    fn says_the_same(&self) -> bool {
+        let (Some(text), Some(normalised)) = (&self.text, &self.normalised) else { return false };
+        text.left_out == 0 && normalised.left_out == 0 && text.changed().eq(normalised.changed())
+    }
+}
+
+impl Text {
+    /// True where nothing changed.
+    pub fn is_empty(&self) -> bool {
+        self.hunks.is_empty() && self.left_out == 0
+    }
+
+    /// The numbers of the lines that changed.
+    fn changed(&self) -> impl Iterator<Item = (Option<usize>, Option<usize>)> + '_ {
+        let all = self.hunks.iter().flat_map(|hunk| &hunk.lines);
+        all.filter(|line| line.on != On::Both).map(|line| (line.old, line.new))
+    }
+}
+
 /// Lines that changed, with some about them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Text {

@@ -34,8 +34,10 @@ pub fn structure(old: &[Normal], new: &[Normal], renamed: &[Renamed]) -> Vec<Not
         notes.push(note("jump", format!("and {left_out} more jumps and calls"), [None; 2]));
     }
     if added + gone + changed > 0 {
-        let text =
-            format!("{} added, {} taken out, {} changed", blocks(added), blocks(gone), blocks(changed));
+        let all = [(added, "added"), (gone, "taken out"), (changed, "changed")];
+        let told = all.iter().filter(|(count, _)| *count > 0);
+        let told = told.map(|(count, what)| format!("{} {what}", blocks(*count)));
+        let text = told.collect::<Vec<_>>().join(", ");
         notes.insert(0, note("blocks", text, first));
     }
     notes.extend(variables(old, new, renamed));

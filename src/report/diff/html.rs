@@ -87,10 +87,7 @@ fn of_program(out: &mut String, program: &ProgramDiff, tolerance: f64) {
 
 fn of_file(out: &mut String, file: &FileDiff) {
     let name = |side: &Option<String>| side.as_deref().map_or("nothing".into(), escaped);
-    for (level, text) in [("Text", &file.text), ("Normalised", &file.normalised)] {
-        let Some(text) = text.as_ref().filter(|text| !text.hunks.is_empty() || text.left_out > 0) else {
-            continue;
-        };
+    for (level, text) in file.told() {
         let _ = writeln!(out, "<h2>{level}: {} to {}</h2>", name(&file.old), name(&file.new));
         of_text(out, text);
     }

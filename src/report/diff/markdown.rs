@@ -22,8 +22,7 @@ pub fn diff(diff: &Diff) -> String {
     }
     for file in &diff.files {
         let name = |side: &Option<String>| side.as_deref().map_or("nothing".into(), escaped);
-        for (level, text) in [("Text", &file.text), ("Normalised", &file.normalised)] {
-            let Some(text) = text.as_ref().filter(|text| !text.hunks.is_empty()) else { continue };
+        for (level, text) in file.told() {
             let part =
                 format!("\n### {level}: {} to {}\n\n{}", name(&file.old), name(&file.new), of_text(text));
             if out.len() + part.len() > MOST { left_out += 1 } else { out += &part }

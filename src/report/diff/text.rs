@@ -53,10 +53,7 @@ fn of(verdict: Verdict) -> &'static str {
 fn of_file(out: &mut String, file: &FileDiff, colour: Colour) {
     let name =
         |side: &Option<String>| side.as_deref().map_or("/dev/null".into(), |name| shown(name).into_owned());
-    for (level, text) in [("text", &file.text), ("normalised", &file.normalised)] {
-        let Some(text) = text.as_ref().filter(|text| !text.hunks.is_empty() || text.left_out > 0) else {
-            continue;
-        };
+    for (level, text) in file.told() {
         let head = format!("{level}: {} -> {}", name(&file.old), name(&file.new));
         let _ = writeln!(out, "\n{}", colour.paint(&[BOLD], &head));
         of_text(out, text, colour);

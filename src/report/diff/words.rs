@@ -71,11 +71,11 @@ pub fn what(change: &Change, inch: bool) -> String {
         (None, None) => change.what.clone(),
     };
     if change.times > 1 {
-        text += &format!("; seen {} times", change.times);
+        text += &format!("; {} times in a run", change.times);
     }
     if change.alike > 0 {
-        let places = if change.alike == 1 { "place" } else { "places" };
-        text += &format!("; and by just as much at {} {places} that follow", change.alike);
+        let places = if change.alike == 1 { "place that follows" } else { "places that follow" };
+        text += &format!("; and by just as much at {} {places}", change.alike);
     }
     text
 }

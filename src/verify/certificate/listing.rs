@@ -30,8 +30,11 @@ pub struct Change {
     pub new: Option<Seen>,
     /// What differs, in words.
     pub what: String,
-    /// How often that was seen.
+    /// How often that was seen in the first run that showed it.
     pub times: usize,
+    /// The number of that run.
+    #[serde(skip)]
+    pub run: usize,
     /// Places that follow and differ by just as much.
     pub alike: usize,
     /// True where the part's zero was the machine's and all tools had no length: positions are those of the program.

@@ -4,7 +4,7 @@
 //! difference the walk goes on at the next pair of an alignment of both runs: what stands before that on one side was
 //! added or taken out, and what is paired there was changed.
 
-use super::aligned::aligned;
+use super::aligned::{Told, aligned};
 use super::exit_state::left_differs;
 use super::kinds::is_cut;
 use super::loose::{Found, farthest};
@@ -50,7 +50,14 @@ pub fn differences<'r>(
         let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
         Found { what: sides, pairs: is_one.then_some(i + j), blocks }
     });
-    let met = aligned(&ours, &theirs, tolerance.rounded);
+    let told = |(side, run): (&Side<'_>, &Run), acts: &[Act<'_>]| {
+        acts.iter().map(|act| block(side, run, act.event)).collect::<Vec<_>>()
+    };
+    let met = aligned(
+        &Told { acts: &ours, blocks: told(source, &ours) },
+        &Told { acts: &theirs, blocks: told(target, &theirs) },
+        tolerance.rounded,
+    );
     let mut pairs = Pairs::new(source.0, target.0, tolerance);
     pairs.strict = strict;
     let (mut i, mut j, mut out) = (0, 0, Vec::new());
@@ -96,6 +103,17 @@ pub fn differences<'r>(
 
 fn seen<'r>(act: &Act<'r>) -> Option<(&'r Event, Cow<'r, EventKind>)> {
     Some((act.event, act.what.clone()))
+}
+
+/// The text of an event's block, without its sequence number and blanks.
+pub fn block(side: &Side<'_>, run: &Run, event: &Event) -> String {
+    let file = run.programs.get(event.at.program as usize).map(|program| program.file);
+    let source = file.and_then(|file| side.source(file)).unwrap_or_default();
+    let text = String::from_utf8_lossy(event.at.span.of(source));
+    let text: String = text.chars().filter(|sign| !sign.is_whitespace()).collect();
+    let rest =
+        text.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    rest.map_or(text.clone(), str::to_owned)
 }
 
 /// True for two rapid moves to one place, of which only the starts differ: what was told before put the tool there.

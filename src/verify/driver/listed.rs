@@ -46,6 +46,8 @@ struct Places {
     /// What differs at the end, by what it is of.
     at_end: BTreeMap<String, String>,
     most: usize,
+    /// The number of the run.
+    run: usize,
 }
 
 impl Verifier<'_, '_> {
@@ -54,8 +56,13 @@ impl Verifier<'_, '_> {
         let found = inputs_of_both((source, self.program), (target, there), names, self.called);
         let inch = unit(source, target).or(found.inch);
         let mut proposals = Proposals::new(&found, effort);
-        let mut places =
-            Places { listing: Listing::default(), known: HashMap::new(), at_end: BTreeMap::new(), most };
+        let mut places = Places {
+            listing: Listing::default(),
+            known: HashMap::new(),
+            at_end: BTreeMap::new(),
+            most,
+            run: 0,
+        };
         if let Some(witness) = witness {
             self.theirs = witness.target_variables.clone();
             self.list(&witness.scenario, there, &mut places);
@@ -103,6 +110,7 @@ impl Verifier<'_, '_> {
         let is_inch = |run: &Run| run.modes.iter().any(|op| op.group() == Group::Units && *op == Op::Inch);
         places.listing.inch |= is_inch(&run) && is_inch(&other);
         let sides = [(source, &run, frames(&run)), (target, &other, frames(&other))];
+        places.run += 1;
         let mut last = None;
         for apart in &all {
             last = places.take(apart, &sides, last, plain);
@@ -137,7 +145,7 @@ impl Places {
         let place = [spot(0), spot(1)];
         if let Some(known) = self.known.get(&place).copied() {
             if let Some(change) = self.listing.changes.get_mut(known) {
-                change.times += usize::from(change.plain == plain);
+                change.times += usize::from(change.run == self.run);
             }
             return Some(known);
         }
@@ -166,7 +174,7 @@ impl Places {
             Some(Seen { moment, what: (**what).clone(), work, length })
         };
         let (old, new, what) = (seen(0), seen(1), apart.what.clone());
-        self.listing.changes.push(Change { old, new, what, times: 1, alike: 0, plain });
+        self.listing.changes.push(Change { old, new, what, times: 1, run: self.run, alike: 0, plain });
         let at = self.listing.changes.len() - 1;
         self.known.insert(place, at);
         Some(at)

@@ -83,6 +83,7 @@ impl Verifier<'_, '_> {
             witness: self.witness,
             started: self.started,
             entered: self.entered,
+            doubts: self.doubts,
             assumptions,
         }
     }
