@@ -7,7 +7,7 @@
 use crate::canon::{Op, Role};
 use crate::dialect::Control;
 use crate::syntax::{
-    Block, Expr, ExprKind, Index, Item, ItemKind, TableRow, Target, TestSubject, TokenKind, VarRef,
+    Block, Expr, ExprKind, Index, Item, ItemKind, Label, TableRow, Target, TestSubject, TokenKind, VarRef,
     for_each_expr, for_each_item,
 };
 use crate::text::{Span, decode};
@@ -132,7 +132,7 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
     }
     let unread = block.items.iter().any(|item| matches!(item.kind, ItemKind::Unparsed));
     let (mut last, mut done) = (TokenKind::Space, Span::default());
-    let mut letter = String::new();
+    let (mut letter, mut was_word) = (String::new(), false);
     for token in &block.tokens {
         let within = |span: Span| span.start <= token.span.start && token.span.end <= span.end;
         let aside = matches!(token.kind, TokenKind::Space | TokenKind::Comment | TokenKind::EndOfBlock);
@@ -140,12 +140,20 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
             continue;
         }
         let raw = decode(token.span.of(source));
+        // A variable may be several tokens.
+        let same_variable = done != Span::default() && within(done);
         if unread {
             [&mut out.text, &mut out.known, &mut out.bare].into_iter().for_each(|text| *text += &raw);
             continue;
         }
+        let is_name = |kind: TokenKind| matches!(kind, TokenKind::Number | TokenKind::Variable);
+        let is_word = token.kind == TokenKind::Operator && raw.starts_with(char::is_alphabetic);
         let gap = matches!(token.kind, TokenKind::Letter | TokenKind::Keyword) && last != TokenKind::Space
-            || last == TokenKind::Keyword;
+            || last == TokenKind::Keyword
+            || is_word
+            || was_word
+            || (token.kind == TokenKind::Variable && is_name(last) && !same_variable);
+        was_word = is_word;
         let (mut plain, mut known) = match token.kind {
             TokenKind::Number => (number(&raw), if letter == "P" { raw.to_string() } else { number(&raw) }),
             TokenKind::Text => (raw.to_string(), raw.to_string()),
@@ -202,6 +210,13 @@ impl Labels {
     fn of(blocks: &[Block], control: &Control) -> Self {
         let mut named: Vec<(Span, u32)> = Vec::new();
         let mut order = Vec::new();
+        // Where a program has labels, calls name those.
+        let items = blocks.iter().flat_map(|block| &block.items);
+        let labels = items.filter_map(|item| match item.kind {
+            ItemKind::Label(Label::Number(number)) => Some(number),
+            _ => None,
+        });
+        let marks: BTreeSet<u32> = labels.collect();
         for block in blocks {
             let code = code_of(block, control);
             for_each_item(&block.items, &mut |item| match &item.kind {
@@ -213,7 +228,8 @@ impl Labels {
                 ItemKind::Word(word) => {
                     let role = control.role(word.letter, word.comma, code);
                     if let Some(value) = word.value.as_ref().filter(|_| role == Some(Role::Sequence)) {
-                        named.extend(whole(value).map(|number| (value.span, number)));
+                        let number = whole(value).filter(|number| !marks.contains(number));
+                        named.extend(number.map(|number| (value.span, number)));
                     }
                 }
                 _ => {}

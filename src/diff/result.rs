@@ -94,7 +94,10 @@ impl FileDiff {
     /// The levels that were asked for, with their names; a normalised text is left out where the same lines changed in it.
     pub fn told(&self) -> impl Iterator<Item = (&'static str, &Text)> {
         let same = self.says_the_same();
-        let normalised = self.normalised.as_ref().filter(|_| !same);
+        let normalised = self
+            .normalised
+            .as_ref()
+            .filter(|_| !same && (self.text.is_none() || (self.old.is_some() && self.new.is_some())));
         let all = [("text", self.text.as_ref()), ("normalised", normalised)];
         all.into_iter().filter_map(|(level, text)| Some((level, text.filter(|text| !text.is_empty())?)))
     }

@@ -91,10 +91,11 @@ impl Unit {
     fn pair(&self, old: &Seen, new: &Seen, what: &str) -> String {
         let (a, b) = (&old.what, &new.what);
         let mut out = Vec::new();
-        if old.work != new.work {
+        let moves = is_move(a) && is_move(b);
+        if moves && old.work != new.work {
             out.push(format!("work offset {} -> {}", old.work, new.work));
         }
-        if old.length != new.length {
+        if moves && old.length != new.length {
             out.push(format!("tool length {} -> {}", old.length, new.length));
         }
         if let (Some(from), Some(to)) = (to(a), to(b))

@@ -4,6 +4,7 @@
 //! goes, then by kind alone. It says where two
 //! runs meet again after something that one of them has more; whether a pair is the same is not decided here.
 
+use super::kinds::setting;
 use super::observe::Act;
 use super::paths::leaves;
 use crate::control::scenario::Axes;
@@ -16,7 +17,7 @@ use std::ops::Range;
 type Key = (std::mem::Discriminant<EventKind>, Vec<i64>, String);
 
 /// The acts of a side, with the text of the block of each.
-pub struct Told<'t, 'r> {
+pub struct Blocks<'t, 'r> {
     /// The acts.
     pub acts: &'t [Act<'r>],
     /// The texts.
@@ -24,27 +25,48 @@ pub struct Told<'t, 'r> {
 }
 
 /// The places of the pairs, in order, each place once.
-pub fn aligned(ours: &Told<'_, '_>, theirs: &Told<'_, '_>, allowed: f64) -> Vec<(usize, usize)> {
+pub fn aligned(ours: &Blocks<'_, '_>, theirs: &Blocks<'_, '_>, allowed: f64) -> Vec<(usize, usize)> {
     // A few times what counts as the same, so that few such pairs fall on two sides of an edge.
     let grid = (4.0 * allowed).max(1e-3);
-    let by_place = |told: &Told<'_, '_>, at: usize| key(&told.acts[at], grid, false);
-    let by_text = |told: &Told<'_, '_>, at: usize| {
+    let by_place = |told: &Blocks<'_, '_>, at: usize| key(&told.acts[at], grid, false);
+    let by_text = |told: &Blocks<'_, '_>, at: usize| {
         (discriminant(&*told.acts[at].what), Vec::new(), told.blocks[at].clone())
     };
-    let by_way = |told: &Told<'_, '_>, at: usize| key(&told.acts[at], grid, true);
+    let by_way = |told: &Blocks<'_, '_>, at: usize| key(&told.acts[at], grid, true);
     let by_kind =
-        |told: &Told<'_, '_>, at: usize| (discriminant(&*told.acts[at].what), Vec::new(), String::new());
-    let all: [&dyn Fn(&Told<'_, '_>, usize) -> Key; 4] = [&by_place, &by_text, &by_way, &by_kind];
-    let mut pairs = Vec::new();
-    pair([ours, theirs], [0..ours.acts.len(), 0..theirs.acts.len()], &all, &mut pairs);
+        |told: &Blocks<'_, '_>, at: usize| (discriminant(&*told.acts[at].what), Vec::new(), String::new());
+    let all: [&dyn Fn(&Blocks<'_, '_>, usize) -> Key; 4] = [&by_place, &by_text, &by_way, &by_kind];
+    // Settings go with what they stand before, so they are looked at last: they would tear moves apart.
+    let acting = |told: &Blocks<'_, '_>| {
+        let all = told.acts.iter().enumerate().filter(|(_, act)| setting(&act.what).is_none());
+        let (places, keys): (Vec<usize>, Vec<Key>) = all.map(|(at, _)| (at, by_place(told, at))).unzip();
+        (places, keys)
+    };
+    let ((here, old), (there, new)) = (acting(ours), acting(theirs));
+    let mut met = Vec::new();
+    for op in capture_diff_slices(Algorithm::Myers, &old, &new) {
+        if let DiffOp::Equal { old_index, new_index, len } = op {
+            met.extend((0..len).map(|at| (here[old_index + at], there[new_index + at])));
+        }
+    }
+    let (mut pairs, mut from) = (Vec::new(), (0, 0));
+    for (i, j) in
+        met.into_iter().map(Some).chain([None]).map(|met| met.unwrap_or((ours.acts.len(), theirs.acts.len())))
+    {
+        pair([ours, theirs], [from.0..i, from.1..j], &all, &mut pairs);
+        if i < ours.acts.len() && j < theirs.acts.len() {
+            pairs.push((i, j));
+        }
+        from = (i + 1, j + 1);
+    }
     pairs
 }
 
 /// Pairs what has the same key of the first kind, and what lies between by the kinds after it.
 fn pair(
-    [ours, theirs]: [&Told<'_, '_>; 2],
+    [ours, theirs]: [&Blocks<'_, '_>; 2],
     [here, there]: [Range<usize>; 2],
-    keys: &[&dyn Fn(&Told<'_, '_>, usize) -> Key],
+    keys: &[&dyn Fn(&Blocks<'_, '_>, usize) -> Key],
     pairs: &mut Vec<(usize, usize)>,
 ) {
     let Some((key, rest)) = keys.split_first() else { return };

@@ -4,7 +4,7 @@
 //! difference the walk goes on at the next pair of an alignment of both runs: what stands before that on one side was
 //! added or taken out, and what is paired there was changed.
 
-use super::aligned::{Told, aligned};
+use super::aligned::{Blocks, aligned};
 use super::exit_state::left_differs;
 use super::kinds::is_cut;
 use super::loose::{Found, farthest};
@@ -14,7 +14,7 @@ use super::paths::{apart, ends};
 use super::tolerance::Tolerance;
 use super::variables::all_variables;
 use crate::control::Run;
-use crate::control::trace::{Event, EventKind};
+use crate::control::trace::{Event, EventKind, Spindle, Told};
 use crate::verify::sides::{Side, SymbolMap};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -28,6 +28,8 @@ pub struct Apart<'r> {
     pub target: Option<(&'r Event, Cow<'r, EventKind>)>,
     /// What differs, in words.
     pub what: String,
+    /// True for what was found in force at the start, and counts only where something else needs it.
+    found: bool,
 }
 
 /// The differences of two runs, at the most so many, and what differs at their ends. With `strict`, what lies apart by
@@ -54,8 +56,8 @@ pub fn differences<'r>(
         acts.iter().map(|act| block(side, run, act.event)).collect::<Vec<_>>()
     };
     let met = aligned(
-        &Told { acts: &ours, blocks: told(source, &ours) },
-        &Told { acts: &theirs, blocks: told(target, &theirs) },
+        &Blocks { acts: &ours, blocks: told(source, &ours) },
+        &Blocks { acts: &theirs, blocks: told(target, &theirs) },
         tolerance.rounded,
     );
     let mut pairs = Pairs::new(source.0, target.0, tolerance);
@@ -69,8 +71,8 @@ pub fn differences<'r>(
         let next = met.partition_point(|(p, q)| *p < i || *q < j);
         let (p, q) = met.get(next).copied().unwrap_or((ours.len(), theirs.len()));
         if let (true, Some(a), Some(b)) = ((p, q) == (i, j), ours.get(i), theirs.get(j)) {
-            if out.is_empty() || !starts_elsewhere(a, b, tolerance.rounded) {
-                out.push(Apart { source: seen(a), target: seen(b), what: difference.what });
+            if out.is_empty() || !(starts_elsewhere(a, b, tolerance.rounded) || both_stand(a, b)) {
+                out.push(Apart { source: seen(a), target: seen(b), what: difference.what, found: false });
             }
             pairs.moved(0, a);
             pairs.moved(1, b);
@@ -78,11 +80,16 @@ pub fn differences<'r>(
             continue;
         }
         for act in ours.get(i..p).unwrap_or_default() {
-            out.push(Apart { source: seen(act), target: None, what: "taken out".into() });
+            out.push(Apart {
+                source: seen(act),
+                target: None,
+                what: "taken out".into(),
+                found: was_found(act),
+            });
             pairs.moved(0, act);
         }
         for act in theirs.get(j..q).unwrap_or_default() {
-            out.push(Apart { source: None, target: seen(act), what: "added".into() });
+            out.push(Apart { source: None, target: seen(act), what: "added".into(), found: was_found(act) });
             pairs.moved(1, act);
         }
         // A side that has nothing left goes no farther.
@@ -90,6 +97,9 @@ pub fn differences<'r>(
             break;
         }
         (i, j) = (p, q);
+    }
+    if out.iter().any(|apart| !apart.found) {
+        out.retain(|apart| !apart.found);
     }
     if cut {
         return (out, Vec::new());
@@ -99,6 +109,10 @@ pub fn differences<'r>(
     let left = left_differs(source, target, tolerance, &mut BTreeSet::new());
     let at_end = end.into_iter().chain(variables).chain(left).collect();
     (out, at_end)
+}
+
+fn was_found(act: &Act<'_>) -> bool {
+    act.told == Told::Found
 }
 
 fn seen<'r>(act: &Act<'r>) -> Option<(&'r Event, Cow<'r, EventKind>)> {
@@ -114,6 +128,11 @@ pub fn block(side: &Side<'_>, run: &Run, event: &Event) -> String {
     let rest =
         text.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
     rest.map_or(text.clone(), str::to_owned)
+}
+
+/// True for two spindles that stand: what they turned by before was told where they turned.
+fn both_stand(a: &Act<'_>, b: &Act<'_>) -> bool {
+    [a, b].iter().all(|act| matches!(*act.what, EventKind::Spindle { direction: Spindle::Stopped, .. }))
 }
 
 /// True for two rapid moves to one place, of which only the starts differ: what was told before put the tool there.
