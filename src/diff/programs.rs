@@ -76,6 +76,12 @@ impl<'c> Changes<'c> {
         changes
     }
 
+    /// True where both programs rest on the same facts in the same blocks, but for the names of variables.
+    fn share(&self, [old, new]: &[BTreeSet<(String, String)>; 2]) -> bool {
+        let named = |(fact, block): &(String, String)| (fact.clone(), with_new_names(block, &self.renamed));
+        old.iter().map(named).collect::<BTreeSet<_>>() == *new
+    }
+
     fn old(&self, program: ProgramRef) -> &'c [Normal] {
         self.texts[0].get(&program).map_or(&[], Vec::as_slice)
     }
@@ -113,6 +119,22 @@ impl<'c> Changes<'c> {
     pub fn untouched(&self) -> usize {
         self.pairs.iter().filter(|(old, _)| !self.touched.contains(old)).count()
     }
+}
+
+/// The text of a block with the new names of variables.
+fn with_new_names(block: &str, renamed: &[Renamed]) -> String {
+    let (mut out, mut rest) = (String::new(), block);
+    while let Some(sign) = rest.chars().next() {
+        let ends = |rest: &str| !rest.starts_with(|sign: char| sign.is_ascii_digit());
+        let here = renamed.iter().find(|one| rest.strip_prefix(one.old.as_str()).is_some_and(ends));
+        let (text, length) = match here {
+            Some(one) => (one.new.as_str(), one.old.len()),
+            None => (&rest[..sign.len_utf8()], sign.len_utf8()),
+        };
+        out += text;
+        rest = &rest[length..];
+    }
+    out
 }
 
 /// Programs of which a file had one that is gone, and has one that is new: the same one under another number.
@@ -231,7 +253,7 @@ fn changed(
 ) -> ProgramDiff {
     let mut out = paired(job, (old, new));
     // What no manual confirms of a machine holds for both programs alike, where it mattered in the same blocks of both.
-    let shared = changes.one_machine && certificate.doubts[0] == certificate.doubts[1];
+    let shared = changes.one_machine && changes.share(&certificate.doubts);
     let reasons = certificate.reasons.iter().filter(|reason| !shared || reason.why != Why::Unconfirmed);
     let reasons: Vec<&Reason> = reasons.collect();
     out.verdict = match certificate.outcome {

@@ -59,6 +59,9 @@ fn of_block(old: Option<&Normal>, new: Option<&Normal>, renamed: &[Renamed]) -> 
         if block.calls { Some("call") } else { block.jumps.then_some("jump") }
     };
     let lines = [old.map(|block| block.line), new.map(|block| block.line)];
+    if let Some(text) = old.zip(new).and_then(|(old, new)| label(&old.text, &new.text)) {
+        return Some(note("label", text.into(), lines));
+    }
     let (a, b) = (old.filter(|block| kind(block).is_some()), new.filter(|block| kind(block).is_some()));
     let (about, text) = match (a, b) {
         (Some(a), Some(b)) if only_names(a, b, renamed) => return None,
@@ -73,6 +76,18 @@ fn of_block(old: Option<&Normal>, new: Option<&Normal>, renamed: &[Renamed]) -> 
         (None, None) => return None,
     };
     Some(note(about, text, lines))
+}
+
+/// What is to be said of a block of which only its label is another.
+fn label(old: &str, new: &str) -> Option<&'static str> {
+    fn rest(text: &str) -> Option<&str> {
+        Some(text.strip_prefix('@')?.split_once(' ')?.1)
+    }
+    match (rest(old), rest(new)) {
+        (Some(rest), None) if rest == new => Some("no jump or call comes here any more"),
+        (None, Some(rest)) if rest == old => Some("a jump or call comes here now"),
+        _ => None,
+    }
 }
 
 /// True for blocks that differ by the names of renamed variables alone.
