@@ -1,6 +1,6 @@
 //! `macroglot diff`: what changed for the machine.
 
-use super::{Run, Shop, repository};
+use super::{Run, Shop};
 use serde_json::Value;
 
 /// Moves whose places are worked out by hand below.
@@ -223,18 +223,17 @@ fn programs_that_are_new_gone_or_numbered_anew() {
 
 #[test]
 fn a_conversion_is_the_same_as_its_source() {
-    let source = repository("corpus/fanuc/o9500-sum-goto.nc");
-    let shop = Shop::empty();
-    let run = shop.run(&format!("convert {source} --from fanuc --to haas --out out --quiet"));
+    let shop = Shop::with(&[("a.nc", super::CLEAN)]);
+    let run = shop.run("convert a.nc --from fanuc --to haas --out out --quiet");
     assert_eq!(run.code, 0, "{}", run.err);
-    let run = shop.run(&format!("diff {source} out/o9500-sum-goto.nc --from fanuc --to haas --motion"));
+    let run = shop.run("diff a.nc out/a.nc --from fanuc --to haas --motion");
     assert_eq!(run.code, 0, "{}", run.out);
     assert!(run.out.starts_with("No effect on the machine.\n"), "{}", run.out);
-    let written = shop.read("out/o9500-sum-goto.nc");
-    assert!(written.contains(" LE "), "{written}");
-    shop.write("out/o9500-sum-goto.nc", written.replace(" LE ", " LT ").as_bytes());
-    let run = shop.run(&format!("diff {source} out/o9500-sum-goto.nc --from fanuc --to haas --motion"));
-    assert_eq!(run.code, 1, "{}", run.out);
+    let written = shop.read("out/a.nc");
+    assert!(written.contains("X2."), "{written}");
+    shop.write("out/a.nc", written.replace("X2.", "X2.5").as_bytes());
+    let run = shop.run("diff a.nc out/a.nc --from fanuc --to haas --motion");
+    assert!(run.code == 1 && run.out.contains("X 2.0000 -> 2.5000 (+0.5000)"), "{}", run.out);
 }
 
 #[test]
