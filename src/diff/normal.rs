@@ -48,13 +48,11 @@ impl Named {
     pub fn read(&mut self, blocks: &[Block]) {
         for block in blocks {
             for_each_item(&block.items, &mut |item| match &item.kind {
-                ItemKind::Word(word) if matches!(word.letter, 'P' | 'Q') => match &word.value {
-                    Some(value) => match whole(value) {
-                        Some(number) => drop(self.numbers.insert(number)),
-                        None => self.any |= !is_literal(value),
-                    },
-                    None => {}
-                },
+                ItemKind::Word(word) if matches!(word.letter, 'P' | 'Q') => {
+                    let value = word.value.as_ref();
+                    self.numbers.extend(value.and_then(whole));
+                    self.any |= value.is_some_and(|value| !is_literal(value));
+                }
                 ItemKind::Goto(Target::Computed(_))
                 | ItemKind::Branch { target: Target::Computed(_), .. }
                 | ItemKind::Unparsed => self.any = true,
@@ -73,6 +71,9 @@ impl Named {
         self.any || self.numbers.contains(&number)
     }
 }
+
+/// The digits that any control reads of a number.
+const SURE_DIGITS: usize = 8;
 
 /// The blocks of a program; those that say nothing are left out.
 pub fn normal(
@@ -99,7 +100,9 @@ pub fn normal(
         };
         (normal.calls, normal.open) = calls(block, control);
         spell(&mut normal, block, source, &labels, named);
-        let is_comment = normal.text.is_empty();
+        let is_comment = block.items.iter().all(|item| {
+            matches!(item.kind, ItemKind::Comment(_) | ItemKind::Sequence { .. } | ItemKind::EndOfBlock)
+        });
         if shows || (shown_before && is_comment) {
             for token in block.tokens.iter().filter(|token| token.kind == TokenKind::Comment) {
                 normal.known += &decode(token.span.of(source));
@@ -116,7 +119,7 @@ pub fn normal(
 fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named: &Named) {
     let variables = variables(&block.items);
     let mut head = block.items.iter().filter_map(|item| match item.kind {
-        ItemKind::Sequence { number, .. } => Some((number, item.span)),
+        ItemKind::Sequence { number, inserted: false } => Some((number, item.span)),
         _ => None,
     });
     let sequence = head.next();
@@ -154,16 +157,21 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
             || was_word
             || (token.kind == TokenKind::Variable && is_name(last) && !same_variable);
         was_word = is_word;
-        let (mut plain, mut known) = match token.kind {
-            TokenKind::Number => (number(&raw), if letter == "P" { raw.to_string() } else { number(&raw) }),
-            TokenKind::Text => (raw.to_string(), raw.to_string()),
-            _ => (raw.to_uppercase(), raw.to_uppercase()),
+        let mut plain = match token.kind {
+            TokenKind::Number => number(&raw),
+            TokenKind::Text => raw.to_string(),
+            _ => raw.to_uppercase(),
+        };
+        let mut known = match token.kind {
+            // Many digits may be too many, and those of a call may be a number and a count.
+            TokenKind::Number if letter == "P" || raw.len() > SURE_DIGITS => raw.to_string(),
+            TokenKind::Text | TokenKind::Other | TokenKind::Mark => raw.to_string(),
+            _ => plain.clone(),
         };
         if let Some(name) = labels.places.iter().find(|(span, _)| within(*span)).map(|(_, name)| *name)
             && token.kind == TokenKind::Number
         {
             plain = format!("@{name}");
-            // A number that something else may name too stays what it is.
             known = plain.clone();
         }
         if token.kind == TokenKind::Letter {
@@ -171,7 +179,8 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
         }
         let before = if gap { " " } else { "" };
         out.text += &format!("{before}{plain}");
-        out.known += &format!("{before}{known}");
+        // Blanks and comments may part what would be one thing without them.
+        out.known += &format!("{known} ");
         match variables.iter().find(|(span, _)| within(*span)) {
             Some((span, _)) if *span == done => {}
             Some((span, name)) => {

@@ -45,7 +45,11 @@ impl<'c> Changes<'c> {
         let (mut pairs, mut gone) = (Vec::new(), Vec::new());
         let mut taken: BTreeSet<ProgramRef> = BTreeSet::new();
         for program in source.programs() {
-            match names.counterpart(source, *program, target).filter(|there| taken.insert(*there)) {
+            let there = names.counterpart(source, *program, target).filter(|there| !taken.contains(there));
+            // Of several with one number each has its own place.
+            let there = there
+                .or_else(|| at_its_place((source, *program), target).filter(|there| !taken.contains(there)));
+            match there.filter(|there| taken.insert(*there)) {
                 Some(there) => pairs.push((*program, there)),
                 None => gone.push(*program),
             }
@@ -119,6 +123,14 @@ impl<'c> Changes<'c> {
     pub fn untouched(&self) -> usize {
         self.pairs.iter().filter(|(old, _)| !self.touched.contains(old)).count()
     }
+}
+
+/// The program of the same name that stands at the same place of the file of the same name.
+fn at_its_place((source, program): (&Side<'_>, ProgramRef), target: &Side<'_>) -> Option<ProgramRef> {
+    let file = source.files.get(program.file)?.name;
+    let there = ProgramRef { file: target.files.iter().position(|other| other.name == file)?, ..program };
+    let is_there = target.programs().contains(&there) && source.name(program) == target.name(there);
+    is_there.then_some(there)
 }
 
 /// The text of a block with the new names of variables.

@@ -321,3 +321,54 @@ fn the_arguments_of_git() {
     let gone = "programs/a.nc old.nc 0123abc 100644 /dev/null . .";
     assert!(shop.run(&format!("diff --from fanuc {gone}")).out.contains("the program is gone"));
 }
+
+/// Changes that look like another spelling, and that a control may read otherwise: none may pass without a run.
+#[test]
+fn what_only_looks_like_another_spelling() {
+    let text = "O1\nG21 G17 G90 G40 G80 G94\nN100 #1=1\n#3006=1(TURN)\nM0(DONE)\n/G4 P100\nG1 X1 0 F100\nM98 P2\nGOTO 90\nN90 \
+                GOTO#1\nN1 M30\n";
+    let sub = "O2\nG0 Z1.\nM99 P100\n";
+    let changes = [
+        ("N100", "N200"),
+        ("N1 M30", "N2 M30"),
+        ("(TURN)", "(STOP)"),
+        ("(DONE)", "(GONE)"),
+        ("/G4", "G4"),
+        ("/G4", "/2G4"),
+        ("X1 0", "X1"),
+        ("X1 0", "X1. 0"),
+        ("N90 ", "N91 "),
+        ("P100", "P100."),
+        ("M98 P2", "M98 P0002"),
+        ("#1=1", "#1=-1"),
+        ("#1=1", "#01=000000001"),
+    ];
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        let new = text.replacen(from, to, 1);
+        let shop =
+            Shop::with(&[("a/main.nc", text), ("a/sub.nc", sub), ("b/main.nc", &new), ("b/sub.nc", sub)]);
+        let run = shop.run("diff a b --from fanuc --motion --program-seconds 2");
+        assert!(run.code < 2, "{from} to {to}: {}", run.err);
+        assert!(!run.out.contains("control reads"), "{from} to {to}: {}", run.out);
+        assert!(run.out.contains("O0001"), "{from} to {to}: {}", run.out);
+    }
+}
+
+/// Two programs of one number: each has its place.
+#[test]
+fn programs_of_one_number() {
+    let twice = "O1\nG21\nM30\nO1\nG20\nM30\n";
+    let shop = Shop::with(&[("a/x.nc", twice), ("a/y.nc", OTHER), ("b/x.nc", twice), ("b/y.nc", OTHER)]);
+    assert_eq!(shop.run("diff a b --from fanuc").out, "Nothing changed.\n");
+}
+
+/// Variables that a computed number reaches are no longer the same under another name.
+#[test]
+fn a_name_that_a_computed_number_reaches() {
+    let text = "O1\nG21 G17 G90 G40 G80 G94\n#101=5.\n#1=101\nG1 X#[#1] F100\nM30\n";
+    let shop = Shop::with(&[("old.nc", text), ("new.nc", &text.replace("#101=", "#102="))]);
+    let run = shop.run("diff old.nc new.nc --from fanuc --motion");
+    assert_eq!(run.code, 1, "{}", run.out);
+    assert!(run.out.contains("taken out: feed move to X 5.000"), "{}", run.out);
+}

@@ -157,10 +157,10 @@ impl Unit {
     fn others(&self, a: &EventKind, b: &EventKind) -> Vec<String> {
         use EventKind::*;
         let mut out = Vec::new();
-        if let (Some((feed, mode)), Some((other, other_mode))) = (feed_of(a), feed_of(b)) {
-            if (feed - other).abs() > 1e-4 * feed.abs() || mode != other_mode {
-                out.push(format!("feed {} -> {}", self.feed(feed, mode), self.feed(other, other_mode)));
-            }
+        if let (Some((feed, mode)), Some((other, other_mode))) = (feed_of(a), feed_of(b))
+            && ((feed - other).abs() > 1e-4 * feed.abs() || mode != other_mode)
+        {
+            out.push(format!("feed {} -> {}", self.feed(feed, mode), self.feed(other, other_mode)));
         }
         match (a, b) {
             (Arc { centre, sweep, radius, .. }, Arc { centre: there, sweep: other, radius: r2, .. }) => {
@@ -241,8 +241,7 @@ impl Unit {
             }
             Message { text } | Output { text } => format!("'{text}'"),
             Alarm(stop) => {
-                let number =
-                    stop.program_number.map(|own| number(own)).unwrap_or_else(|| stop.number.clone());
+                let number = stop.program_number.map(number).unwrap_or_else(|| stop.number.clone());
                 format!("{number} {}", stop.text).trim().to_owned()
             }
             Asked { answer } => number(*answer),

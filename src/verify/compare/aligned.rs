@@ -16,6 +16,9 @@ use std::ops::Range;
 /// What is looked at of an act: more, and then less.
 type Key = (std::mem::Discriminant<EventKind>, Vec<i64>, String);
 
+/// Says what is looked at of the act at a place.
+type KeyOf<'k> = dyn Fn(&Blocks<'_, '_>, usize) -> Key + 'k;
+
 /// The acts of a side, with the text of the block of each.
 pub struct Blocks<'t, 'r> {
     /// The acts.
@@ -35,7 +38,7 @@ pub fn aligned(ours: &Blocks<'_, '_>, theirs: &Blocks<'_, '_>, allowed: f64) -> 
     let by_way = |told: &Blocks<'_, '_>, at: usize| key(&told.acts[at], grid, true);
     let by_kind =
         |told: &Blocks<'_, '_>, at: usize| (discriminant(&*told.acts[at].what), Vec::new(), String::new());
-    let all: [&dyn Fn(&Blocks<'_, '_>, usize) -> Key; 4] = [&by_place, &by_text, &by_way, &by_kind];
+    let all: [&KeyOf<'_>; 4] = [&by_place, &by_text, &by_way, &by_kind];
     // Settings go with what they stand before, so they are looked at last: they would tear moves apart.
     let acting = |told: &Blocks<'_, '_>| {
         let all = told.acts.iter().enumerate().filter(|(_, act)| setting(&act.what).is_none());
@@ -66,7 +69,7 @@ pub fn aligned(ours: &Blocks<'_, '_>, theirs: &Blocks<'_, '_>, allowed: f64) -> 
 fn pair(
     [ours, theirs]: [&Blocks<'_, '_>; 2],
     [here, there]: [Range<usize>; 2],
-    keys: &[&dyn Fn(&Blocks<'_, '_>, usize) -> Key],
+    keys: &[&KeyOf<'_>],
     pairs: &mut Vec<(usize, usize)>,
 ) {
     let Some((key, rest)) = keys.split_first() else { return };
