@@ -25,6 +25,10 @@ pub struct Normal {
     pub known: String,
     /// The first text with a mark for each variable.
     pub bare: String,
+    /// The second text with a mark for each variable.
+    pub shape: String,
+    /// True where the number of a variable is computed.
+    pub computes: bool,
     /// The variables of the block, in their order.
     pub variables: Vec<String>,
     /// True where it may go on elsewhere than in the next block.
@@ -93,6 +97,8 @@ pub fn normal(
             text: String::new(),
             known: String::new(),
             bare: String::new(),
+            shape: String::new(),
+            computes: computes(block),
             variables: Vec::new(),
             jumps: jumps(block),
             calls: false,
@@ -105,7 +111,8 @@ pub fn normal(
         });
         if shows || (shown_before && is_comment) {
             for token in block.tokens.iter().filter(|token| token.kind == TokenKind::Comment) {
-                normal.known += &decode(token.span.of(source));
+                let comment = decode(token.span.of(source));
+                [&mut normal.known, &mut normal.shape].into_iter().for_each(|text| *text += &comment);
             }
         }
         if !normal.text.is_empty() || !normal.known.is_empty() {
@@ -132,6 +139,7 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
             out.known += &format!("={number} ");
         }
         out.bare = out.text.clone();
+        out.shape = out.known.clone();
     }
     let unread = block.items.iter().any(|item| matches!(item.kind, ItemKind::Unparsed));
     let (mut last, mut done) = (TokenKind::Space, Span::default());
@@ -146,7 +154,8 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
         // A variable may be several tokens.
         let same_variable = done != Span::default() && within(done);
         if unread {
-            [&mut out.text, &mut out.known, &mut out.bare].into_iter().for_each(|text| *text += &raw);
+            let all = [&mut out.text, &mut out.known, &mut out.bare, &mut out.shape];
+            all.into_iter().for_each(|text| *text += &raw);
             continue;
         }
         let is_name = |kind: TokenKind| matches!(kind, TokenKind::Number | TokenKind::Variable);
@@ -186,9 +195,13 @@ fn spell(out: &mut Normal, block: &Block, source: &[u8], labels: &Labels, named:
             Some((span, name)) => {
                 done = *span;
                 out.bare += &format!("{before}?");
+                out.shape += "? ";
                 out.variables.push(name.clone());
             }
-            None => out.bare += &format!("{before}{plain}"),
+            None => {
+                out.bare += &format!("{before}{plain}");
+                out.shape += &format!("{known} ");
+            }
         }
         last = token.kind;
     }
@@ -301,6 +314,29 @@ fn calls(block: &Block, control: &Control) -> (bool, bool) {
     let code = code_of(block, control).filter(|row| !matches!(row.op, Op::Return | Op::SubEnd));
     let literal = words.iter().any(|(letter, number)| *letter == 'P' && number.is_some());
     (code.is_some() || by_alias || start, by_alias || start || (code.is_some() && !literal))
+}
+
+/// True where the number of a variable is computed.
+fn computes(block: &Block) -> bool {
+    let mut found = false;
+    let computed = |variable: &VarRef| matches!(variable.index, Index::Computed(_));
+    for_each_item(&block.items, &mut |item| match &item.kind {
+        ItemKind::Assign { target, .. } | ItemKind::Step { target, .. } | ItemKind::Timer(target) => {
+            found |= computed(target);
+        }
+        ItemKind::Clear(ranges) => found |= ranges.iter().any(|(_, to)| to.is_some()),
+        ItemKind::Transfer { .. }
+        | ItemKind::Input { .. }
+        | ItemKind::Test(_)
+        | ItemKind::SetNames { .. } => {
+            found = true;
+        }
+        _ => {}
+    });
+    for_each_expr(&block.items, &mut |e| {
+        found |= matches!(&e.kind, ExprKind::Variable(variable) if computed(variable));
+    });
+    found
 }
 
 fn jumps(block: &Block) -> bool {

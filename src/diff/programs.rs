@@ -29,6 +29,8 @@ pub struct Changes<'c> {
     renumbered: BTreeSet<ProgramRef>,
     /// Old programs that something changed for, in them or in what they call.
     touched: BTreeSet<ProgramRef>,
+    /// Those of them that differ by the names of variables alone, with all that they call.
+    only_names: BTreeSet<ProgramRef>,
     /// Variables under other names.
     pub renamed: Vec<Renamed>,
 }
@@ -74,16 +76,12 @@ impl<'c> Changes<'c> {
             added,
             renumbered,
             touched: BTreeSet::new(),
+            only_names: BTreeSet::new(),
             renamed,
         };
         changes.touched = changes.touched_in(source, target);
+        changes.only_names = changes.only_names_in(source);
         changes
-    }
-
-    /// True where both programs rest on the same facts in the same blocks, but for the names of variables.
-    fn share(&self, [old, new]: &[BTreeSet<(String, String)>; 2]) -> bool {
-        let named = |(fact, block): &(String, String)| (fact.clone(), with_new_names(block, &self.renamed));
-        old.iter().map(named).collect::<BTreeSet<_>>() == *new
     }
 
     fn old(&self, program: ProgramRef) -> &'c [Normal] {
@@ -119,6 +117,35 @@ impl<'c> Changes<'c> {
         self.pairs.iter().filter(|pair| is_touched(pair)).map(|(old, _)| *old).collect()
     }
 
+    /// The old programs that differ by names alone. A number that is computed may reach a name.
+    fn only_names_in(&self, source: &Side<'_>) -> BTreeSet<ProgramRef> {
+        let of_name = |old: &String, new: &String| {
+            old == new || self.renamed.iter().any(|one| one.old == *old && one.new == *new)
+        };
+        let same_block = |a: &Normal, b: &Normal| {
+            let names = a.variables.len() == b.variables.len();
+            let names = names && a.variables.iter().zip(&b.variables).all(|(old, new)| of_name(old, new));
+            a.shape == b.shape && names && !a.computes && !b.computes
+        };
+        let same: BTreeSet<ProgramRef> = self
+            .pairs
+            .iter()
+            .filter(|(old, new)| {
+                let (ours, theirs) = (self.old(*old), self.new_text(*new));
+                self.one_machine
+                    && ours.len() == theirs.len()
+                    && ours.iter().zip(theirs).all(|(a, b)| same_block(a, b))
+            })
+            .map(|(old, _)| *old)
+            .collect();
+        let all = |program: &ProgramRef| {
+            let reached = source.reached(*program);
+            let open = reached.iter().any(|program| self.old(*program).iter().any(|block| block.open));
+            !open && reached.iter().all(|program| same.contains(program))
+        };
+        self.touched.iter().copied().filter(all).collect()
+    }
+
     /// How many programs nothing changed for.
     pub fn untouched(&self) -> usize {
         self.pairs.iter().filter(|(old, _)| !self.touched.contains(old)).count()
@@ -131,22 +158,6 @@ fn at_its_place((source, program): (&Side<'_>, ProgramRef), target: &Side<'_>) -
     let there = ProgramRef { file: target.files.iter().position(|other| other.name == file)?, ..program };
     let is_there = target.programs().contains(&there) && source.name(program) == target.name(there);
     is_there.then_some(there)
-}
-
-/// The text of a block with the new names of variables.
-fn with_new_names(block: &str, renamed: &[Renamed]) -> String {
-    let (mut out, mut rest) = (String::new(), block);
-    while let Some(sign) = rest.chars().next() {
-        let ends = |rest: &str| !rest.starts_with(|sign: char| sign.is_ascii_digit());
-        let here = renamed.iter().find(|one| rest.strip_prefix(one.old.as_str()).is_some_and(ends));
-        let (text, length) = match here {
-            Some(one) => (one.new.as_str(), one.old.len()),
-            None => (&rest[..sign.len_utf8()], sign.len_utf8()),
-        };
-        out += text;
-        rest = &rest[length..];
-    }
-    out
 }
 
 /// Programs of which a file had one that is gone, and has one that is new: the same one under another number.
@@ -264,8 +275,8 @@ fn changed(
     most: usize,
 ) -> ProgramDiff {
     let mut out = paired(job, (old, new));
-    // What no manual confirms of a machine holds for both programs alike, where it mattered in the same blocks of both.
-    let shared = changes.one_machine && changes.share(&certificate.doubts);
+    // Of two programs that differ by names alone each fact that no manual confirms is the same.
+    let shared = changes.only_names.contains(&old);
     let reasons = certificate.reasons.iter().filter(|reason| !shared || reason.why != Why::Unconfirmed);
     let reasons: Vec<&Reason> = reasons.collect();
     out.verdict = match certificate.outcome {

@@ -68,9 +68,6 @@ pub struct ProgramCertificate {
     /// The programs that its runs came through.
     #[serde(skip)]
     pub entered: BTreeSet<ProgramRef>,
-    /// Of the source and of the target: the unconfirmed facts that mattered, each with the text of a block where it did.
-    #[serde(skip)]
-    pub doubts: [BTreeSet<(String, String)>; 2],
 }
 
 /// Something that the conversion supposes of the program.

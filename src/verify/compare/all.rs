@@ -120,7 +120,7 @@ fn seen<'r>(act: &Act<'r>) -> Option<(&'r Event, Cow<'r, EventKind>)> {
 }
 
 /// The text of an event's block, without its sequence number and blanks.
-pub fn block(side: &Side<'_>, run: &Run, event: &Event) -> String {
+fn block(side: &Side<'_>, run: &Run, event: &Event) -> String {
     let file = run.programs.get(event.at.program as usize).map(|program| program.file);
     let source = file.and_then(|file| side.source(file)).unwrap_or_default();
     let text = String::from_utf8_lossy(event.at.span.of(source));

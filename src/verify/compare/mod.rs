@@ -20,7 +20,7 @@ mod texts;
 mod tolerance;
 mod variables;
 
-pub use all::{Apart, block, differences};
+pub use all::{Apart, differences};
 #[cfg(test)]
 pub use exit_state::seen_differs;
 pub use found::Difference;

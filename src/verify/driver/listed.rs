@@ -10,7 +10,7 @@ use crate::control::scenario::Scenario;
 use crate::control::trace::{Event, EventKind};
 use crate::control::{ProgramRef, Run};
 use crate::verify::certificate::{Change, Listing, Moment, Seen, Witness};
-use crate::verify::compare::{Apart, compare, differences};
+use crate::verify::compare::{Apart, compare, differences, is_cut};
 use crate::verify::explore::{Proposals, inputs_of_both, unit};
 use crate::verify::sides::{Job, Side};
 use std::collections::{BTreeMap, HashMap};
@@ -89,20 +89,32 @@ impl Verifier<'_, '_> {
         let mut differs = false;
         for plain in [true, false] {
             let circumstances = if plain { without_sizes(scenario) } else { scenario.clone() };
-            differs |= self.list_one(&circumstances, there, places, plain);
+            let (apart, cut) = self.list_one(&circumstances, there, places, plain);
+            differs |= apart;
+            // What comes to no end takes long, and shows the same from another place.
+            if apart && cut {
+                break;
+            }
         }
         places.listing.differing += usize::from(differs);
     }
 
-    /// True where the two differ.
-    fn list_one(&mut self, scenario: &Scenario, there: ProgramRef, places: &mut Places, plain: bool) -> bool {
+    /// Whether the two differ, and whether one came to no end.
+    fn list_one(
+        &mut self,
+        scenario: &Scenario,
+        there: ProgramRef,
+        places: &mut Places,
+        plain: bool,
+    ) -> (bool, bool) {
         let Job { source, target, names, .. } = *self.job;
         let run = self.run_source(scenario);
         let circumstances = self.circumstances(scenario, &run);
         let other = target.run(there, &circumstances);
         self.steps += run.steps;
         let pair = Pair { scenario, run: &run, there, circumstances: &circumstances, other: &other };
-        let Err(Some(first)) = self.fault(&pair) else { return false };
+        let cut = is_cut(&run) || is_cut(&other);
+        let Err(Some(first)) = self.fault(&pair) else { return (false, cut) };
         let strict = compare((source, &run), (target, &other), names, self.tolerance).difference.is_none();
         let most = places.most.saturating_mul(OF_A_RUN);
         let (all, at_end) =
@@ -120,7 +132,7 @@ impl Verifier<'_, '_> {
             let of = text.split(' ').next().unwrap_or_default().to_owned();
             places.at_end.entry(of).or_insert(text);
         }
-        true
+        (true, cut)
     }
 }
 

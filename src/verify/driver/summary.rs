@@ -83,7 +83,6 @@ impl Verifier<'_, '_> {
             witness: self.witness,
             started: self.started,
             entered: self.entered,
-            doubts: self.doubts,
             assumptions,
         }
     }

@@ -4,7 +4,7 @@ use super::verifier::{Pair, Verifier};
 use crate::control::trace::EventKind;
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::certificate::{Moment, Why, unconfirmed};
-use crate::verify::compare::{Difference, block, compare, is_cut, writes_elsewhere};
+use crate::verify::compare::{Difference, compare, is_cut, writes_elsewhere};
 use crate::verify::sides::Job;
 use crate::verify::triage::{ROUNDS, excuse, facts, tried};
 
@@ -29,8 +29,6 @@ impl Verifier<'_, '_> {
             }
             for event in &library_run.events {
                 if let EventKind::Unsure { fact } = &event.what {
-                    let text = block(library, library_run, event);
-                    self.doubts[usize::from(side == "target")].insert((fact.clone(), text));
                     let is_new = !assumed.contains(fact.as_str());
                     let kept = self.unconfirmed.entry(fact.clone()).or_default();
                     if is_new && kept.is_none() {

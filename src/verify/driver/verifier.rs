@@ -43,8 +43,6 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; with where they did, those that nobody reported.
     pub(super) unconfirmed: BTreeMap<String, Option<String>>,
-    /// Of the source and of the target: the unconfirmed facts that mattered, each with the text of a block where it did.
-    pub(super) doubts: [BTreeSet<(String, String)>; 2],
     pub(super) texts: BTreeSet<(String, String)>,
     pub(super) tolerance: Tolerance,
     pub(super) largest: f64,
@@ -91,7 +89,6 @@ impl<'v, 'j> Verifier<'v, 'j> {
             theirs: BTreeMap::new(),
             reasons: BTreeMap::new(),
             unconfirmed: BTreeMap::new(),
-            doubts: Default::default(),
             texts: BTreeSet::new(),
             tolerance: Tolerance::of(job.source, job.target).at_least(job.effort.allowed_mm),
             largest: 0.0,
