@@ -89,6 +89,17 @@ fn a_driver_for_once() {
     assert!(shown.contains("X 20.000 -> 20.500 (+0.500)"), "{shown}");
 }
 
+/// Of a renamed file git says the new name and how alike they are besides.
+#[test]
+fn a_driver_of_a_renamed_file() {
+    let (_room, folder) = repository();
+    let script = "git mv sub.nc called.nc; GIT_EXTERNAL_DIFF='macroglot diff --from fanuc --motion' git diff -M HEAD -- sub.nc \
+                  called.nc";
+    let shown = typed(&folder, script);
+    assert!(shown.contains("O2000 (called.nc): different for the machine"), "{shown}");
+    assert!(shown.contains("X 20.000 -> 20.500 (+0.500)"), "{shown}");
+}
+
 #[test]
 fn a_driver_shows_the_rest_where_a_file_is_no_program() {
     let (_room, folder) = repository();

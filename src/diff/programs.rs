@@ -287,6 +287,11 @@ fn changed(
     };
     if out.verdict == Verdict::Undecided {
         out.why.extend(reasons.iter().take(REASONS).map(|reason| reason.text.clone()));
+        let cannot_run = reasons.iter().any(|reason| reason.why == Why::CannotRun);
+        if cannot_run && job.source.files.len() <= 1 {
+            let advice = "name the folder of the programs that it calls with --library, or compare folders";
+            out.why.push(advice.into());
+        }
     }
     if levels.structure {
         let (ours, theirs) = (changes.old(old), changes.new_text(new));

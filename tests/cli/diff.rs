@@ -372,3 +372,27 @@ fn a_name_that_a_computed_number_reaches() {
     assert_eq!(run.code, 1, "{}", run.out);
     assert!(run.out.contains("taken out: feed move to X 5.000"), "{}", run.out);
 }
+
+/// What a program leaves for the next one differs too.
+#[test]
+fn what_stands_at_the_end() {
+    let text = "O1\nG21 G17 G90 G40 G80 G94\n#500=5.\nM30\n";
+    let shop = Shop::with(&[("old.nc", text), ("new.nc", &text.replace("#500=5.", "#500=6."))]);
+    let run = shop.run("diff old.nc new.nc --from fanuc --motion");
+    assert_eq!(run.code, 1, "{}", run.out);
+    assert!(
+        run.out.contains("~ at the end: #500 is 5 in the old program, #500 is 6 in the new one"),
+        "{}",
+        run.out
+    );
+}
+
+#[test]
+fn a_program_that_is_not_there_is_named() {
+    let shop = Shop::with(&[("old.nc", MAIN), ("new.nc", &MAIN.replace("B5.", "B6."))]);
+    let run = shop.run("diff old.nc new.nc --from fanuc --motion");
+    assert_eq!(run.code, 1, "{}", run.out);
+    for words in ["O9001 is not in the library", "--library"] {
+        assert!(run.out.contains(words), "{}", run.out);
+    }
+}

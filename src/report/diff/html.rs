@@ -1,6 +1,6 @@
 //! A diff as one HTML file that needs nothing beside it.
 
-use super::words::{about, headline, lines, title, verdict, what};
+use super::words::{about, headline, lines, silent, title, told, verdict, what};
 use crate::diff::{Diff, FileDiff, Line, On, ProgramDiff, Text, Verdict};
 use crate::report::html::escaped;
 use std::fmt::Write;
@@ -34,7 +34,10 @@ pub fn diff(diff: &Diff) -> String {
     for note in &diff.notes {
         let _ = writeln!(out, "<p>{}</p>", escaped(note));
     }
-    diff.programs.iter().for_each(|program| of_program(&mut out, program, diff.tolerance_mm));
+    told(diff).for_each(|program| of_program(&mut out, program, diff.tolerance_mm));
+    if let Some(text) = silent(diff) {
+        let _ = writeln!(out, "<p>{text}</p>");
+    }
     diff.files.iter().for_each(|file| of_file(&mut out, file));
     out.push_str("</body>\n</html>\n");
     out

@@ -1,6 +1,6 @@
 //! A diff as Markdown, for a merge request.
 
-use super::words::{about, headline, lines, title, verdict, what};
+use super::words::{about, headline, lines, silent, title, told, verdict, what};
 use crate::diff::{Diff, On, ProgramDiff, Text};
 use crate::report::markdown::escaped;
 use crate::text::shown;
@@ -16,9 +16,12 @@ pub fn diff(diff: &Diff) -> String {
         let _ = writeln!(out, "\n{}", escaped(note));
     }
     let mut left_out = 0;
-    for program in &diff.programs {
+    for program in told(diff) {
         let text = of_program(program, diff.tolerance_mm);
         if out.len() + text.len() > MOST { left_out += 1 } else { out += &text }
+    }
+    if let Some(text) = silent(diff) {
+        let _ = writeln!(out, "\n{text}");
     }
     for file in &diff.files {
         let name = |side: &Option<String>| side.as_deref().map_or("nothing".into(), escaped);

@@ -1,6 +1,6 @@
 //! A diff for a terminal.
 
-use super::words::{about, headline, lines, title, verdict, what};
+use super::words::{about, headline, lines, silent, title, told, verdict, what};
 use crate::diff::{Diff, FileDiff, Line, On, ProgramDiff, Text, Verdict};
 use crate::text::shown;
 use std::fmt::Write;
@@ -38,7 +38,10 @@ pub fn diff(diff: &Diff, colour: Colour) -> String {
         let _ = writeln!(out, "note: {}", shown(note));
     }
     diff.files.iter().for_each(|file| of_file(&mut out, file, colour));
-    diff.programs.iter().for_each(|program| of_program(&mut out, program, diff.tolerance_mm, colour));
+    told(diff).for_each(|program| of_program(&mut out, program, diff.tolerance_mm, colour));
+    if let Some(text) = silent(diff) {
+        let _ = writeln!(out, "\n{text}");
+    }
     out
 }
 

@@ -20,6 +20,24 @@ pub fn headline(diff: &Diff) -> String {
     }
 }
 
+/// The programs of which there is something to be read.
+pub fn told(diff: &Diff) -> impl Iterator<Item = &ProgramDiff> {
+    diff.programs.iter().filter(|program| !is_silent(program))
+}
+
+fn is_silent(program: &ProgramDiff) -> bool {
+    let structure = program.structure.as_ref().is_none_or(Vec::is_empty);
+    program.verdict == Verdict::Same && program.why.is_empty() && structure
+}
+
+/// How many others there are, where others are read of.
+pub fn silent(diff: &Diff) -> Option<String> {
+    let count = diff.programs.iter().filter(|program| is_silent(program)).count();
+    let programs = if count == 1 { "program" } else { "programs" };
+    (count > 0 && diff.verdict != Verdict::Same)
+        .then(|| format!("{count} other {programs}: no effect on the machine"))
+}
+
 /// What a program amounts to.
 pub fn verdict(program: &ProgramDiff) -> &'static str {
     match program.verdict {

@@ -107,7 +107,13 @@ pub fn differences<'r>(
     let end = end_differs(&source.1.end, &target.1.end);
     let variables = all_variables(source, target, names).into_iter().map(|found| found.what);
     let left = left_differs(source, target, tolerance, &mut BTreeSet::new());
-    let at_end = end.into_iter().chain(variables).chain(left).collect();
+    // All of it is said of the end.
+    let all = end.into_iter().chain(variables).chain(left);
+    let at_end = all.map(|what| match what.split_once(" at the end, ") {
+        Some((old, new)) => format!("{old} in the old program, {new} in the new one"),
+        None => what.trim_end_matches(" at the end").to_owned(),
+    });
+    let at_end = at_end.collect();
     (out, at_end)
 }
 
