@@ -4,6 +4,7 @@
 //! and what the machine does, found by running both on their emulated controls. The last decides: [`Verdict`]. A program
 //! in which nothing changed for its control, nor in anything that it may call, is the same without being run.
 
+mod labels;
 mod lines;
 mod normal;
 mod programs;
