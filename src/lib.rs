@@ -8,6 +8,7 @@ pub mod cli;
 pub mod control;
 pub mod diag;
 pub mod dialect;
+pub mod diff;
 pub mod emit;
 pub mod ir;
 pub mod legalize;

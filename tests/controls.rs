@@ -18,7 +18,8 @@ fn controls_share_no_code_with_the_compiler() {
     assert!(files.len() > 20, "the controls were looked through");
     for file in files {
         let text = std::fs::read_to_string(&file).expect("a text");
-        for module in ["lower", "ir", "opt", "legalize", "emit", "verify", "library", "report", "cli"] {
+        for module in ["lower", "ir", "opt", "legalize", "emit", "verify", "library", "diff", "report", "cli"]
+        {
             let import = format!("crate::{module}");
             let used = text.match_indices(&import).any(|(at, found)| {
                 !text[at + found.len()..].starts_with(|next: char| next.is_alphanumeric() || next == '_')

@@ -8,10 +8,12 @@ mod common;
 mod completions;
 mod convert;
 mod dialects;
+mod diff;
 mod explain;
 mod ir;
 mod jobs;
 mod outcome;
+mod pager;
 mod parse;
 mod run;
 mod streams;
@@ -36,6 +38,8 @@ enum Command {
     Parse(parse::Arguments),
     /// Run a program and its conversion on emulated controls and compare what the machines do
     Verify(verify::Arguments),
+    /// Print what changed for the machine between two programs, or two folders of them
+    Diff(diff::Arguments),
     /// Run a program on its emulated control and print what the machine would do
     Run(run::Arguments),
     /// Print the intermediate form of a program
@@ -74,6 +78,7 @@ pub fn main() -> ExitCode {
         Command::Parse(arguments) => parse::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Diff(arguments) => diff::run(&arguments),
         Command::Ir(arguments) => ir::run(&arguments),
         Command::Dialects(arguments) => dialects::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

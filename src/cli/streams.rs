@@ -32,6 +32,16 @@ pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<
     judge(printed)
 }
 
+/// Prints text that macroglot drew, with its colours: nothing of a program in it acts on a terminal.
+///
+/// # Errors
+/// As of [`print`].
+pub fn print_drawn(text: &str) -> Result<(), u8> {
+    be_open()?;
+    let mut out = io::stdout().lock();
+    judge(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
+}
+
 /// Prints what the command line answers by itself: help, or what is wrong with the arguments.
 ///
 /// Yields the exit code.

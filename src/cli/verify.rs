@@ -70,7 +70,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
 }
 
 /// The folder that the target is, or lies in.
-fn folder_of(target: &Path) -> &Path {
+pub(super) fn folder_of(target: &Path) -> &Path {
     if target.is_dir() { target } else { target.parent().unwrap_or(Path::new("")) }
 }
 
@@ -96,7 +96,7 @@ fn tell_changed(home: &Home, theirs: &[Input]) -> Result<(), u8> {
 }
 
 /// What the lock of the target's output folder says.
-fn names(home: &Home, from: &Control, to: &Control) -> Result<SymbolMap, u8> {
+pub(super) fn names(home: &Home, from: &Control, to: &Control) -> Result<SymbolMap, u8> {
     if from.is_same_machine(to) {
         return Ok(SymbolMap::default());
     }

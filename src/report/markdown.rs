@@ -40,7 +40,7 @@ fn item(out: &mut String, finding: &Diagnostic, place: Place<'_>) {
 }
 
 /// Text whose signs Markdown and HTML would read, with each of them taken literally.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for sign in text.chars() {
         match sign {

@@ -64,7 +64,7 @@ fn results(part: &Part<'_>) -> Vec<Value> {
 }
 
 /// A path as a relative reference: what has a meaning there, or none, is written as its bytes.
-fn uri(path: &Path) -> String {
+pub(super) fn uri(path: &Path) -> String {
     let path = path.to_string_lossy().replace(std::path::MAIN_SEPARATOR, "/");
     let mut out = String::with_capacity(path.len());
     for byte in path.bytes() {

@@ -133,7 +133,7 @@ fn axes(from: &Position, to: &Position) -> String {
 }
 
 /// A number to the sixth place, without trailing zeros.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let Some(millionths) = millionths(value) else { return long(value) };
     let sign = if millionths < 0 { "-" } else { "" };
     let (whole, mut rest, mut places) =

@@ -26,8 +26,9 @@ mod tests;
 mod triage;
 
 pub use certificate::{
-    Assumed, Certificate, Identity, Moment, Outcome, ProgramCertificate, Reason, Why, Witness, implicate,
+    Assumed, Certificate, Change, Identity, Listing, Moment, Outcome, ProgramCertificate, Reason, Seen, Why,
+    Witness, implicate,
 };
-pub use driver::{prepare, verify};
+pub use driver::{listed, prepare, verify};
 pub use explore::NotReached;
-pub use sides::{Assumptions, Effort, Job, Side, Spent, SymbolMap, sha256};
+pub use sides::{Assumptions, Effort, Job, Side, Spent, SymbolMap, class_of, name_of, sha256};

@@ -2,7 +2,8 @@
 
 use super::Shop;
 
-const COMMANDS: [&str; 8] = ["convert", "parse", "verify", "run", "ir", "dialects", "explain", "completions"];
+const COMMANDS: [&str; 9] =
+    ["convert", "parse", "verify", "diff", "run", "ir", "dialects", "explain", "completions"];
 
 #[test]
 fn help_texts() {

@@ -3,6 +3,7 @@
 
 mod callees;
 mod commands;
+mod diff;
 #[path = "../support/files.rs"]
 mod files;
 mod help;

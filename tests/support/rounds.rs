@@ -18,6 +18,7 @@ const EFFORT: Effort = Effort {
     seed: 0x6d67_0001,
     program_seconds: 60.0,
     library_seconds: 3600.0,
+    allowed_mm: 0.0,
 };
 
 /// What became of a library on its way to another control and back.

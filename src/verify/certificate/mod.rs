@@ -2,6 +2,7 @@
 
 mod implicate;
 mod library;
+mod listing;
 mod moment;
 mod outcome;
 mod program;
@@ -9,6 +10,7 @@ mod unconfirmed;
 
 pub use implicate::implicate;
 pub use library::{Certificate, Identity};
+pub use listing::{Change, Listing, Seen};
 pub use moment::Moment;
 pub use outcome::{Outcome, Reason, Why};
 pub use program::{Assumed, Edit, ProgramCertificate, Witness};

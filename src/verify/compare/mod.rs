@@ -1,5 +1,7 @@
 //! Whether two runs amount to the same for who watches the machines.
 
+mod aligned;
+mod all;
 mod arcs;
 mod differ;
 mod exit_state;
@@ -18,6 +20,7 @@ mod texts;
 mod tolerance;
 mod variables;
 
+pub use all::{Apart, differences};
 #[cfg(test)]
 pub use exit_state::seen_differs;
 pub use found::Difference;

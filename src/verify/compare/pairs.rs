@@ -7,7 +7,7 @@ use super::found::{Comparison, Difference};
 use super::kinds::{is_cut, setting};
 use super::lengths::{brought, shown_by_moves, skips_same_tool};
 use super::letters;
-use super::loose::{Found, farthest};
+use super::loose::{Found, Order, farthest};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
@@ -45,32 +45,11 @@ pub fn compare<'r>(
     tolerance: Tolerance,
 ) -> Comparison<'r> {
     let cut = is_cut(source.1) || is_cut(target.1);
-    let mut found = farthest([source.1, target.1], |[ours, theirs]| {
-        let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
-        if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
-            (ours, theirs) = (as_messages(ours), as_messages(theirs));
-        }
-        if target.0.control.profile().outputs.is_some() {
-            (ours, theirs) = (without_outputs(ours), without_outputs(theirs));
-        }
-        if brought(source.0.control, target.0.control) {
-            (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
-        }
-        let found = Comparison::default();
-        (ours, theirs) = (joined(ours), joined(theirs));
-        let mut pairs = Pairs {
-            target: target.0,
-            brings_lengths: brought(source.0.control, target.0.control),
-            one_side: std::ptr::eq(source.0, target.0),
-            tolerance,
-            found,
-            at: [None; 2],
-            runs: [Runs::new(), Runs::new()],
-            uncancelled: false,
-            left: false,
-        };
-        let far = pairs.walk(&ours, &theirs, cut);
-        let what = pairs.found;
+    let mut found = farthest([source.1, target.1], |orders| {
+        let [ours, theirs] = acts(source, target, orders);
+        let mut pairs = Pairs::new(source.0, target.0, tolerance);
+        let (i, j) = pairs.walk(&ours, &theirs, cut);
+        let (far, what) = (i + j, pairs.found);
         let blocks = what.difference.as_ref().map(|found| [found.source, found.target]);
         let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
         Found { pairs: what.difference.is_some().then_some(far), blocks, what }
@@ -90,6 +69,25 @@ pub fn compare<'r>(
     found
 }
 
+/// What an observer could tell of each of two runs, in these orders.
+pub(super) fn acts<'r>(
+    source: (&Side<'_>, &'r Run),
+    target: (&Side<'_>, &'r Run),
+    [ours, theirs]: &[Order<'r>; 2],
+) -> [Vec<Act<'r>>; 2] {
+    let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
+    if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
+        (ours, theirs) = (as_messages(ours), as_messages(theirs));
+    }
+    if target.0.control.profile().outputs.is_some() {
+        (ours, theirs) = (without_outputs(ours), without_outputs(theirs));
+    }
+    if brought(source.0.control, target.0.control) {
+        (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
+    }
+    [joined(ours), joined(theirs)]
+}
+
 /// How many settings stand on each side before an alarm of one of them: it keeps them from doing anything, and the other side
 /// goes on, and may set them otherwise first.
 fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
@@ -107,14 +105,16 @@ fn told_at<'r>(acts: &[Act<'r>]) -> Option<&'r Event> {
 }
 
 /// Two runs side by side.
-struct Pairs<'p, 'r> {
+pub(super) struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
     /// True for two runs of one side, of which all that differs is told.
     one_side: bool,
     /// True where the target's tool word brings a length that the source takes up without one.
     brings_lengths: bool,
     tolerance: Tolerance,
-    found: Comparison<'r>,
+    pub(super) found: Comparison<'r>,
+    /// True where a hair is a difference like any other.
+    pub(super) strict: bool,
     /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
     at: [Option<(Position, f64)>; 2],
     /// What runs on each side.
@@ -126,18 +126,34 @@ struct Pairs<'p, 'r> {
     left: bool,
 }
 
-impl<'r> Pairs<'_, 'r> {
+impl<'p, 'r> Pairs<'p, 'r> {
+    /// Nothing is paired yet.
+    pub(super) fn new(source: &Side<'_>, target: &'p Side<'p>, tolerance: Tolerance) -> Self {
+        Self {
+            target,
+            brings_lengths: brought(source.control, target.control),
+            one_side: std::ptr::eq(source, target),
+            tolerance,
+            found: Comparison::default(),
+            strict: false,
+            at: [None; 2],
+            runs: [Runs::new(), Runs::new()],
+            uncancelled: false,
+            left: false,
+        }
+    }
+
     /// Pairs the acts of both sides up to the first difference; after the last of a run that was `cut`
-    /// nothing is missed. How many it came by.
-    fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) -> usize {
+    /// nothing is missed. How many of each it came by.
+    pub(super) fn walk(&mut self, ours: &[Act<'r>], theirs: &[Act<'r>], cut: bool) -> (usize, usize) {
         let (mut i, mut j) = (0, 0);
         loop {
             let (a, b) = (ours.get(i), theirs.get(j));
             if self.left && b.is_some_and(|b| !matches!(*b.what, EventKind::End { .. })) {
-                return i + j;
+                return (i, j);
             }
             let what = match (a, b) {
-                (None, None) => return i + j,
+                (None, None) => return (i, j),
                 (Some(a), Some(b)) => match self.differ(a, b, self.near(a, b)) {
                     None => {
                         self.moved(0, a);
@@ -147,7 +163,7 @@ impl<'r> Pairs<'_, 'r> {
                     }
                     Some(what) => what,
                 },
-                _ if cut => return i + j,
+                _ if cut => return (i, j),
                 (Some(_), None) => "the target does less than the source".to_owned(),
                 (None, Some(_)) => "the target does more than the source".to_owned(),
             };
@@ -207,12 +223,14 @@ impl<'r> Pairs<'_, 'r> {
                 let difference = Difference::new(source, target, what);
                 match (a, b) {
                     (Some(a), Some(b)) if self.drifts(a, b) => {}
-                    (Some(a), Some(b)) if self.differ(a, b, self.tolerance.rounded).is_none() => {
+                    (Some(a), Some(b))
+                        if !self.strict && self.differ(a, b, self.tolerance.rounded).is_none() =>
+                    {
                         self.found.hair.get_or_insert(difference);
                     }
                     _ => {
                         self.found.difference = Some(difference);
-                        return i + j;
+                        return (i, j);
                     }
                 }
                 a.into_iter().for_each(|a| self.moved(0, a));
@@ -222,7 +240,7 @@ impl<'r> Pairs<'_, 'r> {
         }
     }
 
-    fn moved(&mut self, side: usize, act: &Act<'r>) {
+    pub(super) fn moved(&mut self, side: usize, act: &Act<'r>) {
         if let Some(to) = leaves(&act.what) {
             self.at[side] = Some((to, act.rounded));
         }
@@ -351,7 +369,7 @@ impl<'r> Pairs<'_, 'r> {
     }
 }
 
-fn end_differs(source: &End, target: &End) -> Option<String> {
+pub(super) fn end_differs(source: &End, target: &End) -> Option<String> {
     let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
     (!same).then(|| "one side ends with an alarm, the other does not".to_owned())
 }

@@ -10,6 +10,8 @@ pub struct Tolerance {
     pub rounded: f64,
     /// True where both controls round the words that a program computes; else one of them goes where the numbers say.
     both: bool,
+    /// What is allowed whatever words round, millimetres.
+    least: f64,
 }
 
 impl Tolerance {
@@ -23,12 +25,21 @@ impl Tolerance {
         Self {
             rounded: increment(source).max(increment(target)) * 1.0001,
             both: rounds(source) && rounds(target),
+            least: ARITHMETIC,
+        }
+    }
+
+    /// The same where places may lie at least so far apart, millimetres. What is no distance changes nothing.
+    pub fn at_least(self, allowed: f64) -> Self {
+        match allowed > self.least {
+            true => Self { rounded: self.rounded.max(allowed), least: allowed, ..self },
+            false => self,
         }
     }
 
     /// How far apart what the words of two events rounded may have put them.
     pub fn between(&self, source: f64, target: f64) -> f64 {
-        ARITHMETIC + self.of_both(source, target)
+        self.least + self.of_both(source, target)
     }
 
     /// How far apart two values may lie that are off by so much.

@@ -16,14 +16,30 @@ pub(super) fn variables_differ<'r>(
     target: (&Side<'_>, &Run),
     names: &SymbolMap,
 ) -> Option<Difference<'r>> {
+    let mut by_place = None;
+    for difference in all_variables(source, target, names) {
+        if !difference.by_place {
+            return Some(difference);
+        }
+        by_place.get_or_insert(difference);
+    }
+    by_place
+}
+
+/// All of them, in the order of their names.
+pub(super) fn all_variables<'r>(
+    source: (&Side<'_>, &Run),
+    target: (&Side<'_>, &Run),
+    names: &SymbolMap,
+) -> Vec<Difference<'r>> {
     let [ours, theirs] = [source.1, target.1].map(|run| run.left.as_ref().map_or(0.0, |left| left.read));
     let reads = [ours, theirs, ours + theirs];
     let by_as_much =
         |a: f64, b: f64| reads.iter().any(|off| *off > 0.0 && ((a - b).abs() - off).abs() <= HAIR);
     if matches!(source.1.end, End::Alarm { .. }) {
-        return None;
+        return Vec::new();
     }
-    let mut by_place = None;
+    let mut differences = Vec::new();
     let mut all: BTreeSet<&str> = names.variables.keys().map(String::as_str).collect();
     all.extend(source.1.variables.keys().chain(target.1.variables.keys()).map(String::as_str));
     for name in all {
@@ -50,14 +66,10 @@ pub(super) fn variables_differ<'r>(
         let show = |value: Option<f64>| value.map_or_else(|| "vacant".into(), |value| value.to_string());
         let what = format!("{name} is {} at the end, {there} is {}", show(a), show(b));
         let found = Difference::new(None, None, what);
-        match (a, b) {
-            (Some(a), Some(b)) if by_as_much(a, b) => {
-                by_place.get_or_insert(Difference { by_place: true, ..found });
-            }
-            _ => return Some(found),
-        }
+        let by_place = matches!((a, b), (Some(a), Some(b)) if by_as_much(a, b));
+        differences.push(Difference { by_place, ..found });
     }
-    by_place
+    differences
 }
 
 /// A register that the target wrote and that the source has no variable for, nor the conversion a use: it may hold what

@@ -5,6 +5,7 @@ mod elsewhere;
 mod entries;
 mod fewer_digits;
 mod kept;
+mod listed;
 mod otherwise;
 mod run;
 mod search;
@@ -14,4 +15,5 @@ mod unit_check;
 mod verifier;
 mod weigh;
 
+pub use listed::listed;
 pub use run::{prepare, verify};

@@ -90,7 +90,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             reasons: BTreeMap::new(),
             unconfirmed: BTreeMap::new(),
             texts: BTreeSet::new(),
-            tolerance: Tolerance::of(job.source, job.target),
+            tolerance: Tolerance::of(job.source, job.target).at_least(job.effort.allowed_mm),
             largest: 0.0,
             compared: 0,
             tried: 0,

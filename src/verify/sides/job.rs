@@ -44,6 +44,8 @@ pub struct Effort {
     pub program_seconds: f64,
     /// Seconds of processor time for all programs of a library together, at the most.
     pub library_seconds: f64,
+    /// Millimetres that places may lie apart and count as the same, whatever words round.
+    pub allowed_mm: f64,
 }
 
 impl Default for Effort {
@@ -56,6 +58,7 @@ impl Default for Effort {
             seed: 0x6d67_0001,
             program_seconds: 60.0,
             library_seconds: 3600.0,
+            allowed_mm: 0.0,
         }
     }
 }

@@ -117,6 +117,11 @@ impl<'a> Side<'a> {
         self.links().programs()
     }
 
+    /// A program and all that its text calls by their numbers, however far down.
+    pub fn reached(&self, program: ProgramRef) -> Vec<ProgramRef> {
+        self.links().called_from(program, |_| true)
+    }
+
     /// How its programs stand to each other.
     pub(in crate::verify) fn links(&self) -> &Links {
         self.all_links()

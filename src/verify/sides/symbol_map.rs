@@ -80,6 +80,11 @@ impl SymbolMap {
         self.variables.values().any(|number| *number == register)
     }
 
+    /// The same for who is no part of the verifier.
+    pub fn counterpart(&self, source: &Side<'_>, of: ProgramRef, target: &Side<'_>) -> Option<ProgramRef> {
+        self.program(source, of, target)
+    }
+
     /// The program of the target that a program of the source became.
     pub(in crate::verify) fn program(
         &self,

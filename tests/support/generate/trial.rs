@@ -24,6 +24,7 @@ pub const EFFORT: Effort = Effort {
     seed: 1,
     program_seconds: 60.0,
     library_seconds: 600.0,
+    allowed_mm: 0.0,
 };
 
 /// What became of a program.
