@@ -1,6 +1,6 @@
 //! `macroglot diff`: what changed for the machine.
 
-use super::{Run, Shop};
+use super::{Run, Shop, repository};
 use serde_json::Value;
 
 /// Moves whose places are worked out by hand below.
@@ -395,4 +395,24 @@ fn a_program_that_is_not_there_is_named() {
     for words in ["O9001 is not in the library", "--library"] {
         assert!(run.out.contains(words), "{}", run.out);
     }
+}
+
+/// A library against itself.
+#[test]
+fn a_library_is_the_same_as_itself() {
+    for dialect in ["fanuc", "cc100"] {
+        let folder = repository(&format!("corpus/{dialect}"));
+        let run = Shop::empty().run(&format!("diff {folder} {folder} --from {dialect}"));
+        assert_eq!((run.code, run.out.as_str()), (0, "Nothing changed.\n"), "{dialect}");
+    }
+}
+
+/// A message after a stop that was taken out is no other way of that stop.
+#[test]
+fn a_stop_before_a_message() {
+    let text = "O1\nG21 G17 G90 G40 G80 G94\nG1 X1. F100\nM0\n#3006=1(TURN)\nM30\n";
+    let shop = Shop::with(&[("old.nc", text), ("new.nc", &text.replace("M0\n", ""))]);
+    let run = shop.run("diff old.nc new.nc --from fanuc --motion");
+    assert!(run.code == 1 && run.out.contains("- old line 4: taken out: stop\n"), "{}", run.out);
+    assert!(!run.out.contains("message"), "{}", run.out);
 }

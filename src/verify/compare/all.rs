@@ -62,6 +62,10 @@ pub fn differences<'r>(
     );
     let mut pairs = Pairs::new(source.0, target.0, tolerance);
     pairs.strict = strict;
+    // Where no message came to the target, one that follows a stop is no other way of that stop.
+    let messages =
+        |acts: &[Act<'_>]| acts.iter().filter(|act| matches!(*act.what, EventKind::Message { .. })).count();
+    pairs.shows_more = messages(&theirs) > messages(&ours);
     let (mut i, mut j, mut out) = (0, 0, Vec::new());
     while out.len() < most {
         let (here, there) = (ours.get(i..).unwrap_or_default(), theirs.get(j..).unwrap_or_default());

@@ -115,6 +115,8 @@ pub(super) struct Pairs<'p, 'r> {
     pub(super) found: Comparison<'r>,
     /// True where a hair is a difference like any other.
     pub(super) strict: bool,
+    /// True where a message may stand for a stop.
+    pub(super) shows_more: bool,
     /// Where each side's tool is, and how far that may be off by rounding; none before its first move.
     at: [Option<(Position, f64)>; 2],
     /// What runs on each side.
@@ -136,6 +138,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             tolerance,
             found: Comparison::default(),
             strict: false,
+            shows_more: true,
             at: [None; 2],
             runs: [Runs::new(), Runs::new()],
             uncancelled: false,
@@ -327,6 +330,9 @@ impl<'p, 'r> Pairs<'p, 'r> {
     fn differ(&mut self, source: &Act<'r>, target: &Act<'r>, allowed: f64) -> Option<String> {
         let stands = stands_for(self.target, &source.what, &target.what);
         let (a, b) = (&source.what, &target.what);
+        if !self.shows_more && matches!((&**a, &**b), (EventKind::Stop, EventKind::Message { .. })) {
+            return Some("a message stands for a stop".to_owned());
+        }
         let on = self.runs[0].goes_on(a) && self.runs[1].goes_on(b);
         if (on || ends_cycle(source, target)) && may_turn(source, target) {
             let text = "no source says whether the spindle still turns after a tool change or a stop";
