@@ -1,6 +1,6 @@
 //! What changed for the machine between two programs, or two libraries.
 //!
-//! Four levels: the text; the text without what no machine sees ([`normal`]); the build of each program ([`structure`]);
+//! Four levels: the text; the text without what no machine sees; the build of each program;
 //! and what the machine does, found by running both on their emulated controls. The last decides: [`Verdict`]. A program
 //! in which nothing changed for its control, nor in anything that it may call, is the same without being run.
 

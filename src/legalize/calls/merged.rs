@@ -166,7 +166,10 @@ fn copy(block: &Block, shift: u32, temps: u32, span: Option<Span>) -> Block {
     }
     block.term.kind.exprs_mut(&mut { each });
     block.term.kind.for_each_target(&mut |id| id.0 += shift);
-    block.term.site.span = span.unwrap_or(block.term.site.span);
+    // An end that stands nowhere in the source, such as that before a label, is written nowhere.
+    if !block.term.site.span.is_empty() {
+        block.term.site.span = span.unwrap_or(block.term.site.span);
+    }
     block
 }
 

@@ -7,6 +7,7 @@ use crate::ir::{
     SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
 };
 use crate::legalize::rewrite::{Part, rebuild, unless_skipped};
+use crate::text::Span;
 
 /// Rewrites one program.
 pub(super) fn program(index: usize, program: &mut Program, marks: &Marks) {
@@ -91,7 +92,12 @@ impl Here<'_> {
                 self.condition(cond);
                 // A question to what always has a value, or never, is none.
                 if let (Some(way), None) = (settled(cond), term.site.skip) {
-                    term.kind = TermKind::Jump(if way { *then } else { *otherwise });
+                    let (to, passed) = if way { (*then, *otherwise) } else { (*otherwise, *then) };
+                    term.kind = TermKind::Jump(to);
+                    // Past what is not written, no jump is needed that anybody reads.
+                    if self.marks.needless(self.index, passed) && term.site.comments.is_empty() {
+                        term.site.span = Span::default();
+                    }
                 }
             }
             TermKind::Call { call, .. } => self.call(call),
