@@ -3,11 +3,12 @@
 //! Law: a comment does nothing. `(V31=#100 V40=FLAG OF #100 SCRATCH R5)` says what registers of the source hold, and this
 //! conversion writes such a head of its own: with the old one above it, each way there and back would add to the text.
 //! Only comments at the head go that hold nothing but names of registers, one of them the source's. Any other word in one
-//! keeps it, and so does a statement before it. At a label `($1)`, `(N10)` or `(L1)` was its name on another control.
+//! keeps it, and so does a statement before it. The program's own number goes there too. At a label `($1)`, `(N10)` or `(L1)` was its name on another control.
 
 use crate::dialect::Control;
 use crate::ir::{Block, Module, Program, Stmt, StmtKind};
 use crate::legalize::Context;
+use crate::syntax::ProgramName;
 
 /// Leaves such comments out; true if there were any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -41,7 +42,14 @@ fn counts(name: &str) -> bool {
     number.is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|digit| digit.is_ascii_digit()))
 }
 
+/// True for the number of a program as a comment, which a control without such numbers has at its head.
+fn is_name(text: &str, name: Option<&ProgramName>) -> bool {
+    let number = text.strip_prefix('O').filter(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
+    matches!(name, Some(ProgramName::Number(own)) if number.and_then(|n| n.parse().ok()) == Some(*own))
+}
+
 fn drop_head(program: &mut Program, source: &Control) -> bool {
+    let name = program.name.clone();
     let (mut changed, mut scratch) = (false, false);
     // A block with a number is a block of the IR too, where something may jump to it.
     'head: for block in &mut program.blocks {
@@ -56,6 +64,9 @@ fn drop_head(program: &mut Program, source: &Control) -> bool {
             }
             let all = stmt.site.comments.len();
             stmt.site.comments.retain(|comment| {
+                if is_name(&comment.text, name.as_ref()) {
+                    return false;
+                }
                 let head = Head::of(&comment.text, source);
                 let is_one = head.is_some_and(|head| head.pairs || scratch);
                 scratch = is_one && (scratch || head.is_some_and(|head| head.scratch));
