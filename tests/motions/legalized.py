@@ -82,8 +82,8 @@ part.rapid(0.0, 0.0)
 part.rapid(1.235, -2.346)
 part.rapid(1.235 + 1.111, -2.346)
 part.rapid(1.235 + 1.111 + 2 * 0.617, -2.346)
-part.to("fadal", "moves/word_rounds.rs", "expressions/functions/rounding.rs", profile='units = "metric"')
-part.to("cc100", "moves/word_rounds.rs", "expressions/functions/rounding.rs", profile='units = "metric"')
+part.to("fadal", "moves/word_rounds.rs", "expressions/functions/rounding.rs")
+part.to("cc100", "moves/word_rounds.rs", "expressions/functions/rounding.rs")
 
 part = Short("fanuc", "taps-by-feed", "400 and 300 a minute, in and out, at 500 turns: leads of .8 and .6; back to Z20. (G98) and to the plane (G99).",
              profile='options = ["common.variables"]')
@@ -277,3 +277,12 @@ for control, name, targets, files in (
 ):
     for target in targets:
         next(part for part in ALL if (part.control, part.name) == (control, name)).to(target, *files)
+
+part = Short("fanuc", "parts", "#500 is 5, then 7 and 9: X5., X7. + 1. at Y3., X7. from within, X9.", library=("parts-one", "parts-two"))
+part.work(1)
+part.rapid(0.0, 0.0)
+part.rapid(5.0)
+part.rapid(8.0, 3.0)
+part.rapid(7.0)
+part.rapid(9.0)
+part.to("cc100", "calls/merged.rs")
