@@ -137,10 +137,11 @@ fn what_has_no_row_is_refused() {
         set(1, call(Func::RoundPlaces, [v(1), n(2.0)])),
         set(1, Expr::Increments(5.0)),
         set(1, Expr::Indirect(Bank::Global, Box::new(v(1)))),
-        set(1, Expr::Var(Var { class: Class::Global, number: 1 })),
         set(1, call(Func::RoundIncrement, [v(1)])),
     ] {
         assert_eq!(refused("fanuc", &one([kind])), [Code::Unmapped]);
     }
+    let no_register = set(1, Expr::Var(Var { class: Class::Global, number: 1 }));
+    assert_eq!(refused("fanuc", &one([no_register])), [Code::OutOfRegisters]);
     assert_eq!(refused("haas", &one([set(1, call(Func::Fup, [v(1)]))])), [Code::Unmapped]);
 }
