@@ -44,8 +44,15 @@ fn counts(name: &str) -> bool {
 
 /// True for the number of a program as a comment, which a control without such numbers has at its head.
 fn is_name(text: &str, name: Option<&ProgramName>) -> bool {
-    let number = text.strip_prefix('O').filter(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
-    matches!(name, Some(ProgramName::Number(own)) if number.and_then(|n| n.parse().ok()) == Some(*own))
+    let Some(own @ ProgramName::Number(_)) = name else { return false };
+    parted(text).is_some_and(|text| parted(&own.short()) == Some(text))
+}
+
+/// What stands before the digits of a name, and its number without the zeros before it.
+fn parted(name: &str) -> Option<(&str, &str)> {
+    let at = name.find(|sign: char| sign.is_ascii_digit())?;
+    let (sign, digits) = name.split_at_checked(at)?;
+    Some((sign, digits.trim_start_matches('0')))
 }
 
 fn drop_head(program: &mut Program, source: &Control) -> bool {
