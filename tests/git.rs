@@ -71,7 +71,7 @@ fn textconv_leaves_out_what_no_machine_sees() {
 #[test]
 fn a_driver_says_what_the_machine_does() {
     let (_room, folder) = repository();
-    let shown = typed(&folder, &recipe("A diff of what", 0));
+    let shown = typed(&folder, &recipe("Let `git diff` say", 0));
     assert!(shown.contains("X 20.000 -> 20.500 (+0.500)"), "{shown}");
     // The subprogram's file shows what its main program does with it.
     assert!(shown.contains("O1000 (main.nc): different for the machine"), "{shown}");
@@ -84,7 +84,7 @@ fn a_driver_says_what_the_machine_does() {
 #[test]
 fn a_driver_for_once() {
     let (_room, folder) = repository();
-    let shown = typed(&folder, &recipe("A diff of what", 1));
+    let shown = typed(&folder, &recipe("Let `git diff` say", 1));
     assert!(shown.contains("No effect on the machine.\n"), "{shown}");
     assert!(shown.contains("X 20.000 -> 20.500 (+0.500)"), "{shown}");
 }

@@ -77,30 +77,25 @@ fn a_program_that_needs_too_many_registers_is_set_aside() {
         ("2.nc", "O2\nG0X#1\n#500=#500+#1\nM99\n"),
         ("3.nc", "O3\nG65P2A2.\nM30\n"),
     ];
-    let made = convert(&inputs(&files), &fanuc, &fadal, Lock::new("fanuc", "fadal"), Options::default());
+    let converted = |files: &[(&str, &str)]| {
+        convert(&inputs(files), &fanuc, &fadal, Lock::new("fanuc", "fadal"), Options::default())
+    };
+    let told = |made: &Conversion| -> Vec<String> {
+        let all = made.programs[0].diagnostics.iter().filter(|d| d.code.number() == "MG0403");
+        all.map(|d| d.message.to_string()).collect()
+    };
+    let made = converted(&files);
     assert_eq!(refused(&made), [true, false, false]);
-    let told: Vec<&str> = made.programs[0]
-        .diagnostics
-        .iter()
-        .filter(|d| d.code.number() == "MG0403")
-        .map(|d| &*d.message)
-        .collect();
-    assert_eq!(
-        told,
-        [
-            "the target has no register left for #100, #101, #102, #103, #104, #105, #106, #107 and 98 more, which only this program uses; the other programs of the library have theirs"
-        ]
+    let names = "#100, #101, #102, #103, #104, #105, #106, #107 and 98 more";
+    let wanted = format!(
+        "the target has no register left for {names}, which only this program uses; the other programs of the library \
+         have theirs"
     );
+    assert_eq!(told(&made), [wanted]);
     assert!(!codes(&made).contains(&"MG0501"));
     // Alone it has nobody to compete with: what has the registers is told.
-    let made = convert(&inputs(&files[..1]), &fanuc, &fadal, Lock::new("fanuc", "fadal"), Options::default());
-    let told: Vec<&str> = made.programs[0]
-        .diagnostics
-        .iter()
-        .filter(|d| d.code.number() == "MG0403")
-        .map(|d| &*d.message)
-        .collect();
-    assert!(matches!(told[..], [one] if one.contains("the registers are taken by #100, #101")), "{told:?}");
+    let told = told(&converted(&files[..1]));
+    assert!(matches!(&told[..], [one] if one.contains("the registers are taken by #100, #101")), "{told:?}");
 }
 
 #[test]

@@ -580,7 +580,7 @@ Load all of the programs into the machine. If a value in the old register matter
     "0801" VerifiedDifferent Error "the conversion differs from its source"
 "Source and conversion were run on their emulated controls, and they do not do the same. The message names the first difference; the certificate has the start values, both blocks and both events. The program is not written, and neither are its callers (MG0606); other programs of its file are. The certificate is `NAME.not-written.json` in the output folder.
 
-The fault is in the conversion, in one of the emulated controls, or in a table of what the controls do. Please report the program with its certificate."
+The fault is in the conversion, in an emulated control, or in the table of a control. Please report the program with its certificate."
 
     "0802" NotDecided Review "verification is not complete"
 "Source and conversion were run on their emulated controls, and no difference was found. But part of the program was not decided: a branch that no scenario reached, a run that did not end, a called program that is not in the library, an unconfirmed fact that mattered. The message says which.

@@ -25,15 +25,16 @@ pub fn changed(old: &[Numbered], new: &[Numbered]) -> Text {
         let (i, j) = (op.old_range(), op.new_range());
         if let DiffOp::Equal { len, .. } = *op {
             let both = |at: usize| line(On::Both, old.get(i.start + at), new.get(j.start + at));
-            let (behind, before) =
-                (if at > 0 { ABOUT } else { 0 }, if at + 1 < ops.len() { ABOUT } else { 0 });
-            if len <= behind + before {
+            let last = if at > 0 { ABOUT } else { 0 };
+            let next = if at + 1 < ops.len() { ABOUT } else { 0 };
+            if len <= last + next {
                 hunk.extend((0..len).map(both));
                 continue;
             }
-            hunk.extend((0..behind).map(both));
+            // What follows the last change, and what comes before the next one.
+            hunk.extend((0..last).map(both));
             close(&mut text, &mut hunk);
-            hunk.extend((len - before..len).map(both));
+            hunk.extend((len - next..len).map(both));
             continue;
         }
         let lines = i.len() + j.len();

@@ -5,7 +5,7 @@
 //! sequence numbers that anything may name.
 
 use super::labels::{Labels, code_of, words};
-use crate::canon::Op;
+use crate::canon::{Op, Sys};
 use crate::dialect::Control;
 use crate::syntax::{
     Block, Expr, ExprKind, Index, Item, ItemKind, TableRow, Target, TestSubject, TokenKind, VarRef,
@@ -49,9 +49,10 @@ pub struct Named {
 }
 
 impl Named {
-    /// Takes in the numbers that P and Q words of a text have.
-    pub fn read(&mut self, blocks: &[Block]) {
+    /// Takes in the numbers that P and Q words of a text have. A text that may read the last sequence number names all.
+    pub fn read(&mut self, blocks: &[Block], control: &Control) {
         for block in blocks {
+            self.any |= computes(block) || reads_address(block, control);
             for_each_item(&block.items, &mut |item| match &item.kind {
                 ItemKind::Word(word) if matches!(word.letter, 'P' | 'Q') => {
                     let value = word.value.as_ref();
@@ -233,6 +234,20 @@ fn calls(block: &Block, control: &Control) -> (bool, bool) {
     let code = code_of(block, control).filter(|row| !matches!(row.op, Op::Return | Op::SubEnd));
     let literal = words.iter().any(|(letter, number)| *letter == 'P' && number.is_some());
     (code.is_some() || by_alias || start, by_alias || start || (code.is_some() && !literal))
+}
+
+/// True where the block reads the last value of an address, which may be the sequence number.
+fn reads_address(block: &Block, control: &Control) -> bool {
+    let mut found = false;
+    for_each_expr(&block.items, &mut |e| {
+        if let ExprKind::Variable(variable) = &e.kind
+            && let Index::Number(number) = variable.index
+        {
+            let state = control.read_system(&variable.name, Some(number)).map(|(state, ..)| state);
+            found |= matches!(state, Some(Sys::Address | Sys::AddressNow));
+        }
+    });
+    found
 }
 
 /// True where the number of a variable is computed.

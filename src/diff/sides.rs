@@ -41,7 +41,7 @@ pub type Texts = HashMap<ProgramRef, Vec<Normal>>;
 /// The numbers that P and Q words of a side name.
 pub fn named(side: &Side<'_>) -> Named {
     let mut named = Named::default();
-    side.files.iter().for_each(|file| named.read(&file.parsed.blocks));
+    side.files.iter().for_each(|file| named.read(&file.parsed.blocks, side.control));
     named
 }
 

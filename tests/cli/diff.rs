@@ -416,3 +416,18 @@ fn a_stop_before_a_message() {
     assert!(run.code == 1 && run.out.contains("- old line 4: taken out: stop\n"), "{}", run.out);
     assert!(!run.out.contains("message"), "{}", run.out);
 }
+
+/// #4114 is the sequence number: who reads it sees that blocks were renumbered, by its name or by a computed number.
+#[test]
+fn a_program_that_reads_its_sequence_number() {
+    for read in ["#500=#4114", "#1=4114\n#500=#[#1]"] {
+        let text = format!("O1\nG21 G17 G90 G40 G80 G94\nN10 G0 X1.\n{read}\nG0 X#500\nM30\n");
+        let shop = Shop::with(&[("old.nc", &text), ("new.nc", &text.replace("N10", "N20"))]);
+        let run = shop.run("diff old.nc new.nc --from fanuc --motion");
+        assert!(
+            run.code == 1 && run.out.contains("rapid move: X 10.000 -> 20.000 (+10.000)\n"),
+            "{}",
+            run.out
+        );
+    }
+}

@@ -2,8 +2,9 @@
 //!
 //! Law: what the source ends at a stop is ended by codes before it, wherever no source says that the target's stop does so:
 //! that is the same on every control. An optional stop takes none, as nothing ends where it is switched off, and a tool
-//! change is left to the machine, but for what is known to run where its table says nothing of it. What a stop ends matters after it where the program cuts before it says itself what
-//! runs: then the facts that no source confirms are named.
+//! change is left to the machine, unless its table says nothing of it and something is known to run. What a stop ends
+//! matters after it where the program cuts before it says itself what runs: then the facts that no source confirms are
+//! named.
 //! What a message leaves running, and a stop that is written for it ends, is started again after it where it is known.
 //! Counter-example: `M3 S1000` .. `M0 (TURN THE PART)`, where one control stops the spindle and another one's builder decides.
 
@@ -299,8 +300,8 @@ impl Place<'_> {
             let (_, op) = ends(running);
             if here.answer == Some(true) && !(there.known && there.answer == Some(true)) {
                 let runs = self.state.op(ends(running).0).is_some_and(|op| starts(running).contains(&op));
-                let changes_by_itself = moves || !runs || there.answer.is_some();
-                let left = optional || (pause == Pause::Change && changes_by_itself);
+                let to_machine = moves || !runs || there.answer.is_some();
+                let left = optional || (pause == Pause::Change && to_machine);
                 if !left {
                     if running == Running::Spindle
                         && self.holds

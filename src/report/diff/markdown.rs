@@ -38,7 +38,10 @@ pub fn diff(diff: &Diff) -> String {
 }
 
 fn of_program(program: &ProgramDiff, tolerance: f64) -> String {
-    let mut out = format!("\n### {}: {}\n\n", escaped(&title(program)), verdict(program));
+    let mut out = format!("\n### {}: {}\n", escaped(&title(program)), verdict(program));
+    if !program.why.is_empty() || program.structure.as_ref().is_some_and(|notes| !notes.is_empty()) {
+        out.push('\n');
+    }
     for why in &program.why {
         let _ = writeln!(out, "- {}", escaped(why));
     }

@@ -1,8 +1,8 @@
 //! Which acts of two runs belong together, whatever they differ by.
 //!
-//! First by kind and place, then, among what is left between those, by the text of the block, then by the way that a move
-//! goes, then by kind alone. It says where two
-//! runs meet again after something that one of them has more; whether a pair is the same is not decided here.
+//! First by kind and place; what is left between those by the text of the block, then by the way that a move goes, then by
+//! kind alone. So two runs meet again after something that only one of them does. Whether a pair is the same is not decided
+//! here.
 
 use super::kinds::setting;
 use super::observe::Act;
