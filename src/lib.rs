@@ -13,6 +13,7 @@ pub mod emit;
 pub mod ir;
 pub mod legalize;
 pub mod library;
+pub mod lint;
 pub mod lower;
 pub mod opt;
 pub mod report;

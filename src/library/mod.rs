@@ -22,6 +22,7 @@ mod prepare;
 mod project;
 mod publish;
 mod refused_calls;
+mod understood;
 mod unread;
 mod verified;
 mod walk;
@@ -39,6 +40,7 @@ pub use publish::{
     Change, Held, Home, Kind, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
     abandon, changes, check, is_pending, publish, write_file,
 };
+pub use understood::{Understood, understood};
 pub use unread::{InputError, LeftOut, WhyNot};
 pub use verified::{judge, judge_telling};
 pub use withdrawn::Certificates;

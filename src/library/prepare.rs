@@ -1,14 +1,12 @@
 //! A library as the passes get it: all files lowered into one module, with what was found in them.
 
-use super::chunks::lower::lower;
-use super::names::{both_nameless, report_duplicates};
-use super::{Input, machine_kind};
+use super::Input;
+use super::names::both_nameless;
+use super::understood::{Understood, lowered};
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
 use crate::ir::Module;
-use crate::lower::Lowered;
 use crate::syntax::ProgramName;
-use rayon::prelude::*;
 
 /// A library, lowered.
 pub(super) struct Prepared {
@@ -30,24 +28,10 @@ pub(super) struct File {
 
 /// Reads and lowers all files.
 pub(super) fn prepare(inputs: &[Input], source: &Control, target: &Control) -> Prepared {
-    let lowered: Vec<Lowered> =
-        inputs.par_iter().enumerate().map(|(at, input)| lower(at, input, source)).collect();
-    let mut module = Module::default();
-    let mut found: Vec<Vec<Diagnostic>> = Vec::new();
-    let mut files = Vec::with_capacity(inputs.len());
-    for file in lowered {
-        let first = module.programs.len();
-        for (program, diagnostics) in file.programs {
-            module.programs.push(program);
-            found.push(diagnostics);
-        }
-        module.names.extend(file.names);
-        files.push(File { tape: file.tape, programs: first..module.programs.len() });
-    }
-    let written = module.programs.iter().map(|p| p.name.as_ref().map(ToString::to_string)).collect();
-    name_the_nameless(&mut module, inputs, source, target);
-    report_duplicates(&module, inputs, &mut found);
-    machine_kind::report(&module, inputs, source, &mut found);
+    let (mut made, written) = lowered(inputs, source);
+    name_the_nameless(&mut made.module, inputs, source, target);
+    made.report(inputs, source);
+    let Understood { module, found, files } = made;
     Prepared { module, found, files, written }
 }
 
