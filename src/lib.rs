@@ -4,6 +4,7 @@ extern crate alloc; // what pest derives names it, its `std` feature being off
 
 pub mod assume;
 pub mod canon;
+pub mod check;
 pub mod cli;
 pub mod control;
 pub mod diag;

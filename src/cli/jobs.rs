@@ -239,7 +239,7 @@ fn planned(
 }
 
 /// A path as it is seen from the current folder, where it lies under that.
-fn short(path: &Path) -> PathBuf {
+pub(super) fn short(path: &Path) -> PathBuf {
     let here = std::env::current_dir().and_then(std::fs::canonicalize).unwrap_or_default();
     match path.strip_prefix(&here) {
         Ok(rest) if !rest.as_os_str().is_empty() => rest.to_owned(),

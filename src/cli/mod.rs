@@ -4,6 +4,7 @@
 //! (on a terminal only), summaries and diagnostics. Exit codes: 0 all well; 1 something was
 //! refused, differs or fails the check; 2 wrong usage or unreadable input.
 
+mod check;
 mod common;
 mod completions;
 mod convert;
@@ -16,6 +17,7 @@ mod outcome;
 mod pager;
 mod parse;
 mod run;
+mod shelves;
 mod streams;
 mod verify;
 
@@ -34,6 +36,8 @@ pub struct Cli {
 enum Command {
     /// Convert programs, whole folders at once, for another control
     Convert(convert::Arguments),
+    /// Check programs before they are committed: read, lint, round trips, fresh conversions
+    Check(check::Arguments),
     /// Read programs, count their blocks and check that nothing is lost
     Parse(parse::Arguments),
     /// Run a program and its conversion on emulated controls and compare what the machines do
@@ -75,6 +79,7 @@ pub fn main() -> ExitCode {
     });
     let code = match cli.command {
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Parse(arguments) => parse::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),

@@ -3,11 +3,11 @@
 use super::jobs::{Job, Out};
 use super::streams::{complain, print, remark, tell, tell_drawn};
 use crate::library::{
-    Certificates, Change, Conversion, Files, Held, Kind, Lock, Outcome, ProgramReport, Spots, Told, Wanted,
-    certificate_of, changes, check, publish, withheld_of, write_file,
+    Certificates, Change, Conversion, Files, Held, Input, Kind, Lock, Made, Outcome, ProgramReport, Spots,
+    Told, Wanted, certificate_of, changes, check, profiles_of, publish, withheld_of, write_file,
 };
 use crate::report::{self, Drawings, Part};
-use crate::verify::Certificate;
+use crate::verify::{Certificate, sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -101,7 +101,10 @@ pub fn changed<'p>(
     let Some(out) = &job.out else { return Ok(Default::default()) };
     let sources =
         out.names.iter().map(String::as_str).zip(job.inputs.iter().map(|input| input.path.as_path()));
-    let found = changes(out.held.folder(), &out.manifest, wanted, &sources.collect(), prune);
+    let profiles = profiles_of(&job.source, &job.target);
+    let made = |input: &Input| Made { sha256: sha256(&input.bytes), profiles: profiles.clone() };
+    let made = out.names.iter().cloned().zip(job.inputs.iter().map(made)).collect();
+    let found = changes(out.held.folder(), &out.manifest, wanted, &sources.collect(), made, prune);
     let (mut changes, told) = found.map_err(complain)?;
     let mut lock = conversion.lock.clone();
     let is_of = |file: &str, name: &String| {

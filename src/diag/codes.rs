@@ -4,7 +4,7 @@
 //! Codes are grouped by the part of the line that finds them: 01 text and
 //! syntax, 02 dialects and machine profiles, 03 lowering, 04 legalization,
 //! 05 emission, 06 libraries and projects, 07 the command line, 08 emulated
-//! controls and verification. A number is never used again.
+//! controls and verification, 09 checks. A number is never used again.
 
 use super::Severity;
 
@@ -606,4 +606,55 @@ Look for the loop at this place; a scenario file can set inputs. If the program 
 "The emulated control met a block that it cannot read or run, or a call of a program that it does not have.
 
 Name the files of called programs with `--library`."
+
+    // ---- 09: checks ----
+    "0901" BytesLost Error "reading loses bytes"
+"What was read of the file does not print as it stands there, byte for byte. Conversions of it could lose something too.
+
+Please report the file: this is a fault of macroglot."
+
+    "0902" RoundRefused Error "a program does not come through a round trip"
+"The project file asks that each program can go to another machine and come back. This one is refused on the way there, or on the way back. The message has the first reason.
+
+Correct the place that is shown, add what is missing to a machine profile, or allow the finding under `[checks]` in the project file, with the reason."
+
+    "0903" RoundDiffers Error "a round trip changes what the machine does"
+"The program was converted for another machine, or back from it, and both were run on emulated controls: they do not do the same. Nothing is known to be wrong with the program.
+
+Please report the program: the fault is in macroglot or in the table of a control."
+
+    "0904" RoundUndecided Review "a round trip is not verified"
+"The program went to another machine and came back, and no difference was found. But part of it was not decided: a branch that no run reached, a fact that no manual confirms. The check tells of it only if it is asked to.
+
+Answer what the message asks in a machine profile. To be told of all such programs, put the code into `extend_select` under `[checks]`."
+
+    "0905" RoundUnstable Review "the text changes in a second round"
+"The program went to another machine and came back, and what came back goes the way again. It comes back as another text than the first time, so each round makes changes for a reviewer to read. All of them do the same.
+
+Commit the text that came back as the program, and convert from there; or allow the finding under `[checks]`."
+
+    "0906" ConversionStale Error "a conversion is not of the text that stands there"
+"The program, one that it calls, or a machine profile changed after the conversion was made. What the machine runs is another program than the library has.
+
+Run `macroglot convert`, read what changed with `macroglot diff`, and commit the conversion with its source."
+
+    "0907" ConversionMissing Error "a program was never converted"
+"The project file names a folder for conversions of this library, others stand there, and this program was not among those that were converted.
+
+Run `macroglot convert`."
+
+    "0908" ConversionChanged Review "a conversion was changed by hand"
+"The text in the output folder is not the one that macroglot wrote. Its certificate is about another text, and the next conversion puts it aside.
+
+Make the change in the source or in the machine profile, and convert again."
+
+    "0909" SourceGone Review "a conversion has no source"
+"The program that this conversion was made of does not stand in the library any more. The machine would still run it.
+
+Run `macroglot convert --prune`, which removes it, or bring the source back."
+
+    "0910" SignedStale Error "a signed report is about other files"
+"Somebody signed this report. A program, a conversion or a profile that it is about has changed since.
+
+Have the change read and signed: write a new report with `macroglot convert --report`, or take the file back to what was signed."
 }

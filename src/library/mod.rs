@@ -35,10 +35,10 @@ pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
 pub use partway::{Partway, partway};
 pub use places::{Spots, real_place, slashed};
-pub use project::{Library, Machine, Project, ProjectError};
+pub use project::{Allow, Checks, Library, Machine, Project, ProjectError};
 pub use publish::{
-    Change, Held, Home, Kind, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
-    abandon, changes, check, is_pending, publish, write_file,
+    Change, Held, Home, Kind, Made, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
+    abandon, changes, check, is_pending, profiles_of, publish, write_file,
 };
 pub use understood::{Understood, understood};
 pub use unread::{InputError, LeftOut, WhyNot};

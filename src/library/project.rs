@@ -1,6 +1,7 @@
 //! `macroglot.toml`: a shop's libraries and machines, so that `convert` and `check`
 //! need no flags in its repository.
 
+use crate::dialect::registry;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,6 +16,9 @@ pub struct Project {
     /// The libraries, by name.
     #[serde(default)]
     pub libraries: BTreeMap<String, Library>,
+    /// What `macroglot check` looks at.
+    #[serde(default)]
+    pub checks: Checks,
     /// The folder that the file lies in; all its paths count from here.
     #[serde(skip)]
     pub root: PathBuf,
@@ -41,6 +45,42 @@ pub struct Library {
     /// The machines it is converted to, and the folder each conversion goes to.
     #[serde(default)]
     pub targets: BTreeMap<String, PathBuf>,
+}
+
+/// What `macroglot check` looks at.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Checks {
+    /// Machines that each program is to get to and come back from.
+    #[serde(default)]
+    pub round_trip: Vec<String>,
+    /// Codes that count, or beginnings of some; those that are on by default if it is empty.
+    #[serde(default)]
+    pub select: Vec<String>,
+    /// Codes that count too.
+    #[serde(default)]
+    pub extend_select: Vec<String>,
+    /// Codes that do not count.
+    #[serde(default)]
+    pub ignore: Vec<String>,
+    /// Reports that were signed: what they are about is to stay as it is.
+    #[serde(default)]
+    pub signed: Vec<PathBuf>,
+    /// Findings that somebody has looked at.
+    #[serde(default)]
+    pub allow: Vec<Allow>,
+}
+
+/// Findings that somebody has looked at, and found to be as they should.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Allow {
+    /// The code, or the beginning of some.
+    pub code: String,
+    /// The files, as ignore files write paths, seen from the project's folder.
+    pub path: String,
+    /// Why.
+    pub reason: String,
 }
 
 /// Why a project file could not be used.
@@ -81,7 +121,26 @@ impl Project {
                 }
             }
         }
+        if let Some(name) = project.checks.round_trip.iter().find(|name| project.machine_of(name).is_none()) {
+            let message = format!(
+                "[checks] asks for a round trip to '{name}', which is no machine of [machines] and no dialect"
+            );
+            return Err(fault(None, message));
+        }
         project.root = path.parent().map(Path::to_owned).unwrap_or_default();
         Ok(Some(project))
+    }
+
+    /// The machine of this name; or, for the name of a dialect, the first one of it that has a profile, a plain one if
+    /// there is none.
+    pub fn machine_of(&self, name: &str) -> Option<(String, Machine)> {
+        if let Some(machine) = self.machines.get(name) {
+            return Some((name.to_owned(), machine.clone()));
+        }
+        let dialect = registry::find(name)?.name;
+        let mut own = self.machines.iter().filter(|(_, machine)| machine.dialect == dialect);
+        let own = own.find(|(_, machine)| machine.profile.is_some());
+        let plain = || (name.to_owned(), Machine { dialect: dialect.to_owned(), profile: None });
+        Some(own.map_or_else(plain, |(name, machine)| (name.clone(), machine.clone())))
     }
 }

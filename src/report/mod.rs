@@ -1,6 +1,7 @@
 //! What people and programs are told: one renderer a format, one file each.
 
 mod asked;
+pub mod check;
 pub mod diff;
 mod drawn;
 mod html;

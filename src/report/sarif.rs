@@ -1,7 +1,7 @@
 //! A conversion as SARIF 2.1.0, which code hosts show beside the lines.
 
 use super::Part;
-use crate::diag::{ALL, Severity};
+use crate::diag::{ALL, Code, Severity};
 use crate::text::{CodePoints, json_pretty};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -9,17 +9,6 @@ use std::path::Path;
 
 /// The conversions as SARIF text.
 pub fn conversion(parts: &[Part<'_>]) -> String {
-    let rules: Vec<Value> = ALL
-        .iter()
-        .map(|code| {
-            json!({
-                "id": code.number(),
-                "shortDescription": { "text": code.title() },
-                "fullDescription": { "text": code.page() },
-                "defaultConfiguration": { "level": level(code.severity()) },
-            })
-        })
-        .collect();
     let results: Vec<Value> = parts.iter().flat_map(results).collect();
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
@@ -28,7 +17,7 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
             "tool": { "driver": {
                 "name": "macroglot",
                 "version": env!("CARGO_PKG_VERSION"),
-                "rules": rules,
+                "rules": rules(),
             }},
             // Columns count what a reader sees that takes every file for UTF-8, and lines end as controls end them.
             "columnKind": "unicodeCodePoints",
@@ -38,6 +27,19 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
         }],
     });
     json_pretty(&log) + "\n"
+}
+
+/// Every code of the catalogue, with its page.
+pub(super) fn rules() -> Vec<Value> {
+    let rule = |code: &Code| {
+        json!({
+            "id": code.number(),
+            "shortDescription": { "text": code.title() },
+            "fullDescription": { "text": code.page() },
+            "defaultConfiguration": { "level": level(code.severity()) },
+        })
+    };
+    ALL.iter().map(rule).collect()
 }
 
 fn results(part: &Part<'_>) -> Vec<Value> {
@@ -78,7 +80,7 @@ pub(super) fn uri(path: &Path) -> String {
     out
 }
 
-fn level(severity: Severity) -> &'static str {
+pub(super) fn level(severity: Severity) -> &'static str {
     match severity {
         Severity::Error => "error",
         Severity::Review => "warning",

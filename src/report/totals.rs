@@ -68,6 +68,7 @@ impl std::fmt::Display for Totals {
     }
 }
 
-fn plural(count: usize, noun: &str) -> String {
+/// So many of a thing.
+pub(super) fn plural(count: usize, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }

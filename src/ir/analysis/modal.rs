@@ -202,6 +202,11 @@ impl Modal {
                 NcItem::Op(op) => self.set(*op, nc.word(Role::WorkOffset).and_then(|e| e.constant())),
                 // A computed code may be any of its letter.
                 NcItem::Code('G', _) => self.forget(),
+                NcItem::Code('M', _) => {
+                    for group in [Group::Spindle, Group::Coolant] {
+                        self.settings[group as usize] = Setting::Unknown;
+                    }
+                }
                 NcItem::Word(Role::Feed, value) => feed = feed.or(Some(value)),
                 NcItem::Code(..) | NcItem::Word(..) => {}
             }

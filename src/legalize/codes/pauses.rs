@@ -16,7 +16,7 @@ use crate::dialect::Control;
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
 use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
-use crate::legalize::features::Features;
+use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use after::After;
@@ -37,10 +37,10 @@ pub fn concerns(features: &Features, entry: &Modal) -> bool {
     Running::ALL.into_iter().any(may)
 }
 
-/// True where something may start it: its codes, or a tap the spindle.
+/// True where something may start it: its codes, a code by a variable, or a tap the spindle.
 fn starts_in(features: &Features, running: Running) -> bool {
     let taps = running == Running::Spindle && features.any_op(Op::is_tap);
-    taps || starts(running).iter().any(|op| features.op(*op))
+    taps || features.has(Feature::Code) || starts(running).iter().any(|op| features.op(*op))
 }
 
 /// What starts it.

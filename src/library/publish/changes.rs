@@ -3,7 +3,7 @@
 //! What stands in an output folder is run on a machine. So a program that is refused now goes, though it was converted before;
 //! a certificate goes with the text that it is about; and what a person changed is kept under another name, never lost.
 
-use super::manifest::{Entry, Kind, Manifest, seen_from};
+use super::manifest::{Entry, Kind, Made, Manifest, seen_from};
 use super::{Change, OutputError};
 use crate::library::inputs::same_file;
 use crate::library::outputs::{SIDECARS, leads_out, read_file};
@@ -65,8 +65,8 @@ impl Told {
 
 /// The changes that bring a folder to what a run wants of it, the manifest first.
 ///
-/// `sources` are the run's files: their names among the inputs, and where they stand. `prune` removes the conversions
-/// whose sources are gone.
+/// `sources` are the run's files: their names among the inputs, and where they stand; `made` says what they hold. `prune`
+/// removes the conversions whose sources are gone.
 ///
 /// # Errors
 /// Files in the folder that cannot be read.
@@ -75,6 +75,7 @@ pub fn changes<'b>(
     manifest: &Manifest,
     wanted: Vec<Wanted<'b>>,
     sources: &BTreeMap<&str, &Path>,
+    made: BTreeMap<String, Made>,
     prune: bool,
 ) -> Result<(Vec<Change<'b>>, Told), OutputError> {
     let names: BTreeSet<String> = wanted.iter().map(|wanted| wanted.name.clone()).collect();
@@ -132,6 +133,10 @@ pub fn changes<'b>(
         next.files.insert(wanted.name.clone(), entry);
         plan.put(wanted)?;
     }
+    // Of a source that is gone nothing is kept but what its files say.
+    let of_files: BTreeSet<&String> = next.files.values().filter_map(|entry| entry.source.as_ref()).collect();
+    next.sources.retain(|name, _| of_files.contains(name) || !prune);
+    next.sources.extend(made);
     plan.tell_replaced(sources);
     plan.apart(&next)?;
     let text = next.print();

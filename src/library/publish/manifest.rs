@@ -2,6 +2,7 @@
 //!
 //! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
 
+use crate::dialect::Control;
 use crate::library::outputs::{read_file, read_text};
 use crate::library::places::slashed;
 use crate::verify::sha256;
@@ -37,6 +38,29 @@ pub struct Manifest {
     /// Conversions that call one another, with their SHA-256 when they were verified, by a number that entries name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub together: BTreeMap<String, BTreeMap<String, String>>,
+    /// The sources that conversions were made of, by their names among the inputs; those too that have none. What earlier
+    /// versions wrote does not say so.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sources: BTreeMap<String, Made>,
+}
+
+/// What a conversion was made of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Made {
+    /// SHA-256 of the source.
+    pub sha256: String,
+    /// What [`profiles_of`] told of the machines.
+    pub profiles: String,
+}
+
+/// SHA-256 of the profiles of both machines, as they stand in their files.
+pub fn profiles_of(source: &Control, target: &Control) -> String {
+    let text = |control: &Control| {
+        let file = control.profile().file.as_ref().and_then(|path| fs::read(path).ok());
+        [control.name().as_bytes(), &[0], &file.unwrap_or_default()].concat()
+    };
+    sha256(format!("{} {}", sha256(&text(source)), sha256(&text(target))).as_bytes())
 }
 
 /// A file of a manifest.

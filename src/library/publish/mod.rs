@@ -19,7 +19,7 @@ mod sync;
 pub use changes::{Told, Wanted, changes};
 pub use held::{Held, Recovered, abandon};
 pub use home::Home;
-pub use manifest::{Kind, Manifest, ManifestError, Outdated};
+pub use manifest::{Kind, Made, Manifest, ManifestError, Outdated, profiles_of};
 pub use recover::is_pending;
 
 use std::borrow::Cow;

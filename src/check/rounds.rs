@@ -1,0 +1,241 @@
+//! The way to another machine and back: each leg verified, and the text the same when it goes the way again.
+
+use super::finding::{Finding, Pages};
+use super::groups::{Calls, Group};
+use super::{Part, Request, Shelf};
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::dialect::Control;
+use crate::ir::Module;
+use crate::library::{Conversion, Input, Lock, Options, Outcome, ProgramReport, convert, judge};
+use crate::text::{LineIndex, Span};
+use crate::verify::{self, Effort};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// What a way there and back showed of a group, in a form that is kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Shown {
+    code: String,
+    /// The file's name in the library.
+    file: String,
+    /// Bytes of the source.
+    at: (u32, u32),
+    message: String,
+    help: Option<String>,
+    /// The code of the reason, if it stands in the source.
+    why: Option<String>,
+}
+
+/// The findings of all groups that the files which are looked at stand in; and how many ways were taken, and were known.
+pub fn findings(
+    shelf: &Shelf,
+    module: &Module,
+    pages: &Pages<'_>,
+    request: &Request<'_>,
+) -> (Vec<Finding>, [usize; 2]) {
+    let calls = Calls::of(module, shelf.inputs.len());
+    let wanted: BTreeSet<usize> = (0..shelf.inputs.len()).filter(|at| shelf.wanted[*at]).collect();
+    // A program whose callee changed is told of too: it is the one that does something else now.
+    let told = calls.up(wanted.iter().copied());
+    let groups = calls.groups(&wanted);
+    let first = first_groups(&groups, &wanted);
+    let ways: Vec<(&Group, &(String, Control), usize)> = groups
+        .iter()
+        .zip(first)
+        .flat_map(|(group, files)| shelf.rounds.iter().map(move |round| (group, round, files)))
+        .collect();
+    let walked = ways.par_iter().map(|(group, round, files)| {
+        let shown = known_or_found(shelf, group, round, request);
+        (request.done)(*files);
+        shown
+    });
+    let walked: Vec<(Vec<Shown>, bool)> = walked.collect();
+    let taken = walked.iter().filter(|(_, known)| !known).count();
+    let counts = [taken, walked.len() - taken];
+    let place = |name: &str| shelf.inputs.iter().position(|input| input.name == name);
+    let shown = walked.into_iter().flat_map(|(shown, _)| shown);
+    let found = shown.filter_map(|shown| {
+        let file = place(&shown.file).filter(|file| told.contains(file))?;
+        // What is wrong with the source itself is told of already.
+        let of_source = shown.why.as_deref().and_then(Code::find).is_some_and(super::understood::is_of_source);
+        if of_source && request.parts.contains(&Part::Read) && shelf.wanted[file] {
+            return None;
+        }
+        let code = Code::find(&shown.code)?;
+        Some(pages.at(code, file, Span::new(shown.at.0, shown.at.1), shown.message, shown.help))
+    });
+    (found.collect(), counts)
+}
+
+/// By group, how many of the files that are looked at are in no group before it.
+fn first_groups(groups: &[Group], wanted: &BTreeSet<usize>) -> Vec<usize> {
+    let mut seen = BTreeSet::new();
+    let new = |group: &Group| group.files.iter().filter(|file| wanted.contains(file) && seen.insert(**file)).count();
+    groups.iter().map(new).collect()
+}
+
+/// What the way of a group shows, and whether that was known.
+fn known_or_found(
+    shelf: &Shelf,
+    group: &Group,
+    (machine, away): &(String, Control),
+    request: &Request<'_>,
+) -> (Vec<Shown>, bool) {
+    let inputs: Vec<Input> = group.files.iter().map(|file| shelf.inputs[*file].clone()).collect();
+    let profiles = format!("{:?}\n{:?}", shelf.control.profile(), away.profile());
+    let effort = format!("{machine}\n{:?}", request.effort);
+    let mut parts: Vec<&[u8]> = vec![b"round", profiles.as_bytes(), effort.as_bytes()];
+    for input in &inputs {
+        parts.extend([input.name.as_bytes(), &input.bytes]);
+    }
+    let key = request.cache.key(&parts);
+    if let Some(known) = request.cache.get(&key) {
+        return (known, true);
+    }
+    let shown = Way { machine, home: &shelf.control, away, effort: request.effort }.walk(&inputs);
+    request.cache.put(&key, &shown);
+    (shown, false)
+}
+
+/// A machine to go to and come back from.
+struct Way<'a> {
+    machine: &'a str,
+    home: &'a Control,
+    away: &'a Control,
+    effort: Effort,
+}
+
+impl Way<'_> {
+    /// Takes the files there and back, and there again.
+    fn walk(&self, inputs: &[Input]) -> Vec<Shown> {
+        let Self { machine, home, away, effort } = self;
+        let mut first = plain(inputs, home, away);
+        judge(inputs, &mut first, home, away, *effort);
+        let there = texts_of(inputs, &first);
+        let mut second = plain(&there, away, home);
+        judge(&there, &mut second, away, home, *effort);
+        let mut shown = Vec::new();
+        for program in &first.programs {
+            let (start, name) = (start_of(program), &inputs[program.file].name);
+            let here = |code, at, message: String, help| shown_at(code, name, at, message, help);
+            if let Some(why) = refused(program) {
+                let differs = program.verdict == Some(verify::Outcome::Different);
+                let code = if differs { Code::RoundDiffers } else { Code::RoundRefused };
+                let message = format!("the program does not get to {machine}: {}", why.message);
+                let told = here(code, why.span, message, why.help.as_deref());
+                shown.push(Shown { why: Some(why.code.number().into()), ..told });
+                continue;
+            }
+            // Its programs on the other machine.
+            let back = second.programs.iter().filter(|back| {
+                let at = start_of(back).start as usize;
+                there[back.file].name == *name && (program.range.contains(&at) || program.range.is_empty())
+            });
+            let back: Vec<&ProgramReport> = back.collect();
+            if let Some((stays, why)) = back.iter().find_map(|back| Some((back, refused(back)?))) {
+                let differs = stays.verdict == Some(verify::Outcome::Different);
+                let code = if differs { Code::RoundDiffers } else { Code::RoundRefused };
+                let there = &there[stays.file].bytes;
+                let (line, _) = LineIndex::new(there).place(why.span.start);
+                let text = super::finding::line_of(there, why.span.start as usize);
+                let message = format!(
+                    "the program gets to {machine} and does not come back: {} (line {line} there, `{text}`)",
+                    why.message
+                );
+                shown.push(here(code, start, message, why.help.as_deref()));
+                continue;
+            }
+            let open = [program].into_iter().chain(back).find(|program| undecided(program));
+            if let Some(open) = open {
+                let why = open.diagnostics.iter().find(|d| d.code == Code::NotDecided);
+                let why = why.map_or("", |why| &*why.message);
+                let message = format!("no difference was found on the way to {machine} and back, but {why}");
+                shown.push(here(Code::RoundUndecided, start, message, None));
+            }
+        }
+        shown.extend(self.changed(inputs, &there, &second));
+        shown
+    }
+
+    /// The files whose text is another one when what came home goes the way again.
+    fn changed(&self, inputs: &[Input], there: &[Input], second: &Conversion) -> Vec<Shown> {
+        let home = texts_of(there, second);
+        let there_again = texts_of(&home, &plain(&home, self.home, self.away));
+        let home_again = texts_of(&there_again, &plain(&there_again, self.away, self.home));
+        let both = home.iter().filter_map(|before| {
+            let after = home_again.iter().find(|after| after.name == before.name)?;
+            let input = inputs.iter().find(|input| input.name == before.name)?;
+            let [line, was, is] = first_difference(&before.bytes, &after.bytes)?;
+            let message = format!(
+                "the text that came back from {} changes when it goes the way again: line {line} is \
+                 `{is}`, and was `{was}`",
+                self.machine
+            );
+            let start = Span::new(0, 0);
+            Some(shown_at(Code::RoundUnstable, &input.name, start, message, None))
+        });
+        both.collect()
+    }
+}
+
+fn plain(inputs: &[Input], source: &Control, target: &Control) -> Conversion {
+    convert(inputs, source, target, Lock::new(source.name(), target.name()), Options::default())
+}
+
+/// The texts of a conversion as the next one reads them.
+fn texts_of(inputs: &[Input], conversion: &Conversion) -> Vec<Input> {
+    let written = inputs.iter().zip(&conversion.texts);
+    let written = written.filter_map(|(input, text)| {
+        let bytes = text.as_ref()?.clone().into_bytes();
+        Some(Input { path: input.path.clone(), name: input.name.clone(), bytes })
+    });
+    written.collect()
+}
+
+/// Why a program is not written: the first of the errors.
+fn refused(program: &ProgramReport) -> Option<&Diagnostic> {
+    let refused = program.outcome == Outcome::Refused;
+    let mut errors = program.diagnostics.iter().filter(|d| d.severity() == Severity::Error);
+    errors.next().filter(|_| refused)
+}
+
+fn undecided(program: &ProgramReport) -> bool {
+    program.outcome != Outcome::Refused && program.verdict != Some(verify::Outcome::Same)
+}
+
+/// Where a program begins, as far as its report says.
+fn start_of(program: &ProgramReport) -> Span {
+    program.map.iter().map(|(span, _)| *span).min_by_key(|span| span.start).unwrap_or_default()
+}
+
+fn shown_at(code: Code, file: &str, at: Span, message: String, help: Option<&str>) -> Shown {
+    let help = help.map(str::to_owned);
+    Shown { code: code.number().into(), file: file.into(), at: (at.start, at.end), message, help, why: None }
+}
+
+/// The first line in which two texts differ: its number, and how it was and is.
+fn first_difference(before: &[u8], after: &[u8]) -> Option<[String; 3]> {
+    if before == after {
+        return None;
+    }
+    let lines = |bytes: &[u8]| -> Vec<String> {
+        String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect()
+    };
+    let (was, is) = (lines(before), lines(after));
+    let at = was.iter().zip(&is).take_while(|(was, is)| was == is).count();
+    let line = |all: &[String]| all.get(at).cloned().unwrap_or_default();
+    Some([(at + 1).to_string(), line(&was), line(&is)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_difference;
+
+    #[test]
+    fn the_first_difference_is_told() {
+        assert_eq!(first_difference(b"a\nb\n", b"a\nb\n"), None);
+        assert_eq!(first_difference(b"a\nb\n", b"a\nc\n"), Some(["2".into(), "b".into(), "c".into()]));
+        assert_eq!(first_difference(b"a\n", b"a\nc\n"), Some(["2".into(), String::new(), "c".into()]));
+    }
+}

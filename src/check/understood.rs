@@ -1,0 +1,46 @@
+//! Whether files are read without loss, and every block of them has a meaning.
+
+use super::Shelf;
+use super::finding::{Finding, Pages};
+use crate::diag::{Code, Severity};
+use crate::library::Understood;
+use crate::syntax::parse_totals;
+use crate::text::Span;
+
+/// What reading and lowering tell of the source itself, beside errors and what the text alone shows. The other questions
+/// of lowering are about a conversion.
+const OF_THE_SOURCE: &[Code] =
+    &[Code::TargetTwice, Code::SubroutineLeft, Code::RegisterUnset, Code::TwinProgram, Code::AmbiguousCall];
+
+/// What the first of all sections has codes for: what the text alone shows.
+const OF_THE_TEXT: &str = "MG01";
+
+/// True if an error of this code is one of the source, whichever control it goes to.
+pub fn is_of_source(code: Code) -> bool {
+    ["MG01", "MG03"].iter().any(|section| code.number().starts_with(section)) || OF_THE_SOURCE.contains(&code)
+}
+
+/// The findings of the files that are looked at.
+pub fn findings(shelf: &Shelf, library: &Understood, pages: &Pages<'_>) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for (program, diagnostics) in library.module.programs.iter().zip(&library.found) {
+        if !shelf.wanted[program.file] {
+            continue;
+        }
+        let is_one = |code: Code| {
+            code.severity() == Severity::Error
+                || code.number().starts_with(OF_THE_TEXT)
+                || OF_THE_SOURCE.contains(&code)
+        };
+        let all = diagnostics.iter().filter(|diagnostic| is_one(diagnostic.code));
+        found.extend(all.map(|diagnostic| pages.finding(program.file, diagnostic)));
+    }
+    let parse = shelf.control.entry().parse;
+    let wanted = (0..shelf.inputs.len()).filter(|at| shelf.wanted[*at]);
+    for at in wanted.filter(|at| !parse_totals(&shelf.inputs[*at].bytes, parse).lossless) {
+        let message = "the file was read, but what was read does not print as it stands".to_owned();
+        let help = Some("report the file: this is a fault of macroglot".to_owned());
+        found.push(pages.at(Code::BytesLost, at, Span::default(), message, help));
+    }
+    found
+}

@@ -1,0 +1,172 @@
+//! Which libraries a check is about, and which of their files: by its arguments, and by the project file.
+
+use super::common::{control, dialect_of, endings, own_profile, profile, read_all};
+use super::jobs::short;
+use super::streams::{complain, remark};
+use crate::check::{Output, Shelf};
+use crate::dialect::{Control, registry};
+use crate::library::{Checks, Input, Library, Project, gather, profiles_of};
+use std::path::{Path, PathBuf};
+
+/// What arguments say of the libraries.
+pub struct Asked<'a> {
+    /// Files and folders.
+    pub paths: &'a [PathBuf],
+    /// Name of the dialect.
+    pub dialect: Option<&'a str>,
+    /// Machines or dialects to go to and come back from.
+    pub against: &'a [String],
+    /// Machine profiles.
+    pub machines: &'a [PathBuf],
+}
+
+/// The libraries, and what the project file says of checks.
+pub struct Shelves {
+    /// The libraries that anything is looked at of.
+    pub shelves: Vec<Shelf>,
+    /// What the project file says of checks.
+    pub checks: Checks,
+    /// The folder that files are seen from.
+    pub root: PathBuf,
+    /// The signed reports.
+    pub signed: Vec<PathBuf>,
+    /// Other files that are read.
+    pub read: Vec<PathBuf>,
+}
+
+/// Finds them.
+///
+/// # Errors
+/// The exit code; what is wrong was said.
+pub fn shelves(asked: &Asked<'_>) -> Result<Shelves, u8> {
+    // A dialect that is named, or standard input, is no project's.
+    let by_hand = asked.dialect.is_some() || !asked.machines.is_empty() || asked.paths.contains(&PathBuf::from("-"));
+    let project = if by_hand { None } else { Project::find(Path::new(".")).map_err(complain)? };
+    match project {
+        Some(project) => of_project(asked, &project),
+        None if asked.paths.is_empty() => {
+            Err(complain("name the files or folders to check (there is no macroglot.toml here or above)"))
+        }
+        None => of_paths(asked),
+    }
+}
+
+fn of_paths(asked: &Asked<'_>) -> Result<Shelves, u8> {
+    let (inputs, _) = read_all(asked.paths)?;
+    let dialect = dialect_of(asked.dialect, &inputs)?;
+    let own = own_profile(asked.dialect, &inputs)?;
+    let mut profiles = Vec::new();
+    for path in asked.machines {
+        profiles.push((path.as_path(), profile(path)?.unwrap_or_default().dialect));
+    }
+    let named = asked.against.iter().map(String::as_str).chain([dialect.as_str()]);
+    let named: Vec<&str> = named.collect();
+    if let Some((path, odd)) = profiles.iter().find(|(_, of)| !named.contains(&of.as_str())) {
+        let what = "which is neither --dialect nor --against";
+        return Err(complain(format!("{} is a profile for '{odd}', {what}", path.display())));
+    }
+    let machine = |name: &str| profiles.iter().find(|(_, of)| of == name).map(|(path, _)| *path);
+    let home = control(&dialect, machine(&dialect).or(own.as_deref()))?;
+    let away = asked.against.iter().map(|name| Ok((name.clone(), control(name, machine(name))?)));
+    let rounds = away.collect::<Result<Vec<_>, u8>>()?;
+    let shelf =
+        Shelf { wanted: vec![true; inputs.len()], whole: false, inputs, control: home, rounds, outputs: Vec::new() };
+    Ok(Shelves {
+        shelves: vec![shelf],
+        checks: Checks::default(),
+        root: std::env::current_dir().unwrap_or_default(),
+        signed: Vec::new(),
+        read: asked.machines.to_vec(),
+    })
+}
+
+fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
+    let wanted = asked.paths.iter().map(|path| {
+        let missing = |_| complain(format!("{}: there is no such file or folder", path.display()));
+        std::fs::canonicalize(path).map_err(missing)
+    });
+    let wanted: Vec<PathBuf> = wanted.collect::<Result<_, u8>>()?;
+    let mut shelves = Vec::new();
+    for library in project.libraries.values() {
+        shelves.extend(of_library(asked, project, library, &wanted)?);
+    }
+    let none = asked.paths.is_empty() && shelves.is_empty();
+    if none {
+        return Err(complain("macroglot.toml names no library: there is nothing to check"));
+    }
+    Ok(Shelves {
+        shelves,
+        checks: project.checks.clone(),
+        root: project.root.clone(),
+        signed: project.checks.signed.iter().map(|report| short(&project.root.join(report))).collect(),
+        read: vec![project.root.join(Project::NAME)],
+    })
+}
+
+/// A library of the project; none if no path that was named lies in it, nor in what it is converted to.
+fn of_library(
+    asked: &Asked<'_>,
+    project: &Project,
+    library: &Library,
+    wanted: &[PathBuf],
+) -> Result<Option<Shelf>, u8> {
+    let folder = project.root.join(&library.path);
+    let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let outputs: Vec<PathBuf> =
+        library.targets.values().map(|target| real(&project.root.join(target))).collect();
+    let meets = |folder: &PathBuf| wanted.iter().any(|path| path.starts_with(folder) || folder.starts_with(path));
+    let whole = wanted.is_empty() || wanted.iter().any(|path| real(&folder).starts_with(path));
+    if !whole && !meets(&real(&folder)) && !outputs.iter().any(meets) {
+        return Ok(None);
+    }
+    let found = gather(&[short(&folder)], &endings());
+    // One that cannot be read is told of, and the others are checked.
+    for error in found.errors.iter().filter(|error| error.left_out().is_none()) {
+        remark(error);
+    }
+    if found.programs.is_empty() {
+        return Ok(None);
+    }
+    let inputs = found.programs;
+    let is_wanted = |input: &Input| {
+        let file = real(&input.path);
+        // A conversion that is named stands for its source.
+        let converted = outputs.iter().map(|output| output.join(&input.name));
+        let of = |file: &PathBuf| wanted.iter().any(|path| file.starts_with(path));
+        whole || of(&file) || converted.into_iter().any(|file| of(&file))
+    };
+    let wanted: Vec<bool> = inputs.iter().map(is_wanted).collect();
+    if !wanted.contains(&true) {
+        return Ok(None);
+    }
+    let control = machine(project, &library.machine)?;
+    let round_trip = if asked.against.is_empty() { &project.checks.round_trip } else { asked.against };
+    let mut rounds = Vec::new();
+    for name in round_trip {
+        let Some((name, _)) = project.machine_of(name) else {
+            let dialects = registry::all().iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ");
+            return Err(complain(format!(
+                "--against {name}: no machine of macroglot.toml has this name; a dialect is one of {dialects}"
+            )));
+        };
+        let away = machine(project, &name)?;
+        if !away.is_same_machine(&control) {
+            rounds.push((name, away));
+        }
+    }
+    let outputs = library.targets.iter().map(|(name, folder)| {
+        let target = machine(project, name)?;
+        let profiles = profiles_of(&control, &target);
+        Ok(Output { machine: name.clone(), folder: short(&project.root.join(folder)), profiles })
+    });
+    let outputs = outputs.collect::<Result<Vec<_>, u8>>()?;
+    Ok(Some(Shelf { inputs, wanted, whole, control, rounds, outputs }))
+}
+
+/// The control of a machine of the project, or of a dialect.
+fn machine(project: &Project, name: &str) -> Result<Control, u8> {
+    let Some((_, machine)) = project.machine_of(name) else {
+        return Err(complain(format!("no machine is named '{name}'")));
+    };
+    control(&machine.dialect, machine.profile.map(|profile| project.root.join(profile)).as_deref())
+}
