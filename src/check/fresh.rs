@@ -25,6 +25,10 @@ pub fn findings(shelf: &Shelf, output: &Output, pages: &Pages<'_>) -> Result<Vec
     if manifest.files.is_empty() && manifest.sources.is_empty() {
         return Err(format!("{shown} has no {}: nothing was converted there", Manifest::NAME));
     }
+    if manifest.sources.is_empty() {
+        let what = "was written by an earlier macroglot, which did not note of what: run `macroglot convert`";
+        return Err(format!("{shown} {what}"));
+    }
     let outdated = manifest.outdated_in(folder);
     let mut found = Vec::new();
     for (file, input) in shelf.inputs.iter().enumerate().filter(|(file, _)| shelf.wanted[*file]) {

@@ -6,6 +6,7 @@ use crate::diag::{Code, Severity};
 use crate::library::Understood;
 use crate::syntax::parse_totals;
 use crate::text::Span;
+use std::collections::BTreeMap;
 
 /// What reading and lowering tell of the source itself, beside errors and what the text alone shows. The other questions
 /// of lowering are about a conversion.
@@ -23,6 +24,7 @@ pub fn is_of_source(code: Code) -> bool {
 /// The findings of the files that are looked at.
 pub fn findings(shelf: &Shelf, library: &Understood, pages: &Pages<'_>) -> Vec<Finding> {
     let mut found = Vec::new();
+    let mut told: BTreeMap<(usize, Code, &str), (usize, usize)> = BTreeMap::new();
     for (program, diagnostics) in library.module.programs.iter().zip(&library.found) {
         if !shelf.wanted[program.file] {
             continue;
@@ -32,8 +34,20 @@ pub fn findings(shelf: &Shelf, library: &Understood, pages: &Pages<'_>) -> Vec<F
                 || code.number().starts_with(OF_THE_TEXT)
                 || OF_THE_SOURCE.contains(&code)
         };
-        let all = diagnostics.iter().filter(|diagnostic| is_one(diagnostic.code));
-        found.extend(all.map(|diagnostic| pages.finding(program.file, diagnostic)));
+        for diagnostic in diagnostics.iter().filter(|diagnostic| is_one(diagnostic.code)) {
+            // What a file says at many places is told at the first.
+            let key = (program.file, diagnostic.code, &*diagnostic.message);
+            let (_, more) = told.entry(key).or_insert((found.len(), 0));
+            *more += 1;
+            if *more == 1 {
+                found.push(pages.finding(program.file, diagnostic));
+            }
+        }
+    }
+    for (at, count) in told.into_values().filter(|(_, count)| *count > 1) {
+        let more = count - 1;
+        let places = if more == 1 { "place" } else { "places" };
+        found[at].message.push_str(&format!(" (and at {more} more {places} of this file)"));
     }
     let parse = shelf.control.entry().parse;
     let wanted = (0..shelf.inputs.len()).filter(|at| shelf.wanted[*at]);

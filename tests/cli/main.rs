@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 mod callees;
+mod check;
 mod commands;
 mod diff;
 #[path = "../support/files.rs"]
