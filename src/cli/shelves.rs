@@ -5,7 +5,7 @@ use super::jobs::short;
 use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
 use crate::dialect::{Control, registry};
-use crate::library::{Checks, Input, Library, Project, gather, profiles_of};
+use crate::library::{Checks, Input, Library, Lock, Manifest, Project, gather, profiles_of};
 use std::path::{Path, PathBuf};
 
 /// What arguments say of the libraries.
@@ -115,7 +115,9 @@ fn of_library(
     let outputs: Vec<PathBuf> =
         library.targets.values().map(|target| real(&project.root.join(target))).collect();
     let meets = |folder: &PathBuf| wanted.iter().any(|path| path.starts_with(folder) || folder.starts_with(path));
-    let whole = wanted.is_empty() || wanted.iter().any(|path| real(&folder).starts_with(path));
+    let about_all = about_all(project, library, &outputs);
+    let is_whole = |path: &PathBuf| real(&folder).starts_with(path) || about_all.contains(path);
+    let whole = wanted.is_empty() || wanted.iter().any(is_whole);
     if !whole && !meets(&real(&folder)) && !outputs.iter().any(meets) {
         return Ok(None);
     }
@@ -161,6 +163,17 @@ fn of_library(
     });
     let outputs = outputs.collect::<Result<Vec<_>, u8>>()?;
     Ok(Some(Shelf { inputs, wanted, whole, control, rounds, outputs }))
+}
+
+/// The files that all programs of a library hang on: the project file, the profiles of its machines, and what macroglot
+/// notes of its conversions.
+fn about_all(project: &Project, library: &Library, outputs: &[PathBuf]) -> Vec<PathBuf> {
+    let machines = [&library.machine].into_iter().chain(library.targets.keys()).chain(&project.checks.round_trip);
+    let machines = machines.filter_map(|name| project.machine_of(name));
+    let profiles = machines.filter_map(|(_, machine)| Some(project.root.join(machine.profile?)));
+    let notes = outputs.iter().flat_map(|output| [Lock::NAME, Manifest::NAME].map(|name| output.join(name)));
+    let all = profiles.chain([project.root.join(Project::NAME)]).chain(notes);
+    all.filter_map(|path| std::fs::canonicalize(path).ok()).collect()
 }
 
 /// The control of a machine of the project, or of a dialect.

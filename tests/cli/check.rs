@@ -74,7 +74,8 @@ fn other_files_are_left_alone() {
     let shop = shop();
     shop.write("programs/notes.md", b"# Notes\n");
     shop.write("other/x.nc", REFUSED.as_bytes());
-    let run = check(&shop, "README.txt programs/notes.md other/x.nc macroglot.toml");
+    shop.write("other.toml", b"[a]\n");
+    let run = check(&shop, "README.txt programs/notes.md other/x.nc other.toml");
     assert_eq!((run.code, run.out.as_str()), (0, "0 files checked, nothing found\n"), "{}", run.err);
     shop.fails("check --cache cache gone.nc", &["gone.nc", "no such file"]);
 }
@@ -153,6 +154,10 @@ fn a_profile_that_changed_makes_conversions_stale() {
     shop.write("vf2.toml", format!("{profile}reserved = [\"#550-#599\"]\n").as_bytes());
     let run = check(&shop, "programs/alone.nc");
     assert!(run.out.contains("MG0906 a machine profile changed after"), "{}", run.out);
+    // The profile, or the project file, is about all of them.
+    for named in ["vf2.toml", "macroglot.toml", "haas/macroglot.manifest"] {
+        assert_eq!(found(&json(&shop, &format!("{named} --only fresh"))).len(), 3, "{named}");
+    }
     // A refused program is not one that was never converted.
     shop.write("programs/alone.nc", ALONE.replace("M30", "M38").as_bytes());
     assert_eq!(shop.run("convert --quiet").code, 1);

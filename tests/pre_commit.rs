@@ -1,0 +1,211 @@
+//! The hooks of `.pre-commit-hooks.yaml`, run by pre-commit itself in a repository of its own, and the wheel that a hook
+//! in Python installs.
+#![cfg(unix)]
+
+mod support;
+
+use macroglot::dialect::{Entry, registry};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+use support::{root, text};
+use tempfile::TempDir;
+
+const PROJECT: &str = "[machines.fv]\ndialect = \"fanuc\"\n\n[machines.vf2]\ndialect = \"haas\"\n\n\
+                       [libraries.mill]\npath = \"programs\"\nmachine = \"fv\"\n\n[libraries.mill.targets]\n\
+                       vf2 = \"haas\"\n\n[checks]\nround_trip = [\"vf2\"]\n";
+const SOUND: &str = "O1000\nG21 G17 G90 G40 G80 G94 G54\nG0 X1.\nM30\n";
+
+/// Python with pre-commit and maturin, installed once for all tests from its registry.
+fn tools() -> &'static Path {
+    static TOOLS: OnceLock<PathBuf> = OnceLock::new();
+    TOOLS.get_or_init(|| {
+        let wanted = text("tests/support/python.txt");
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python-tools");
+        let done = folder.join("installed.txt");
+        if std::fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
+            return folder;
+        }
+        let python = Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder).output();
+        let why = "this test needs Python 3.9 or later with venv: install it";
+        assert!(python.is_ok_and(|python| python.status.success()), "{why}");
+        let pip = Command::new(folder.join("bin/pip"))
+            .args(["install", "--quiet", "--disable-pip-version-check", "-r"])
+            .arg(root().join("tests/support/python.txt"))
+            .output();
+        said(&pip.unwrap(), "pip install");
+        std::fs::write(&done, wanted).unwrap();
+        folder
+    })
+}
+
+fn said(output: &Output, what: &str) -> String {
+    let all = [&output.stdout[..], &output.stderr].concat();
+    let all = String::from_utf8_lossy(&all).into_owned();
+    assert!(output.status.success(), "{what}: {:?}\n{all}", output.status);
+    all
+}
+
+/// A shop's repository, with the hooks installed.
+struct Shop {
+    room: TempDir,
+    path: String,
+}
+
+impl Shop {
+    /// With these hooks, as a configuration lists them.
+    fn with(hooks: &str) -> Self {
+        let program = Path::new(env!("CARGO_BIN_EXE_macroglot")).parent().unwrap();
+        let path = format!("{}:{}:{}", program.display(), tools().join("bin").display(), std::env::var("PATH").unwrap());
+        let shop = Self { room: TempDir::new().unwrap(), path };
+        std::fs::create_dir_all(shop.folder().join("programs")).unwrap();
+        shop.write("macroglot.toml", PROJECT);
+        shop.write("programs/o1000.nc", SOUND);
+        shop.write("README.md", "# A shop\n");
+        shop.write(".pre-commit-config.yaml", &format!("repos:\n- repo: local\n  hooks:\n{hooks}"));
+        for line in [
+            "git init -q -b main",
+            "git config user.name shop",
+            "git config user.email shop@example.com",
+            "git add .",
+            "git commit -q -m programs",
+            "pre-commit install",
+        ] {
+            said(&shop.run(line), line);
+        }
+        shop
+    }
+
+    fn folder(&self) -> PathBuf {
+        self.room.path().join("shop")
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.folder().join(name), text).unwrap();
+    }
+
+    fn run(&self, line: &str) -> Output {
+        let mut command = Command::new("sh");
+        command.args(["-c", line]).current_dir(self.folder()).env("PATH", &self.path);
+        command.env("HOME", self.room.path()).env("PRE_COMMIT_HOME", self.room.path().join("cache"));
+        command.env("GIT_CONFIG_NOSYSTEM", "1").env_remove("GIT_DIR").env_remove("GIT_INDEX_FILE");
+        command.output().unwrap()
+    }
+
+    /// A commit that the hooks let through, and what they said.
+    fn commits(&self, line: &str) -> String {
+        said(&self.run(line), line)
+    }
+
+    /// A commit that the hooks stop, and what they said.
+    fn stops(&self, line: &str) -> String {
+        let output = self.run(line);
+        let all = String::from_utf8_lossy(&[&output.stdout[..], &output.stderr].concat()).into_owned();
+        assert!(!output.status.success(), "{line} went through\n{all}");
+        all
+    }
+}
+
+/// The hooks of the repository, with the binary of this build.
+fn hooks() -> String {
+    let hooks = text(".pre-commit-hooks.yaml").replace("language: rust", "language: system");
+    let lines = hooks.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| format!("  {line}\n")).collect()
+}
+
+#[test]
+fn the_hooks_are_what_pre_commit_takes() {
+    let checked = Command::new(tools().join("bin/pre-commit"))
+        .args(["validate-manifest", ".pre-commit-hooks.yaml"])
+        .current_dir(root())
+        .output();
+    said(&checked.unwrap(), "pre-commit validate-manifest");
+    // The files that folders are read for are those that the hooks are given.
+    let hooks = text(".pre-commit-hooks.yaml");
+    for ending in registry::all().iter().flat_map(Entry::endings) {
+        let named = hooks.lines().filter(|line| line.contains("files:"));
+        let mut named = named.map(|line| line.contains(&format!("|{ending}|")) || line.contains(&format!("({ending}|")));
+        assert!(named.all(|named| named), "no hook is given .{ending}");
+    }
+}
+
+#[test]
+fn a_sound_commit_passes_and_other_files_are_left_alone() {
+    let shop = Shop::with(&hooks());
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X2."));
+    let passed = shop.commits("git commit -a -m move");
+    assert!(passed.contains("macroglot check") && passed.contains("Passed"), "{passed}");
+    shop.write("README.md", "# The shop\n");
+    shop.write("notes", "M38\n");
+    let passed = shop.commits("git add . && git commit -m words");
+    assert!(passed.contains("(no files to check)") && !passed.contains("Passed"), "{passed}");
+}
+
+#[test]
+fn a_fault_stops_the_commit_and_says_where_it_is() {
+    let shop = Shop::with(&hooks());
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X[1."));
+    let stopped = shop.stops("git commit -a -m fault");
+    assert!(stopped.contains("programs/o1000.nc:3:") && stopped.contains("MG0112"), "{stopped}");
+    assert!(stopped.contains("| G0 X[1."), "{stopped}");
+    // One that is new, beside one that was committed.
+    shop.commits("git checkout -q -- . && git status");
+    shop.write("programs/o2000.nc", &SOUND.replace("O1000", "O2000").replace("M30", "M38\nM30"));
+    let stopped = shop.stops("git add . && git commit -m new");
+    assert!(stopped.contains("programs/o2000.nc:4:1: MG0301"), "{stopped}");
+}
+
+#[test]
+fn a_partial_commit_is_checked_as_it_is_committed() {
+    let shop = Shop::with(&hooks());
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X3."));
+    shop.commits("git add programs");
+    // What is not committed may be at work.
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X3.\nX["));
+    shop.commits("git commit -m part");
+    assert!(shop.commits("git diff").contains("+X["));
+    // And what is committed is not what stands there.
+    shop.commits("git add programs");
+    shop.write("programs/o1000.nc", SOUND);
+    assert!(shop.stops("git commit -m part").contains("MG0112"));
+}
+
+#[test]
+fn a_conversion_goes_with_its_source() {
+    let shop = Shop::with(&hooks());
+    shop.commits("macroglot convert --quiet && git add . && git commit -m converted");
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X4."));
+    let stopped = shop.stops("git commit -a -m move");
+    assert!(stopped.contains("MG0906") && stopped.contains("macroglot convert"), "{stopped}");
+    shop.commits("macroglot convert --quiet && git add . && git commit -m move");
+}
+
+/// Built as a release builds it, but for the optimization.
+#[test]
+fn a_wheel_installs_and_a_hook_in_python_runs_it() {
+    let wheels = TempDir::new().unwrap();
+    let built = Command::new(tools().join("bin/maturin"))
+        .args(["build", "--locked", "--profile", "dev", "--quiet", "--out"])
+        .arg(wheels.path())
+        .current_dir(root())
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_BIN_EXE_macroglot")).ancestors().nth(2).unwrap())
+        .output();
+    said(&built.unwrap(), "maturin build");
+    let wheel = std::fs::read_dir(wheels.path()).unwrap().flatten().map(|entry| entry.path()).next().unwrap();
+    let fresh = wheels.path().join("fresh");
+    said(&Command::new("python3").args(["-m", "venv"]).arg(&fresh).output().unwrap(), "venv");
+    let install = Command::new(fresh.join("bin/pip")).args(["install", "--no-index", "--quiet"]).arg(&wheel).output();
+    said(&install.unwrap(), "pip install");
+    let version = Command::new(fresh.join("bin/macroglot")).arg("--version").output().unwrap();
+    assert_eq!(said(&version, "version"), format!("macroglot {}\n", env!("CARGO_PKG_VERSION")));
+    let hook = format!(
+        "  - id: macroglot\n    name: macroglot\n    entry: macroglot check\n    language: python\n    \
+         additional_dependencies: ['{}']\n    files: '\\.nc$'\n",
+        wheel.display()
+    );
+    let shop = Shop::with(&hook);
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X["));
+    assert!(shop.stops("git commit -a -m fault").contains("MG0112"));
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X5."));
+    shop.commits("git commit -a -m sound");
+}
