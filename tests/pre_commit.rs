@@ -124,7 +124,8 @@ fn the_hooks_are_what_pre_commit_takes() {
     let hooks = text(".pre-commit-hooks.yaml");
     for ending in registry::all().iter().flat_map(Entry::endings) {
         let named = hooks.lines().filter(|line| line.contains("files:"));
-        let mut named = named.map(|line| line.contains(&format!("|{ending}|")) || line.contains(&format!("({ending}|")));
+        let signs = |line: &str| line.split(['|', '(', ')']).any(|part| part == ending);
+        let mut named = named.map(signs);
         assert!(named.all(|named| named), "no hook is given .{ending}");
     }
 }
@@ -178,6 +179,45 @@ fn a_conversion_goes_with_its_source() {
     let stopped = shop.stops("git commit -a -m move");
     assert!(stopped.contains("MG0906") && stopped.contains("macroglot convert"), "{stopped}");
     shop.commits("macroglot convert --quiet && git add . && git commit -m move");
+}
+
+/// The fenced block of `docs/check.md` with this in it.
+fn recipe(language: &str, with: &str) -> String {
+    let page = text("docs/check.md");
+    let fence = format!("```{language}\n");
+    let blocks = page.split(&fence).skip(1).filter_map(|rest| rest.split("\n```").next());
+    let mut blocks = blocks.filter(|block| block.contains(with));
+    blocks.next().unwrap_or_else(|| panic!("docs/check.md has no recipe with {with}")).to_owned()
+}
+
+#[test]
+fn the_recipes_work_as_they_stand() {
+    let shop = Shop::with(&hooks());
+    // Of pre-commit, listed by hand.
+    shop.write(".pre-commit-config.yaml", &recipe("yaml", "language: system"));
+    shop.commits("git add . && git commit -m recipe");
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X[1."));
+    assert!(shop.stops("git commit -a -m fault").contains("MG0112"));
+    // Of git alone.
+    shop.commits("pre-commit uninstall");
+    shop.commits(&recipe("sh", "checkout-index"));
+    shop.commits("git add programs");
+    shop.write("programs/o1000.nc", SOUND);
+    assert!(shop.stops("git commit -m fault").contains("programs/o1000.nc:3:"), "what is staged counts");
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X2."));
+    shop.commits("git commit -a -m sound");
+    shop.write("README.md", "# The shop\n");
+    shop.commits("git commit -a -m words");
+    // Of a code host: what its last step runs.
+    let workflow = recipe("yaml", "pull_request");
+    let step = workflow.lines().filter_map(|line| line.trim().strip_prefix("- run: ")).next_back().unwrap();
+    shop.commits(step);
+    shop.write("programs/o1000.nc", &SOUND.replace("X1.", "X[1."));
+    assert!(shop.stops(step).contains("::error file=programs/o1000.nc,line=3,"));
+    // With a baseline.
+    for line in recipe("sh", "--write-baseline").lines() {
+        shop.commits(line);
+    }
 }
 
 /// Built as a release builds it, but for the optimization.
