@@ -56,7 +56,12 @@ impl Shop {
     /// With these hooks, as a configuration lists them.
     fn with(hooks: &str) -> Self {
         let program = Path::new(env!("CARGO_BIN_EXE_macroglot")).parent().unwrap();
-        let path = format!("{}:{}:{}", program.display(), tools().join("bin").display(), std::env::var("PATH").unwrap());
+        let path = format!(
+            "{}:{}:{}",
+            program.display(),
+            tools().join("bin").display(),
+            std::env::var("PATH").unwrap()
+        );
         let shop = Self { room: TempDir::new().unwrap(), path };
         std::fs::create_dir_all(shop.folder().join("programs")).unwrap();
         shop.write("macroglot.toml", PROJECT);
@@ -234,7 +239,8 @@ fn a_wheel_installs_and_a_hook_in_python_runs_it() {
     let wheel = std::fs::read_dir(wheels.path()).unwrap().flatten().map(|entry| entry.path()).next().unwrap();
     let fresh = wheels.path().join("fresh");
     said(&Command::new("python3").args(["-m", "venv"]).arg(&fresh).output().unwrap(), "venv");
-    let install = Command::new(fresh.join("bin/pip")).args(["install", "--no-index", "--quiet"]).arg(&wheel).output();
+    let install =
+        Command::new(fresh.join("bin/pip")).args(["install", "--no-index", "--quiet"]).arg(&wheel).output();
     said(&install.unwrap(), "pip install");
     let version = Command::new(fresh.join("bin/macroglot")).arg("--version").output().unwrap();
     assert_eq!(said(&version, "version"), format!("macroglot {}\n", env!("CARGO_PKG_VERSION")));

@@ -26,7 +26,12 @@ impl Baseline {
     /// These findings.
     pub fn of(findings: &[Finding]) -> Self {
         let entry = |finding: &Finding| {
-            let what = format!("{} {}: {}", finding.code.number(), crate::library::slashed(&finding.file), finding.message);
+            let what = format!(
+                "{} {}: {}",
+                finding.code.number(),
+                crate::library::slashed(&finding.file),
+                finding.message
+            );
             (finding.fingerprint.clone(), what)
         };
         Self { version: VERSION, findings: findings.iter().map(entry).collect() }
@@ -66,7 +71,8 @@ mod tests {
 
     #[test]
     fn what_it_knows_is_taken_out() {
-        let finding = |text: &str| Finding::of_file(Code::SourceGone, Path::new("a.nc"), text.into(), "h".into());
+        let finding =
+            |text: &str| Finding::of_file(Code::SourceGone, Path::new("a.nc"), text.into(), "h".into());
         let mut before = vec![finding("one"), finding("two")];
         super::super::finding::number(&mut before, Path::new("/"));
         let folder = tempfile::tempdir().unwrap();

@@ -103,7 +103,9 @@ impl Cache {
         let folders = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         // Only what has the names of answers: the folder may be somebody's own.
         let of_answers = |path: &PathBuf| path.file_name().is_some_and(|name| name.len() == 2);
-        for answer in folders.filter(of_answers).filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten() {
+        for answer in
+            folders.filter(of_answers).filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten()
+        {
             let named = answer.file_name().len() >= 64;
             let then = answer.metadata().and_then(|facts| facts.modified());
             if named && then.is_ok_and(|then| older(then, KEPT)) {
@@ -154,7 +156,9 @@ mod tests {
         cache.put(&old, &1);
         cache.put(&new, &2);
         let long_ago = SystemTime::now() - 2 * KEPT;
-        let age = |path: &Path| fs::File::options().append(true).open(path).unwrap().set_modified(long_ago).unwrap();
+        let age = |path: &Path| {
+            fs::File::options().append(true).open(path).unwrap().set_modified(long_ago).unwrap()
+        };
         age(&cache.place(&old).unwrap());
         fs::write(at.join("notes.txt"), "mine").unwrap();
         age(&at.join("notes.txt"));

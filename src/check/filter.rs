@@ -49,7 +49,11 @@ pub fn is_on(code: Code) -> bool {
 
 /// The length of the longest text that names the code.
 fn longest(texts: &[String], code: Code) -> Option<usize> {
-    texts.iter().filter(|text| begins(code, text)).map(|text| if *text == Selection::ALL { 0 } else { text.len() }).max()
+    texts
+        .iter()
+        .filter(|text| begins(code, text))
+        .map(|text| if *text == Selection::ALL { 0 } else { text.len() })
+        .max()
 }
 
 fn begins(code: Code, text: &str) -> bool {
@@ -79,12 +83,15 @@ impl Allowed {
     /// What is wrong with the path, or with the code.
     pub fn new(code: &str, path: &str, reason: &str, root: &Path) -> Result<Self, String> {
         if !ALL.iter().any(|known| begins(*known, code)) {
-            return Err(format!("'{code}' is no code and no beginning of one: `macroglot explain` lists them"));
+            return Err(format!(
+                "'{code}' is no code and no beginning of one: `macroglot explain` lists them"
+            ));
         }
         if reason.trim().is_empty() {
             return Err(format!("say why {code} is allowed: `reason = \"...\"`"));
         }
-        let glob = GlobBuilder::new(path).literal_separator(true).build().map_err(|error| error.to_string())?;
+        let glob =
+            GlobBuilder::new(path).literal_separator(true).build().map_err(|error| error.to_string())?;
         Ok(Self {
             code: code.to_owned(),
             paths: glob.compile_matcher(),
@@ -148,7 +155,8 @@ mod tests {
     #[test]
     fn a_path_is_seen_from_the_project() {
         let root = std::env::current_dir().unwrap();
-        let finding = |file: &str| Finding::of_file(Code::SourceGone, Path::new(file), "m".into(), "h".into());
+        let finding =
+            |file: &str| Finding::of_file(Code::SourceGone, Path::new(file), "m".into(), "h".into());
         let allowed = Allowed::new("MG09", "old/**", "from the last machine", &root).unwrap();
         assert!(allowed.covers(&finding("old/a/b.nc")));
         assert!(!allowed.covers(&finding("new/old/b.nc")));

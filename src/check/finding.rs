@@ -101,14 +101,7 @@ impl<'a> Pages<'a> {
     }
 
     /// A finding at a place of a file.
-    pub fn at(
-        &self,
-        code: Code,
-        file: usize,
-        span: Span,
-        message: String,
-        help: Option<String>,
-    ) -> Finding {
+    pub fn at(&self, code: Code, file: usize, span: Span, message: String, help: Option<String>) -> Finding {
         let input = &self.inputs[file];
         let lines = self.lines[file].get_or_init(|| CodePoints::new(&input.bytes));
         let [start, end] = lines.region(span);

@@ -39,7 +39,10 @@ pub fn findings(shelf: &Shelf, output: &Output, pages: &Pages<'_>) -> Result<Vec
         match manifest.sources.get(&input.name) {
             None => tell(Code::ConversionMissing, format!("the program was never converted for {machine}")),
             Some(made) if made.sha256 != sha256(&input.bytes) => {
-                tell(Code::ConversionStale, format!("the program changed after it was converted for {machine}"));
+                tell(
+                    Code::ConversionStale,
+                    format!("the program changed after it was converted for {machine}"),
+                );
             }
             Some(made) if made.profiles != output.profiles => {
                 let what = "a machine profile changed after the program was converted for";
@@ -67,7 +70,8 @@ fn by_hand(shelf: &Shelf, manifest: &Manifest, folder: &Path) -> Vec<Finding> {
         at.is_some_and(|at| shelf.wanted[at])
     };
     let mut found = Vec::new();
-    let programs = manifest.files.iter().filter(|(_, entry)| matches!(entry.kind, Kind::Program | Kind::Draft));
+    let programs =
+        manifest.files.iter().filter(|(_, entry)| matches!(entry.kind, Kind::Program | Kind::Draft));
     for (name, entry) in programs.filter(|(_, entry)| entry.source.as_deref().is_some_and(wanted)) {
         let path = folder.join(name);
         let message = match std::fs::read(&path) {
@@ -88,6 +92,7 @@ fn gone(shelf: &Shelf, manifest: &Manifest, folder: &Path) -> Vec<Finding> {
     let firsts = gone.into_values().filter_map(|files| files.into_iter().next());
     let message = "the source of this conversion is gone";
     let help = "run `macroglot convert --prune`, which removes it";
-    let tell = |name: &str| Finding::of_file(Code::SourceGone, &folder.join(name), message.into(), help.into());
+    let tell =
+        |name: &str| Finding::of_file(Code::SourceGone, &folder.join(name), message.into(), help.into());
     firsts.map(tell).collect()
 }

@@ -99,7 +99,8 @@ mod tests {
 
     /// Calls from and to.
     fn calls(files: usize, all: &[(usize, usize)]) -> Calls {
-        let mut calls = Calls { callees: vec![BTreeSet::new(); files], callers: vec![BTreeSet::new(); files] };
+        let mut calls =
+            Calls { callees: vec![BTreeSet::new(); files], callers: vec![BTreeSet::new(); files] };
         all.iter().for_each(|(from, to)| calls.add(*from, *to));
         calls
     }

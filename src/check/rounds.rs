@@ -58,7 +58,8 @@ pub fn findings(
     let found = shown.filter_map(|shown| {
         let file = place(&shown.file).filter(|file| told.contains(file))?;
         // What is wrong with the source itself is told of already.
-        let of_source = shown.why.as_deref().and_then(Code::find).is_some_and(super::understood::is_of_source);
+        let of_source =
+            shown.why.as_deref().and_then(Code::find).is_some_and(super::understood::is_of_source);
         if of_source && request.parts.contains(&Part::Read) && shelf.wanted[file] {
             return None;
         }
@@ -71,7 +72,9 @@ pub fn findings(
 /// By group, how many of the files that are looked at are in no group before it.
 fn first_groups(groups: &[Group], wanted: &BTreeSet<usize>) -> Vec<usize> {
     let mut seen = BTreeSet::new();
-    let new = |group: &Group| group.files.iter().filter(|file| wanted.contains(file) && seen.insert(**file)).count();
+    let new = |group: &Group| {
+        group.files.iter().filter(|file| wanted.contains(file) && seen.insert(**file)).count()
+    };
     groups.iter().map(new).collect()
 }
 
@@ -219,9 +222,8 @@ fn first_difference(before: &[u8], after: &[u8]) -> Option<[String; 3]> {
     if before == after {
         return None;
     }
-    let lines = |bytes: &[u8]| -> Vec<String> {
-        String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect()
-    };
+    let lines =
+        |bytes: &[u8]| -> Vec<String> { String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect() };
     let (was, is) = (lines(before), lines(after));
     let at = was.iter().zip(&is).take_while(|(was, is)| was == is).count();
     let line = |all: &[String]| all.get(at).cloned().unwrap_or_default();

@@ -154,7 +154,8 @@ fn selection(arguments: &Arguments, checks: &Checks) -> Result<Selection, u8> {
 /// What the project file allows.
 fn allowed(found: &Shelves) -> Result<Vec<Allowed>, u8> {
     let allowed = found.checks.allow.iter().map(|allow| {
-        let fault = |why: String| complain(format!("{}: [[checks.allow]]: {why}", crate::library::Project::NAME));
+        let fault =
+            |why: String| complain(format!("{}: [[checks.allow]]: {why}", crate::library::Project::NAME));
         Allowed::new(&allow.code, &allow.path, &allow.reason, &found.root).map_err(fault)
     });
     allowed.collect()

@@ -13,6 +13,7 @@ mod diff;
 mod explain;
 mod ir;
 mod jobs;
+mod man;
 mod outcome;
 mod pager;
 mod parse;
@@ -54,6 +55,8 @@ enum Command {
     Explain(explain::Arguments),
     /// Print a completion script for a shell
     Completions(completions::Arguments),
+    /// Print a manual page
+    Man(man::Arguments),
 }
 
 /// All went well.
@@ -88,6 +91,7 @@ pub fn main() -> ExitCode {
         Command::Dialects(arguments) => dialects::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
     };
     ExitCode::from(code)
 }

@@ -40,7 +40,8 @@ pub struct Shelves {
 /// The exit code; what is wrong was said.
 pub fn shelves(asked: &Asked<'_>) -> Result<Shelves, u8> {
     // A dialect that is named, or standard input, is no project's.
-    let by_hand = asked.dialect.is_some() || !asked.machines.is_empty() || asked.paths.contains(&PathBuf::from("-"));
+    let by_hand =
+        asked.dialect.is_some() || !asked.machines.is_empty() || asked.paths.contains(&PathBuf::from("-"));
     let project = if by_hand { None } else { Project::find(Path::new(".")).map_err(complain)? };
     match project {
         Some(project) => of_project(asked, &project),
@@ -69,8 +70,14 @@ fn of_paths(asked: &Asked<'_>) -> Result<Shelves, u8> {
     let home = control(&dialect, machine(&dialect).or(own.as_deref()))?;
     let away = asked.against.iter().map(|name| Ok((name.clone(), control(name, machine(name))?)));
     let rounds = away.collect::<Result<Vec<_>, u8>>()?;
-    let shelf =
-        Shelf { wanted: vec![true; inputs.len()], whole: false, inputs, control: home, rounds, outputs: Vec::new() };
+    let shelf = Shelf {
+        wanted: vec![true; inputs.len()],
+        whole: false,
+        inputs,
+        control: home,
+        rounds,
+        outputs: Vec::new(),
+    };
     Ok(Shelves {
         shelves: vec![shelf],
         checks: Checks::default(),
@@ -114,7 +121,8 @@ fn of_library(
     let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let outputs: Vec<PathBuf> =
         library.targets.values().map(|target| real(&project.root.join(target))).collect();
-    let meets = |folder: &PathBuf| wanted.iter().any(|path| path.starts_with(folder) || folder.starts_with(path));
+    let meets =
+        |folder: &PathBuf| wanted.iter().any(|path| path.starts_with(folder) || folder.starts_with(path));
     let about_all = about_all(project, library, &outputs);
     let is_whole = |path: &PathBuf| real(&folder).starts_with(path) || about_all.contains(path);
     let whole = wanted.is_empty() || wanted.iter().any(is_whole);
@@ -168,7 +176,8 @@ fn of_library(
 /// The files that all programs of a library hang on: the project file, the profiles of its machines, and what macroglot
 /// notes of its conversions.
 fn about_all(project: &Project, library: &Library, outputs: &[PathBuf]) -> Vec<PathBuf> {
-    let machines = [&library.machine].into_iter().chain(library.targets.keys()).chain(&project.checks.round_trip);
+    let machines =
+        [&library.machine].into_iter().chain(library.targets.keys()).chain(&project.checks.round_trip);
     let machines = machines.filter_map(|name| project.machine_of(name));
     let profiles = machines.filter_map(|(_, machine)| Some(project.root.join(machine.profile?)));
     let notes = outputs.iter().flat_map(|output| [Lock::NAME, Manifest::NAME].map(|name| output.join(name)));

@@ -85,9 +85,13 @@ fn other_files_are_left_alone() {
 fn a_change_of_a_macro_concerns_its_callers() {
     let shop = shop();
     // An output that no Haas has: the macro is refused there, and so is its caller.
-    shop.write("programs/macro.nc", MACRO.replace("G0 X0.", "#2=#5421\nPOPEN\nBPRNT[A#1[2]]\nPCLOS").as_bytes());
+    shop.write(
+        "programs/macro.nc",
+        MACRO.replace("G0 X0.", "#2=#5421\nPOPEN\nBPRNT[A#1[2]]\nPCLOS").as_bytes(),
+    );
     let report = json(&shop, "programs/macro.nc --only round");
-    let codes: Vec<String> = found(&report).into_iter().map(|(code, file, _)| format!("{code} {file}")).collect();
+    let codes: Vec<String> =
+        found(&report).into_iter().map(|(code, file, _)| format!("{code} {file}")).collect();
     assert!(codes.contains(&"MG0902 programs/macro.nc".to_owned()), "{codes:?}");
     assert!(codes.iter().all(|found| !found.contains("alone")), "{codes:?}");
     assert_eq!(report["totals"]["round_trips"]["taken"], 1, "one group: {report}");
@@ -108,7 +112,9 @@ fn what_is_known_is_not_done_again() {
     assert_eq!(taken(&shop, "--no-cache"), (2, 0));
     assert_eq!(taken(&shop, "--program-seconds 3"), (2, 0), "another effort is another question");
     // Whatever stands there, the answer is right.
-    for entry in std::fs::read_dir(shop.path("cache")).unwrap().flatten().filter(|entry| entry.path().is_dir()) {
+    for entry in
+        std::fs::read_dir(shop.path("cache")).unwrap().flatten().filter(|entry| entry.path().is_dir())
+    {
         for file in std::fs::read_dir(entry.path()).unwrap().flatten() {
             std::fs::write(file.path(), "[{\"code\":1}]").unwrap();
         }
@@ -125,10 +131,14 @@ fn a_conversion_is_to_be_of_the_text_that_stands_there() {
     shop.write("haas/macro.nc", b"O2000\nM99\n");
     shop.write("programs/new.nc", ALONE.replace("O3000", "O3001").as_bytes());
     let now = found(&json(&shop, "--only fresh"));
-    let expected =
-        [at("MG0908", "haas/macro.nc", 1), at("MG0906", "programs/alone.nc", 1), at("MG0907", "programs/new.nc", 1)];
+    let expected = [
+        at("MG0908", "haas/macro.nc", 1),
+        at("MG0906", "programs/alone.nc", 1),
+        at("MG0907", "programs/new.nc", 1),
+    ];
     // A certificate of main rests on its macro.
-    let (main, others): (Vec<_>, Vec<_>) = now.into_iter().partition(|(_, file, _)| file == "programs/main.nc");
+    let (main, others): (Vec<_>, Vec<_>) =
+        now.into_iter().partition(|(_, file, _)| file == "programs/main.nc");
     assert_eq!(others, expected);
     assert_eq!(main, [at("MG0906", "programs/main.nc", 1)]);
     // A conversion that is named stands for its source.
@@ -177,7 +187,8 @@ fn codes_are_chosen_counted_and_allowed() {
     assert_eq!(check(&shop, &format!("{line} --statistics")).out, "     2 MG0301 unknown meaning\n");
     assert_eq!(check(&shop, &format!("{line} --exit-zero")).code, 0);
     shop.fails("check --cache cache --select MG77", &["'MG77' is no code"]);
-    let allow = "\n[[checks.allow]]\ncode = \"MG0301\"\npath = \"programs/al*.nc\"\nreason = \"the builder's\"\n";
+    let allow =
+        "\n[[checks.allow]]\ncode = \"MG0301\"\npath = \"programs/al*.nc\"\nreason = \"the builder's\"\n";
     shop.write("macroglot.toml", format!("{PROJECT}{allow}").as_bytes());
     let report = json(&shop, line);
     assert_eq!(found(&report), []);
@@ -196,7 +207,10 @@ fn only_what_is_new_counts_against_a_baseline() {
     let written = check(&shop, "--only read --write-baseline known.json");
     assert_eq!(written.code, 0, "{}", written.out);
     let run = check(&shop, "--only read --baseline known.json");
-    assert_eq!((run.code, run.out.as_str()), (0, "3 files checked, nothing found, 1 known to the baseline\n"));
+    assert_eq!(
+        (run.code, run.out.as_str()),
+        (0, "3 files checked, nothing found, 1 known to the baseline\n")
+    );
     // The line moves, and another one comes.
     shop.write("programs/alone.nc", ALONE.replace("M30", "(NEW)\nM38\nM39\nM30").as_bytes());
     let report = json(&shop, "--only read --baseline known.json");

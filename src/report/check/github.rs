@@ -12,7 +12,8 @@ pub fn check(checked: &Checked) -> String {
         let (file, (line, column)) = (slashed(&finding.file), finding.start);
         let (_, last) = finding.end;
         // Columns say where on one line; a finding over several has none at its end.
-        let end = if finding.end.0 == line && last > column { format!(",endColumn={last}") } else { String::new() };
+        let end =
+            if finding.end.0 == line && last > column { format!(",endColumn={last}") } else { String::new() };
         // Writing to memory cannot fail.
         let _ = writeln!(
             out,

@@ -33,7 +33,12 @@ fn status(findings: &[&Finding]) -> TestCaseStatus {
     let line = |finding: &&Finding| {
         let (line, column) = finding.start;
         let help = finding.help.as_ref().map(|help| format!("\n    help: {help}")).unwrap_or_default();
-        format!("{line}:{column}: {} {}\n    | {}{help}", finding.code.number(), finding.message, finding.line)
+        format!(
+            "{line}:{column}: {} {}\n    | {}{help}",
+            finding.code.number(),
+            finding.message,
+            finding.line
+        )
     };
     status.set_description(findings.iter().map(line).collect::<Vec<_>>().join("\n"));
     status

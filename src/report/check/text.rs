@@ -26,10 +26,8 @@ pub fn check(checked: &Checked) -> String {
             plural(checked.files.len(), "file")
         );
     }
-    let more = [
-        (checked.suppressed.len(), "allowed by the project file"),
-        (checked.known, "known to the baseline"),
-    ];
+    let more =
+        [(checked.suppressed.len(), "allowed by the project file"), (checked.known, "known to the baseline")];
     for (count, what) in more.into_iter().filter(|(count, _)| *count > 0) {
         let _ = write!(out, ", {count} {what}");
     }
