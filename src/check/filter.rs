@@ -66,7 +66,7 @@ fn begins(code: Code, text: &str) -> bool {
 pub struct Allowed {
     /// The code, or the beginning of some.
     pub code: String,
-    /// Which files, as ignore files write paths, seen from the project's folder.
+    /// Which files, seen from the project's folder.
     paths: GlobMatcher,
     /// The same, as it is written.
     pub path: String,
@@ -160,7 +160,7 @@ mod tests {
         let allowed = Allowed::new("MG09", "old/**", "from the last machine", &root).unwrap();
         assert!(allowed.covers(&finding("old/a/b.nc")));
         assert!(!allowed.covers(&finding("new/old/b.nc")));
-        let star = Allowed::new("MG0908", "*.nc", "kept", &root).unwrap();
+        let star = Allowed::new("MG0909", "*.nc", "kept", &root).unwrap();
         assert!(star.covers(&finding("a.nc")) && !star.covers(&finding("old/a.nc")));
         assert!(Allowed::new("MG7", "*", "r", &root).unwrap_err().contains("MG7"));
         assert!(Allowed::new("MG09", "*", " ", &root).unwrap_err().contains("reason"));

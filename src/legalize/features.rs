@@ -10,6 +10,8 @@ use crate::ir::{
 pub enum Feature {
     /// A code known by its number.
     Code,
+    /// One of them that may be any code of the machine.
+    MachineCode,
     /// An NC block without words.
     Emptied,
     /// A modal call, or its end.
@@ -171,8 +173,11 @@ impl Features {
                         value => self.value(value),
                     }
                 }
-                NcItem::Code(_, value) => {
+                NcItem::Code(letter, value) => {
                     self.add(Feature::Code);
+                    if *letter == 'M' {
+                        self.add(Feature::MachineCode);
+                    }
                     self.value(value);
                 }
             }

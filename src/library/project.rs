@@ -77,7 +77,7 @@ pub struct Checks {
 pub struct Allow {
     /// The code, or the beginning of some.
     pub code: String,
-    /// The files, as ignore files write paths, seen from the project's folder.
+    /// The files, seen from the project's folder: `*` is any letters but `/`, `**` any.
     pub path: String,
     /// Why.
     pub reason: String,

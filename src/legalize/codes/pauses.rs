@@ -40,7 +40,7 @@ pub fn concerns(features: &Features, entry: &Modal) -> bool {
 /// True where something may start it: its codes, a code by a variable, or a tap the spindle.
 fn starts_in(features: &Features, running: Running) -> bool {
     let taps = running == Running::Spindle && features.any_op(Op::is_tap);
-    taps || features.has(Feature::Code) || starts(running).iter().any(|op| features.op(*op))
+    taps || features.has(Feature::MachineCode) || starts(running).iter().any(|op| features.op(*op))
 }
 
 /// What starts it.
