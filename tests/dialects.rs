@@ -263,6 +263,10 @@ fn profiles_state_options_variables_and_facts() {
     assert!(basic.function(Func::Pow, 2).is_none());
     assert_eq!(basic.has_option("pow"), Some(false));
     assert_eq!(control("fanuc").has_option("pow"), None);
+    let misspelled =
+        Control::from_profile("dialect = \"haas\"\noptions = [\"macros\", \"rotaton\"]").unwrap_err();
+    assert!(misspelled[0].message.contains("no row of") && misspelled[0].message.contains("'rotaton'"));
+    assert!(misspelled[0].help.as_ref().unwrap().contains("macros, ngc, rotation, skip"));
     let few = profile("dialect = \"fanuc\"\nvariables = [\"#100-#120\"]");
     assert!(few.variable_class("#", 120).is_some() && few.variable_class("#", 121).is_none());
     let fact = "behaviour:m99.p.jumps.here";

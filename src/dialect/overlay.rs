@@ -19,6 +19,7 @@ impl Control {
         let settings = overlay.settings(&dialect);
         overlay.apply(&mut dialect, &settings);
         overlay.check_machine(&dialect);
+        overlay.check_options(&dialect);
         overlay.keep_present(&mut dialect, &settings);
         overlay.doubt(&mut dialect);
         overlay.behaviours(&mut dialect);
@@ -56,6 +57,18 @@ impl Control {
             }
         }
     }
+}
+
+/// The options that rows of a table need.
+fn options_of(dialect: &Dialect) -> BTreeSet<&str> {
+    let rows = dialect.codes.iter().map(|row| &row.option);
+    let rows = rows.chain(dialect.system.iter().map(|row| &row.option));
+    let rows = rows.chain(dialect.variables.iter().map(|row| &row.option));
+    let rows = rows.chain(dialect.functions.iter().map(|row| &row.option));
+    let rows = rows.chain(dialect.operators.iter().map(|row| &row.option));
+    let rows = rows.chain(dialect.statements.iter().map(|row| &row.option));
+    let rows = rows.chain(dialect.behaviours.iter().map(|row| &row.option));
+    rows.filter_map(Option::as_deref).collect()
 }
 
 /// A profile on its way over a table.
@@ -110,6 +123,21 @@ impl Overlay {
                 message,
                 format!("the codes of a {name} are not known for this control: leave out its programs"),
             );
+        }
+    }
+
+    /// An option that no row of the table needs would be taken for one that was not bought under its right name.
+    fn check_options(&mut self, dialect: &Dialect) {
+        let named = self.profile.options.clone().unwrap_or_default();
+        let known = options_of(dialect);
+        for name in named.iter().filter(|name| !known.contains(name.as_str())) {
+            let list = known.iter().copied().collect::<Vec<_>>().join(", ");
+            let message = format!("no row of {} needs an option '{name}'", dialect.title);
+            let help = match known.is_empty() {
+                true => "leave it out: the table has no options".to_owned(),
+                false => format!("name one of {list}, or leave it out"),
+            };
+            self.fault("options", message, help);
         }
     }
 

@@ -25,6 +25,8 @@ pub enum WhyNot {
     Link,
     /// Its ending is none that programs have.
     Unknown,
+    /// It reads like prose.
+    Prose,
     /// It has no bytes.
     Empty,
     /// It is no text.
@@ -41,6 +43,7 @@ impl WhyNot {
             Self::Ignored => "ignored",
             Self::Link => "a link",
             Self::Unknown => "with an unknown ending",
+            Self::Prose => "that reads like a text for people",
             Self::Empty => "empty",
             Self::Binary => "binary",
             Self::Written => "written by macroglot",

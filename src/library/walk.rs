@@ -7,7 +7,8 @@ use super::{Lock, Manifest, Project};
 use crate::dialect::registry;
 use ignore::WalkBuilder;
 use std::collections::BTreeSet;
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -56,8 +57,12 @@ fn look(folder: &Path, endings: &[String], above: bool) -> Result<Walked, InputE
         let path = entry.path();
         if let Some(kind) = entry.file_type().filter(|kind| !kind.is_dir()) {
             if kind.is_file() && is_program(path, endings) {
-                let name = path.strip_prefix(folder).map(slashed).unwrap_or_default();
-                walked.programs.push((path.to_owned(), name));
+                if is_for_people(path) {
+                    walked.left_out.push(LeftOut { path: path.to_owned(), why: WhyNot::Prose });
+                } else {
+                    let name = path.strip_prefix(folder).map(slashed).unwrap_or_default();
+                    walked.programs.push((path.to_owned(), name));
+                }
             } else if !is_own(path) {
                 let why = if kind.is_symlink() { WhyNot::Link } else { WhyNot::Unknown };
                 walked.left_out.push(LeftOut { path: path.to_owned(), why });
@@ -103,13 +108,64 @@ fn program_marks() -> &'static [&'static str] {
 fn is_program(path: &Path, endings: &[String]) -> bool {
     match path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()) {
         Some(ending) => ENDINGS.contains(&ending.as_str()) || endings.contains(&ending),
-        // Controls write O1234 and the like; build files and licences have no ending either.
+        // Controls write O1234 and the like, shops O1234A; build files and licences have no ending either.
         None => path.file_name().is_some_and(|name| {
             let name = name.to_string_lossy().to_ascii_uppercase();
-            let number = program_marks().iter().find_map(|mark| name.strip_prefix(mark)).unwrap_or(&name);
-            number.bytes().all(|b| b.is_ascii_digit())
+            let marked = program_marks().iter().find_map(|mark| name.strip_prefix(mark));
+            let number = marked.unwrap_or(&name);
+            let digits = number.bytes().take_while(u8::is_ascii_digit).count();
+            digits == number.len() || marked.is_some() && digits > 0
         }),
     }
+}
+
+/// The ending that programs share with texts for people.
+const SHARED: &str = "txt";
+
+/// Bytes of a file that are looked at to tell a text for people from a program.
+const LOOKED_AT: u64 = 8 * 1024;
+
+/// True for a file with the ending that programs and texts share, if it reads like a text.
+fn is_for_people(path: &Path) -> bool {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(SHARED)) {
+        return false;
+    }
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LOOKED_AT).read_to_end(&mut head));
+    read.is_ok() && is_prose(&String::from_utf8_lossy(&head))
+}
+
+/// True where most lines are sentences: three words or more, and more of them than of anything else. Comments count as
+/// nothing.
+fn is_prose(text: &str) -> bool {
+    let (mut prose, mut all) = (0, 0);
+    for line in text.lines() {
+        let line = without_comments(line);
+        let pieces: Vec<&str> = line.split_whitespace().collect();
+        let is_word = |piece: &&&str| {
+            let letters = piece.trim_matches(|c: char| c.is_ascii_punctuation());
+            letters.chars().count() > 1 && letters.chars().all(|c| c.is_alphabetic() || c == '\'' || c == '-')
+        };
+        let words = pieces.iter().filter(is_word).count();
+        all += usize::from(!pieces.is_empty());
+        prose += usize::from(words >= 3 && 3 * words > 2 * pieces.len());
+    }
+    2 * prose > all
+}
+
+/// A line without what stands in round brackets.
+fn without_comments(line: &str) -> String {
+    let mut depth = 0_usize;
+    let mut out = String::with_capacity(line.len());
+    for sign in line.chars() {
+        match sign {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ if depth == 0 => out.push(sign),
+            _ => {}
+        }
+    }
+    out
 }
 
 /// True for what macroglot itself keeps in folders.
@@ -125,10 +181,34 @@ mod tests {
 
     #[test]
     fn files_without_ending_are_programs_by_their_number() {
-        for (name, program) in
-            [("O1234", true), ("8010", true), ("README", false), ("a.NC", true), ("a.tsv", false)]
-        {
+        for (name, program) in [
+            ("O1234", true),
+            ("8010", true),
+            ("README", false),
+            ("a.NC", true),
+            ("a.tsv", false),
+            ("O9500x", true),
+            ("o12-old", true),
+            ("Once", false),
+            ("7z", false),
+        ] {
             assert_eq!(is_program(Path::new(name), &[]), program, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_text_for_people_is_no_program() {
+        let prose = "Programs for the new mill.\n\nRead this before you run any of them:\nO1000 is the main program.\n";
+        assert!(is_prose(prose) && is_prose("All tools are in the drawer\n"));
+        for program in [
+            "%\nO1000 (THE PART THAT GOES INTO THE DRAWER)\nG0 X1.\nM30\n%\n",
+            "(ALL OF THIS IS A COMMENT AND NOTHING ELSE)\n",
+            "IF [#1 EQ #0] GOTO 99\nWHILE [#1 LT 3] DO1\nEND1\nG65 P9 A1\n",
+            "#PRINT \"ENTER THE DEPTH OF CUT\"\n#INPUT V1\n#IF V1 LT 5 THEN GOTO :A\nX1.\n",
+            "TST V1\nBNE P99\nV1 = V2 + V3\nG1 X=V1\n",
+            "",
+        ] {
+            assert!(!is_prose(program), "{program}");
         }
     }
 }
