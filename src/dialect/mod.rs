@@ -47,7 +47,7 @@ pub use matrix::matrix;
 pub use model::*;
 pub use page::page;
 pub use profile::{
-    Axis, DecimalPoint, Machine, Outputs, Plain, Profile, Signal, SiteCode, Units, VariableRun,
+    Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, SiteCode, Units, VariableRun,
 };
 pub use questions::{Answers, Question};
 pub use reader::{faults_as_text, faults_of_files};

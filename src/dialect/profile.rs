@@ -25,6 +25,8 @@ pub struct Profile {
     pub units: Option<Units>,
     /// What a number without a decimal point counts.
     pub decimal_point: Option<DecimalPoint>,
+    /// How the lines of programs end that are written for it; absent where they end as those of the source.
+    pub line_ends: Option<LineEnds>,
     /// The options that were bought; absent where it is not known which.
     pub options: Option<Vec<String>>,
     /// How many tool offsets the machine has.
@@ -66,6 +68,18 @@ pub struct Profile {
 pub enum Outputs {
     /// It is left out: nobody reads it.
     Omit,
+}
+
+/// How lines end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LineEnds {
+    /// With a line feed.
+    Lf,
+    /// With a carriage return and a line feed.
+    Crlf,
+    /// With a carriage return.
+    Cr,
 }
 
 /// The kind of machine.

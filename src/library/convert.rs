@@ -83,9 +83,14 @@ pub fn convert(
         return unchanged(inputs, source, lock);
     }
     let lock = lock.for_run(inputs.iter().map(|input| input.name.as_str()));
-    if let Some(done) = super::chunks::convert::convert(inputs, source, target, &lock, options) {
-        return done;
-    }
+    let in_pieces = super::chunks::convert::convert(inputs, source, target, &lock, options);
+    let mut done = in_pieces.unwrap_or_else(|| whole(inputs, source, target, lock, options));
+    super::line_ends::keep(inputs, target, &mut done);
+    done
+}
+
+/// Converts a library as a whole.
+fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, options: Options) -> Conversion {
     let Prepared { module, found, files, written } = prepare(inputs, source, target);
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];

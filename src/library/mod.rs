@@ -12,6 +12,7 @@ mod detect;
 mod draft;
 mod echoes;
 mod inputs;
+mod line_ends;
 mod lock;
 mod machine_kind;
 mod names;
