@@ -81,7 +81,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     })?;
     outcome::check_reports(&arguments.report, &jobs, &read)?;
     let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
-    let options = Options { level, draft: arguments.draft };
+    let options = Options { level, draft: arguments.draft, marks: true };
     let files: usize = jobs.iter().map(|job| job.inputs.len()).sum();
     // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
     let mut conversions: Vec<Conversion> = common::with_spinner(format!("converting {files} files"), || {

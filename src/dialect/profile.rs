@@ -25,6 +25,8 @@ pub struct Profile {
     pub units: Option<Units>,
     /// What a number without a decimal point counts.
     pub decimal_point: Option<DecimalPoint>,
+    /// False where programs that are written for it get no line that says what they were made of.
+    pub head: Option<bool>,
     /// How the lines of programs end that are written for it; absent where they end as those of the source.
     pub line_ends: Option<LineEnds>,
     /// The options that were bought; absent where it is not known which.

@@ -50,12 +50,26 @@ pub struct Naming {
     summaries: Option<Summaries>,
     last_sequence: u32,
     guard: Option<u32>,
+    marks: Vec<String>,
+    /// True where a program without a name goes on with what stands before it.
+    continues: bool,
 }
 
 impl Naming {
     /// A naming that knows nothing yet.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Gives the programs of each file the line that says what they were made of.
+    pub fn set_marks(&mut self, marks: &[String], continues: bool) {
+        (self.marks, self.continues) = (marks.to_vec(), continues);
+    }
+
+    /// The line that says what a program was made of, if it gets one.
+    pub fn mark(&self, program: &Program) -> Option<&str> {
+        let has_head = program.name.is_some() || !self.continues;
+        self.marks.get(program.file).filter(|_| has_head).map(String::as_str)
     }
 
     /// Gives a variable its register.

@@ -25,6 +25,19 @@ pub(super) struct Made {
     pub links: Vec<Link>,
 }
 
+/// How the programs of a module begin.
+#[derive(Clone, Debug)]
+pub(super) struct Begun<'m> {
+    /// What is in force then.
+    pub entry: Modal,
+    /// True where the text goes on after the last of them.
+    pub goes_on: bool,
+    /// True where the first of them goes on with what stands before the text: it has no head.
+    pub continues: bool,
+    /// By file, the line that says what its programs were made of.
+    pub marks: &'m [String],
+}
+
 pub(super) fn make(
     mut module: Module,
     mut found: Vec<Vec<Diagnostic>>,
@@ -32,8 +45,9 @@ pub(super) fn make(
     target: &Control,
     mut lock: Lock,
     options: Options,
-    (entry, goes_on): (Modal, bool),
+    Begun { entry, goes_on, continues, marks }: Begun<'_>,
 ) -> Made {
+    super::marks::drop_old(&mut module);
     let count = module.programs.len();
     let short = |program: &Program| Some(program.name.as_ref()?.short().into_owned());
     let names: Vec<Option<String>> = module.programs.iter().map(short).collect();
@@ -52,6 +66,7 @@ pub(super) fn make(
     }));
     let taken = registers.taken_in_words();
     let mut naming = naming(&module, &registers, &numbers.of);
+    naming.set_marks(marks, continues);
     found.resize_with(count, Vec::new);
     found.iter_mut().zip(legal).for_each(|(all, more)| add_new(all, more));
     let mut parts: Vec<Vec<Emitted>> = vec![Vec::new(); count];

@@ -1,7 +1,8 @@
 //! A library from one control to another: read, lower, link, legalize, emit.
 
 use super::chunks::lower::lower;
-use super::compile::make;
+use super::compile::{Begun, make};
+use super::marks::marks;
 use super::names::both_nameless;
 use super::prepare::{Prepared, prepare};
 use super::refused_calls::{self, Link};
@@ -69,6 +70,8 @@ pub struct Options {
     pub level: opt::Level,
     /// True to write refused programs too, with an alarm at every hole.
     pub draft: bool,
+    /// True where each program says in a line at its head what it was made of, unless the target's profile wants none.
+    pub marks: bool,
 }
 
 /// Converts a library.
@@ -95,7 +98,9 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];
     let original = options.draft.then(|| (module.clone(), found.clone()));
-    let mut made = make(module, found, source, target, lock.clone(), options, (Modal::unknown(), false));
+    let marks = if options.marks { marks(inputs, target) } else { Vec::new() };
+    let begun = Begun { entry: Modal::unknown(), goes_on: false, continues: false, marks: &marks };
+    let mut made = make(module, found, source, target, lock.clone(), options, begun.clone());
     if let Some((original, found)) = original {
         // Each round stops the machine where the last one found a hole, until none is left.
         for _ in 0..4 {
@@ -105,8 +110,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
             }
             let mut module = original.clone();
             super::draft::fill(&mut module, &holes);
-            let mut next =
-                make(module, found.clone(), source, target, lock.clone(), options, (Modal::unknown(), false));
+            let mut next = make(module, found.clone(), source, target, lock.clone(), options, begun.clone());
             super::draft::keep_findings(&made.found, &mut next.found);
             made = next;
         }

@@ -15,6 +15,7 @@ mod inputs;
 mod line_ends;
 mod lock;
 mod machine_kind;
+mod marks;
 mod names;
 mod outputs;
 mod partway;

@@ -101,6 +101,9 @@ impl<'p> Emitter<'p> {
     /// Writes which registers the program takes, so that whoever reads it at the machine knows what they hold.
     fn taken_registers(&mut self) {
         self.out.span = Span::default();
+        if let Some(mark) = self.names.mark(self.program) {
+            self.comment(mark);
+        }
         let taken = Taken::of(self.program, self.names);
         for ((name, number), label) in taken.named {
             self.comment(&format!("{name}{number} = {label}"));

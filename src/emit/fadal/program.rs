@@ -67,6 +67,9 @@ impl<'p> Emitter<'p> {
 
     /// Writes which registers the program takes, so that whoever reads it at the machine knows what they hold.
     fn taken_registers(&mut self) {
+        if let Some(mark) = self.names.mark(self.program) {
+            self.comment(mark);
+        }
         let Taken { named, scratch } = Taken::of(self.program, self.names);
         let words = named.into_iter().map(|((name, number), label)| format!("{name}{number}={label}"));
         let mut words: Vec<String> = words.collect();

@@ -14,6 +14,9 @@ const WIDTH: usize = 60;
 impl Emitter<'_> {
     /// Writes the comment, on as many lines as it takes; none if the program takes no register.
     pub(super) fn taken_registers(&mut self) {
+        if let Some(mark) = self.names.mark(self.program) {
+            self.out.comment_lines(mark);
+        }
         let (mut named, mut scratch) = (BTreeMap::new(), BTreeSet::new());
         let mut vars = VarSet::default();
         self.program.variables(&mut |var| {

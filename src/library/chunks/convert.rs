@@ -13,8 +13,9 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
-use crate::library::compile::{Made, make};
+use crate::library::compile::{Begun, Made, make};
 use crate::library::convert::{ProgramReport, frames, outcome};
+use crate::library::marks::marks;
 use crate::library::names::both_nameless;
 use crate::library::{Conversion, Input, Lock, Options, Outcome};
 use crate::lower::Lowered;
@@ -83,6 +84,7 @@ fn convert_pieces(
 ) -> Option<Conversion> {
     let mut sink = Sink::new(input.bytes.len() + input.bytes.len() / 8);
     let mut state = Modal::unknown();
+    let marks = if options.marks { marks(std::slice::from_ref(input), target) } else { Vec::new() };
     let mut pieces = Pieces::new(&input.bytes, source, sizes.piece);
     loop {
         let many = BATCH * rayon::current_num_threads();
@@ -90,22 +92,25 @@ fn convert_pieces(
         if batch.is_empty() {
             break;
         }
+        let is_first = sink.programs.is_empty();
         let goes_on = |piece: &Piece| (piece.lines.end as usize) < input.bytes.len();
         let lowered: Option<Vec<(bool, Lowered)>> = batch
             .into_par_iter()
             .map(|piece| Some((goes_on(&piece), lower(input, piece, source)?)))
             .collect();
-        let entered: Vec<((Modal, bool), Lowered)> = lowered?
+        let entered: Vec<(Begun<'_>, Lowered)> = lowered?
             .into_iter()
-            .map(|(goes_on, piece)| {
-                let entry = state.clone();
+            .enumerate()
+            .map(|(at, (goes_on, piece))| {
+                let continues = at > 0 || !is_first;
+                let begun = Begun { entry: state.clone(), goes_on, continues, marks: &marks };
                 piece.programs.iter().for_each(|(program, _)| step(&mut state, program));
-                ((entry, goes_on), piece)
+                (begun, piece)
             })
             .collect();
         let made: Vec<(Vec<Option<String>>, Made, bool)> = entered
             .into_par_iter()
-            .map(|(entry, piece)| piece_made(piece, entry, source, target, lock, options))
+            .map(|(begun, piece)| piece_made(piece, begun, source, target, lock, options))
             .collect();
         // A register is named at the head of its program, and in the lock.
         if made.iter().any(|(_, made, _)| !made.taken.is_empty()) {
@@ -184,7 +189,7 @@ fn step(state: &mut Modal, program: &Program) {
 
 fn piece_made(
     piece: Lowered,
-    entry: (Modal, bool),
+    begun: Begun<'_>,
     source: &Control,
     target: &Control,
     lock: &Lock,
@@ -198,7 +203,7 @@ fn piece_made(
         module.programs.push(program);
         found.push(diagnostics);
     }
-    let mut made = make(module, found, source, target, lock.clone(), options, entry);
+    let mut made = make(module, found, source, target, lock.clone(), options, begun);
     // Which target block came from where is a table as long as the file.
     made.parts.iter_mut().flatten().for_each(|part| part.blocks = Vec::new());
     (names, made, piece.tape)
