@@ -101,6 +101,11 @@ impl Shop {
     }
 }
 
+/// A conversion without the lines that say what it was made of.
+pub fn unmarked(text: &str) -> String {
+    text.split_inclusive('\n').filter(|line| !line.starts_with("(MACROGLOT ")).collect()
+}
+
 pub fn names(files: &Files) -> Vec<&str> {
     files.keys().map(String::as_str).collect()
 }
