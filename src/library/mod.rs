@@ -16,6 +16,7 @@ mod lock;
 mod machine_kind;
 mod names;
 mod outputs;
+mod pairs;
 mod partway;
 mod places;
 mod prepare;
@@ -32,6 +33,7 @@ pub use detect::{Detected, detect, looks_like};
 pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
+pub use pairs::{Pairs, with_pairs};
 pub use partway::{Partway, partway};
 pub use places::{Spots, real_place, slashed};
 pub use project::{Library, Machine, Project, ProjectError};
@@ -39,6 +41,7 @@ pub use publish::{
     Change, Held, Home, Kind, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
     abandon, changes, check, is_pending, publish, write_file,
 };
+pub use refused_calls::{Link, Linked};
 pub use unread::{InputError, LeftOut, WhyNot};
 pub use verified::{judge, judge_telling};
 pub use withdrawn::Certificates;

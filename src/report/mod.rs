@@ -1,6 +1,7 @@
 //! What people and programs are told: one renderer a format, one file each.
 
 mod asked;
+mod date;
 pub mod diff;
 mod drawn;
 mod html;
@@ -14,6 +15,7 @@ mod text;
 mod totals;
 mod trace;
 
+pub use date::Date;
 pub use drawn::Drawings;
 pub use html::conversion as html;
 pub use json::{conversion as json, write_conversion as write_json};
