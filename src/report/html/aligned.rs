@@ -69,9 +69,7 @@ pub fn rows(source: &Page<'_>, target: &Page<'_>, map: &[(Span, Range<usize>)]) 
         else {
             continue;
         };
-        for line in first..=last {
-            came[line].get_or_insert(from);
-        }
+        came[first..=last].iter_mut().for_each(|line| _ = line.get_or_insert(from));
         went[from].get_or_insert(first);
     }
     let mut beside = kept_order(&came);
@@ -154,7 +152,7 @@ mod tests {
     #[test]
     fn blocks_stand_beside_what_they_became() {
         // A line that became two, one that became nothing, and a comment.
-        let rows = all("A\nB\n(C)\nD\n", "A\nX\n(C)\nD\n", &[(0..1, 0..4), (6..7, 8..10)]);
+        let rows = all("A\nB\n(C)\nD\n", "A\nX\n(C)\nD\n", &[(0..1, 0..4), (8..9, 8..10)]);
         let wanted = [Both(0, 0), Source(1, None), Target(1, Some(0)), Both(2, 2), Both(3, 3)];
         assert_eq!(rows, wanted);
     }

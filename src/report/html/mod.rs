@@ -165,7 +165,7 @@ fn cut(text: &str, most: usize) -> String {
         None => escaped(text),
         Some((at, _)) => {
             let rest = text[at..].chars().count();
-            format!("{} <i>and {} more</i>", escaped(&text[..at]), plural(rest, "letter"))
+            format!("{} <i>and {}</i>", escaped(&text[..at]), plural(rest, "more letter"))
         }
     }
 }

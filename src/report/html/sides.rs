@@ -41,8 +41,8 @@ pub fn sides(out: &mut String, shown: &Shown<'_, '_>) {
         by_line.entry(line).or_default().push(finding);
     }
     let mut writer = Writer { source, target, by_line, left: OF_A_PROGRAM, first: [0, 0], last: None };
-    let first = |at: usize| shown.lines[program.file].place(at as u32).0 as usize;
-    writer.first[0] = first(extent.map_or(0, |extent| extent.start));
+    let start = extent.map_or(0, |extent| extent.start);
+    writer.first[0] = shown.lines[program.file].place(start as u32).0 as usize;
     let before = text.as_bytes().get(..program.range.start).unwrap_or_default();
     writer.first[1] = 1 + memchr::memchr_iter(b'\n', before).count();
     writer.write(out, &rows(&writer.source, &writer.target, &program.map));
