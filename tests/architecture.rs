@@ -83,7 +83,7 @@ const OTHER_SIGNS: &[(&str, &str)] = &[
     ("src/verify/compare/letters.rs", "letters of texts, as operators read them"),
     ("src/verify/compare/texts.rs", "signs of texts that read alike"),
     ("src/report/markdown.rs", "the sign of a heading"),
-    ("src/report/html.rs", "a number of a character"),
+    ("src/report/html/mod.rs", "a number of a character, and the sign of a link in a page"),
     ("src/report/plot.rs", "colours"),
     ("src/report/plot/view.rs", "colours"),
 ];

@@ -103,12 +103,14 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         .iter()
         .zip(&conversions)
         .zip(targets.iter().zip(&folders))
-        .map(|((job, conversion), (targets, folder))| Part {
+        .enumerate()
+        .map(|(at, ((job, conversion), (targets, folder)))| Part {
             from: job.source.name(),
             to: job.target.name(),
             controls: [&job.source, &job.target],
             inputs: &job.inputs,
             conversion,
+            certificates: certificates.get(at),
             targets,
             notes: &job.notes,
             advice: job.target.dialect().advice.as_deref(),

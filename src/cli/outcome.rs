@@ -6,7 +6,7 @@ use crate::library::{
     Certificates, Change, Conversion, Files, Held, Input, Kind, Lock, Made, Outcome, ProgramReport, Spots,
     Told, Wanted, certificate_of, changes, check, profiles_of, publish, withheld_of, write_file,
 };
-use crate::report::{self, Drawings, Part};
+use crate::report::{self, Date, Drawings, Part};
 use crate::verify::{Certificate, sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ fn renderer(path: &Path) -> Option<Renderer> {
         "json" => report::json,
         "sarif" => report::sarif,
         "md" => report::markdown,
-        "html" => report::html,
+        "html" => |parts| report::html(parts, Date::today()),
         "txt" => report::summary,
         _ => return None,
     })

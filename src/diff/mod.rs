@@ -14,6 +14,7 @@ mod sides;
 mod structure;
 mod whole;
 
+pub use normal::variables;
 pub use result::{Diff, FORMAT, FileDiff, Hunk, Line, Note, On, Piece, ProgramDiff, Renamed, Text, Verdict};
 pub use sides::Shelf;
 pub use whole::{Levels, Request, diff, normalised};

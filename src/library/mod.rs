@@ -18,6 +18,7 @@ mod machine_kind;
 mod marks;
 mod names;
 mod outputs;
+mod pairs;
 mod partway;
 mod places;
 mod prepare;
@@ -35,6 +36,7 @@ pub use detect::{Detected, detect, looks_like};
 pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
+pub use pairs::{Pairs, with_pairs};
 pub use partway::{Partway, partway};
 pub use places::{Spots, real_place, slashed};
 pub use project::{Allow, Checks, Library, Machine, Project, ProjectError};
@@ -42,6 +44,7 @@ pub use publish::{
     Change, Held, Home, Kind, Made, Manifest, ManifestError, Outdated, OutputError, Recovered, Told, Wanted,
     abandon, changes, check, is_pending, profiles_of, publish, write_file,
 };
+pub use refused_calls::{Link, Linked};
 pub use understood::{Understood, understood};
 pub use unread::{InputError, LeftOut, WhyNot};
 pub use verified::{judge, judge_telling};

@@ -10,7 +10,7 @@ use crate::dialect::Control;
 use crate::ir::analysis::dataflow::reached;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
-use crate::verify::{self, Certificate, Effort, Job, ProgramCertificate, Side, Spent, SymbolMap};
+use crate::verify::{self, Certificate, Effort, Job, ProgramCertificate, Side, Spent};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -71,13 +71,7 @@ pub fn judge_telling(
         .map(|((at, _), parsed)| LoadedFile { name: &inputs[*at].name, parsed })
         .collect();
     let (from, to) = (Side::new(source, run, &ours), Side::new(target, run_there, &theirs));
-    let lock = &conversion.lock;
-    let names = SymbolMap {
-        variables: lock.variables.clone(),
-        scratch: lock.scratch.iter().copied().collect(),
-        of_words: lock.of_words.iter().cloned().collect(),
-        programs: lock.programs.clone(),
-    };
+    let names = super::pairs::names(conversion);
     let all = from.programs();
     let reports = programs_of(conversion, all);
     let assumed = |at: &usize| assumptions(&conversion.programs[*at]);

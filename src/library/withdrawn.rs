@@ -19,6 +19,8 @@ pub struct Certificates {
     /// The other files that the runs of a file's programs, and of what calls them, may have come through: were they another
     /// text, so might be what was found.
     pub rest_on: Vec<BTreeSet<usize>>,
+    /// Where the certificate of each program stands, by its index: its file, whether it is withheld, its place there.
+    pub(super) places: BTreeMap<usize, (usize, bool, usize)>,
 }
 
 impl Certificates {
@@ -28,7 +30,15 @@ impl Certificates {
             written: vec![None; files],
             withheld: vec![None; files],
             rest_on: vec![BTreeSet::new(); files],
+            places: BTreeMap::new(),
         }
+    }
+
+    /// What was found of a program, by its index among the reports.
+    pub fn of_program(&self, at: usize) -> Option<&ProgramCertificate> {
+        let (file, is_withheld, place) = *self.places.get(&at)?;
+        let all = if is_withheld { &self.withheld } else { &self.written };
+        all.get(file)?.as_ref()?.programs.get(place)
     }
 }
 
@@ -111,7 +121,7 @@ pub fn written(
     found: BTreeMap<usize, ProgramCertificate>,
     withheld: &BTreeSet<usize>,
 ) -> Certificates {
-    let mut all = Certificates { written: files.clone(), withheld: files, rest_on: Vec::new() };
+    let mut all = Certificates { written: files.clone(), withheld: files, ..Certificates::default() };
     for (at, mut program) in found {
         let file = conversion.programs[at].file;
         let is_withheld = withheld.contains(&at);
@@ -121,6 +131,7 @@ pub fn written(
         program.target = there.map(|(name, _)| name);
         let into = if is_withheld { &mut all.withheld } else { &mut all.written };
         if let Some(Some(certificate)) = into.get_mut(file) {
+            all.places.insert(at, (file, is_withheld, certificate.programs.len()));
             certificate.programs.push(program);
         }
     }

@@ -1,42 +1,138 @@
-//! A conversion as Markdown, for a pull request or a change note.
+//! A conversion as Markdown, for a merge request: totals, what a person must answer, a table of programs.
 
-use super::{Part, Place, Totals, grade, words};
-use crate::diag::Diagnostic;
-use crate::text::{acts, shown};
+use super::questions::{Question, Questions};
+use super::{Part, Totals, words};
+use crate::diag::Severity;
+use crate::text::acts;
+use crate::verify;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The conversions as Markdown text: totals, then a section a program.
+/// What a code host shows of a text: letters. Bytes are no fewer.
+const MOST: usize = 65_536;
+
+/// Room for the line that says what is left out.
+const ROOM: usize = 200;
+
+/// Letters of a message.
+const LETTERS: usize = 500;
+
+/// The conversions as Markdown text: no more than a code host shows.
 pub fn conversion(parts: &[Part<'_>]) -> String {
-    let mut out = format!("# Conversion\n\n{}\n", Totals::of(parts));
+    let mut out = Sheet::default();
+    out.line("# Conversion");
+    out.line("");
+    out.line(&Totals::of(parts).to_string());
     for part in parts {
-        let _ = writeln!(out, "\n## {} to {}", escaped(part.from), escaped(part.to));
+        let totals = Totals::of(std::slice::from_ref(part));
+        out.line("");
+        out.line(&format!("**{} to {}**: {totals}", escaped(part.from), escaped(part.to)));
         if let Some(advice) = part.advised() {
-            let _ = writeln!(out, "\n{}: {}", escaped(part.to), escaped(advice));
+            out.line("");
+            out.line(&format!("{}: {}", escaped(part.to), escaped(advice)));
         }
-        let indexes = part.indexes();
-        for program in &part.conversion.programs {
-            let file = escaped(&part.inputs[program.file].name);
-            let name = program.name.as_deref().map(escaped).unwrap_or_default();
-            let _ = writeln!(out, "\n### {file} {name}\n\n**{}**", words(program.outcome));
-            for finding in &program.diagnostics {
-                let place = part.place(program.file, &indexes[program.file], finding);
-                item(&mut out, finding, place);
+        for note in part.notes {
+            out.line("");
+            out.line(&escaped(note));
+        }
+    }
+    asked(&mut out, &Questions::of(parts));
+    programs(&mut out, parts);
+    out.end()
+}
+
+/// What a person must answer, what most depends on first; then what was refused.
+fn asked(out: &mut Sheet, questions: &Questions<'_>) {
+    let (refused, mut open): (Vec<_>, Vec<_>) =
+        questions.open.iter().partition(|question| question.code.severity() == Severity::Error);
+    open.sort_by_key(|question| (question.danger, question.code, std::cmp::Reverse(question.programs)));
+    let facts = questions.machines.iter().flat_map(|machine| machine.facts.iter().map(|fact| &fact.asked));
+    let all: Vec<&Question<'_>> = open.into_iter().chain(facts).collect();
+    for (title, box_, all) in [("Questions", "- [ ] ", all), ("Refused", "- ", refused)] {
+        if all.is_empty() {
+            continue;
+        }
+        out.line("");
+        out.line(&format!("## {title}"));
+        out.line("");
+        for question in all {
+            out.line(&format!("{box_}{}", item(question)));
+            if let Some(help) = question.help {
+                out.line(&format!("  {}", escaped(help)));
             }
         }
     }
-    out
 }
 
-fn item(out: &mut String, finding: &Diagnostic, place: Place<'_>) {
-    let Place { line, column, text } = place;
-    let (code, severity) = (finding.code.number(), grade(finding.severity()));
-    let _ =
-        writeln!(out, "\n- {severity} {code}, line {line}, column {column}: {}", escaped(&finding.message));
-    if let Some(help) = &finding.help {
-        let _ = writeln!(out, "  {}", escaped(help));
+fn item(question: &Question<'_>) -> String {
+    let text: String = question.text.chars().take(LETTERS).collect();
+    let dots = if text.len() < question.text.len() { "..." } else { "" };
+    let more = if question.programs > question.places.len() { ", ..." } else { "" };
+    let programs = if question.programs == 1 { "program" } else { "programs" };
+    let places = escaped(&question.places.join(", "));
+    format!(
+        "**{}** {}{dots} ({} {programs}: {places}{more})",
+        question.code.number(),
+        escaped(&text),
+        question.programs
+    )
+}
+
+/// A table of all programs.
+fn programs(out: &mut Sheet, parts: &[Part<'_>]) {
+    for part in parts.iter().filter(|part| !part.conversion.programs.is_empty()) {
+        out.line("");
+        out.line(&format!("## {} to {}", escaped(part.from), escaped(part.to)));
+        out.line("");
+        out.line("| File | Program | Outcome | Verified | Codes |");
+        out.line("|---|---|---|---|---|");
+        for program in &part.conversion.programs {
+            let file = escaped(&part.inputs[program.file].name);
+            let name = program.name.as_deref().map(escaped).unwrap_or_default();
+            let codes: BTreeSet<&str> = program.diagnostics.iter().map(|d| d.code.number()).collect();
+            let verdict = match program.verdict {
+                Some(verify::Outcome::Same) => "the same",
+                Some(verify::Outcome::Undecided) => "not decided",
+                Some(verify::Outcome::Different) => "different",
+                None => "",
+            };
+            out.line(&format!(
+                "| {file} | {name} | {} | {verdict} | {} |",
+                words(program.outcome),
+                codes.into_iter().collect::<Vec<_>>().join(" ")
+            ));
+        }
     }
-    // Indented code needs no fence, which a program's text could close.
-    let _ = writeln!(out, "\n      {}", shown(&String::from_utf8_lossy(text).replace('\t', " ")));
+}
+
+/// Lines, as long as there is room.
+#[derive(Default)]
+struct Sheet {
+    text: String,
+    left_out: usize,
+}
+
+impl Sheet {
+    fn line(&mut self, line: &str) {
+        // What comes behind a line that found no room would look as if nothing were missing.
+        if self.left_out > 0 || self.text.len() + line.len() + 1 + ROOM > MOST {
+            self.left_out += usize::from(!line.is_empty());
+            return;
+        }
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    fn end(mut self) -> String {
+        if self.left_out > 0 {
+            let lines = if self.left_out == 1 { "line is" } else { "lines are" };
+            let _ = writeln!(
+                self.text,
+                "\n**{} more {lines} left out here: a report that ends in .html has all.**",
+                self.left_out
+            );
+        }
+        self.text
+    }
 }
 
 /// Text whose signs Markdown and HTML would read, with each of them taken literally.
@@ -46,7 +142,7 @@ pub(super) fn escaped(text: &str) -> String {
         match sign {
             '<' => out.push_str("&lt;"),
             '&' => out.push_str("&amp;"),
-            '\\' | '`' | '*' | '_' | '[' | ']' | '#' | '|' | '~' | '!' => out.extend(['\\', sign]),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '#' | '|' | '~' | '!' | '@' => out.extend(['\\', sign]),
             sign if acts(sign) => out.extend(sign.escape_default()),
             sign => out.push(sign),
         }
@@ -56,11 +152,25 @@ pub(super) fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::escaped;
+    use super::{MOST, Sheet, escaped};
 
     #[test]
     fn signs_of_programs_stay_signs() {
         assert_eq!(escaped("#1=[#2*3]"), r"\#1=\[\#2\*3\]");
         assert_eq!(escaped("<b>&\n"), r"&lt;b>&amp;\n");
+        assert_eq!(escaped("@all"), r"\@all");
+    }
+
+    #[test]
+    fn a_sheet_holds_what_a_host_shows_and_says_what_is_left_out() {
+        let mut sheet = Sheet::default();
+        (0..1000).for_each(|_| sheet.line(&"x".repeat(99)));
+        sheet.line("");
+        sheet.line("short");
+        let text = sheet.end();
+        assert!(text.len() <= MOST, "{}", text.len());
+        // 653 lines of a hundred letters leave room for the last one.
+        let told = "\n\n**348 more lines are left out here: a report that ends in .html has all.**\n";
+        assert!(text.ends_with(told) && !text.contains("short"), "{}", &text[text.len() - 120..]);
     }
 }

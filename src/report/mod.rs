@@ -2,6 +2,7 @@
 
 mod asked;
 pub mod check;
+mod date;
 pub mod diff;
 mod drawn;
 mod html;
@@ -15,6 +16,7 @@ mod text;
 mod totals;
 mod trace;
 
+pub use date::Date;
 pub use drawn::Drawings;
 pub use html::conversion as html;
 pub use json::{conversion as json, write_conversion as write_json};

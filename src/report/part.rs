@@ -2,7 +2,7 @@
 
 use crate::diag::Diagnostic;
 use crate::dialect::Control;
-use crate::library::{Conversion, Input, LeftOut, Outcome, ProgramReport, Told};
+use crate::library::{Certificates, Conversion, Input, LeftOut, Outcome, ProgramReport, Told};
 use crate::text::LineIndex;
 use std::path::PathBuf;
 
@@ -19,6 +19,8 @@ pub struct Part<'a> {
     pub inputs: &'a [Input],
     /// What became of its programs.
     pub conversion: &'a Conversion,
+    /// What the verifier found; none if it was not asked.
+    pub certificates: Option<&'a Certificates>,
     /// Where the conversion of each file was written, if it was.
     pub targets: &'a [Option<PathBuf>],
     /// What is to be said of the programs as a whole.
@@ -99,6 +101,7 @@ mod tests {
             to: "haas",
             inputs: &inputs,
             conversion: &conversion,
+            certificates: None,
             targets: &[],
             notes: &[],
             advice: None,

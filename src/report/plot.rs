@@ -1,6 +1,9 @@
 //! The backplot: the tool's path from above and askew, as SVG.
 
+mod overlay;
 mod view;
+
+pub use overlay::overlay;
 
 use super::html::escaped;
 use crate::control::trace::{Event, EventKind};
@@ -11,6 +14,7 @@ use view::{Bounds, View};
 type Point = [f64; 3];
 
 /// A stretch of the path.
+#[derive(Clone)]
 struct Stroke {
     kind: Kind,
     points: Vec<Point>,
@@ -36,6 +40,12 @@ struct Path {
     touches: Vec<Point>,
 }
 
+/// Thirty degrees to either side, Z up.
+const ISOMETRIC: fn(Point) -> (f64, f64) = |[x, y, z]| {
+    let (sin, cos) = (0.5, 0.866_025_403_784_438_6);
+    ((x - y) * cos, (x + y) * sin + z)
+};
+
 /// Side of a drawing, in pixels.
 const SIZE: f64 = 560.0;
 /// Room round a drawing.
@@ -55,12 +65,7 @@ pub fn backplot(events: &[Event], title: &str) -> String {
     let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>");
     let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", escaped(title));
     let flat = path.flat();
-    // Thirty degrees to either side, Z up.
-    let isometric: fn(Point) -> (f64, f64) = |[x, y, z]| {
-        let (sin, cos) = (0.5, 0.866_025_403_784_438_6);
-        ((x - y) * cos, (x + y) * sin + z)
-    };
-    for (column, drawing) in [flat, Drawing { axes: None, project: isometric }].into_iter().enumerate() {
+    for (column, drawing) in [flat, Drawing { axes: None, project: ISOMETRIC }].into_iter().enumerate() {
         let left = MARGIN + column as f64 * (SIZE + MARGIN);
         draw(&path, &drawing, (left, 1.25 * MARGIN), &mut out);
     }

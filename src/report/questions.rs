@@ -4,6 +4,7 @@
 //! they say, over all libraries of a run, the gravest and most frequent first.
 
 use super::Part;
+use crate::assume::Predicate;
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::{Control, Settled, Side};
 use crate::text::LineIndex;
@@ -12,6 +13,9 @@ use std::path::Path;
 
 /// Places that are named of a question.
 const NAMED: usize = 3;
+
+/// Places that a question keeps.
+const KEPT: usize = 100;
 
 /// Something that stands at one or more places.
 #[derive(Clone, Debug)]
@@ -28,6 +32,21 @@ pub struct Question<'a> {
     pub places: Vec<String>,
     /// The line of the first of them, and its number.
     pub line: (u32, String),
+    /// The first place in each program that it concerns, as far as there is room.
+    pub spots: Vec<Spot>,
+    /// How much depends on it: 0 is most.
+    pub danger: usize,
+}
+
+/// A place in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spot {
+    /// The library, by its place in the run.
+    pub part: usize,
+    /// The program, by its place in the library.
+    pub program: usize,
+    /// The line.
+    pub line: u32,
 }
 
 /// A fact that a machine profile can settle.
@@ -66,6 +85,7 @@ struct Gathered<'a> {
     programs: BTreeSet<(&'a Path, usize)>,
     places: Vec<String>,
     line: (u32, String),
+    spots: Vec<Spot>,
 }
 
 impl<'a> Questions<'a> {
@@ -74,7 +94,7 @@ impl<'a> Questions<'a> {
         let mut all: BTreeMap<Key<'a>, Gathered<'a>> = BTreeMap::new();
         let mut controls: Vec<&'a Control> = Vec::new();
         let mut notes = 0;
-        for part in parts {
+        for (number, part) in parts.iter().enumerate() {
             // The lines of a file are counted when the first place in it is named.
             let mut lines: Option<(usize, LineIndex)> = None;
             for (index, program) in part.conversion.programs.iter().enumerate() {
@@ -88,10 +108,13 @@ impl<'a> Questions<'a> {
                         programs: BTreeSet::new(),
                         places: Vec::new(),
                         line: (0, String::new()),
+                        spots: Vec::new(),
                     };
                     let entry = all.entry(key(finding, part, &mut controls)).or_insert_with(fresh);
                     entry.programs.insert((&part.inputs[program.file].path, index));
-                    if entry.places.len() == NAMED {
+                    let is_known = |spot: &Spot| spot.part == number && spot.program == index;
+                    let keeps = entry.spots.len() < KEPT && !entry.spots.last().is_some_and(is_known);
+                    if entry.places.len() == NAMED && !keeps {
                         continue;
                     }
                     let file = program.file;
@@ -100,6 +123,12 @@ impl<'a> Questions<'a> {
                     }
                     let Some((_, lines)) = &lines else { continue };
                     let place = part.place(file, lines, finding);
+                    if keeps {
+                        entry.spots.push(Spot { part: number, program: index, line: place.line });
+                    }
+                    if entry.places.len() == NAMED {
+                        continue;
+                    }
                     if entry.places.is_empty() {
                         entry.line = (place.line, String::from_utf8_lossy(place.text).trim().to_owned());
                     }
@@ -113,9 +142,10 @@ impl<'a> Questions<'a> {
         let mut questions = Self { notes, ..Self::default() };
         questions.machines = controls.iter().map(|control| Machine { control, facts: Vec::new() }).collect();
         for (key, gathered) in all {
-            let Gathered { finding, programs, places, line } = gathered;
+            let Gathered { finding, programs, places, line, spots } = gathered;
             let (text, help) = (&*finding.message, finding.help.as_deref());
-            let asked = Question { code: key.code, text, help, programs: programs.len(), places, line };
+            let (code, programs, danger) = (key.code, programs.len(), danger(finding));
+            let asked = Question { code, text, help, programs, places, line, spots, danger };
             match key.settled {
                 Some((machine, settled_by)) => {
                     questions.machines[machine].facts.push(Fact { settled_by, asked });
@@ -174,4 +204,20 @@ fn settled<'a>(finding: &Diagnostic, part: &Part<'a>) -> Option<(&'a Control, Se
 /// True where one profile is both.
 fn is_one(one: &Control, other: &Control) -> bool {
     one.name() == other.name() && one.profile().file == other.profile().file
+}
+
+/// How much depends on what a finding supposes: 0 is most. First what changes every move of a program, then what changes the
+/// tool or its length, the path, which code or variable is meant; then what no run has shown; facts of tables last.
+fn danger(finding: &Diagnostic) -> usize {
+    match (finding.assumes.as_deref(), finding.code) {
+        (Some(Predicate::Unit), _) => 0,
+        (Some(Predicate::Loaded(_) | Predicate::Tools(_)), _) => 1,
+        (Some(Predicate::ShortArcs(_) | Predicate::ArcEnds(_)), _) => 2,
+        (Some(Predicate::Codes { .. } | Predicate::Subscripts(_) | Predicate::Arguments { .. }), _) => 3,
+        (Some(Predicate::Main | Predicate::Nesting { .. } | Predicate::Alarms(_)), _) => 4,
+        (_, Code::NotDecided | Code::RoundingSensitive) => 5,
+        (Some(Predicate::Unseen), _) | (None, Code::Conditional) => 6,
+        (None, _) => 7,
+        (Some(Predicate::Fact(_)), _) => 8,
+    }
 }

@@ -271,7 +271,7 @@ pub fn left_out_text(left_out: &[LeftOut], named: bool) -> String {
 }
 
 /// What became of files of earlier runs.
-fn folder(out: &mut String, told: &Told) {
+pub(super) fn folder(out: &mut String, told: &Told) {
     for name in &told.removed {
         let _ = writeln!(
             out,

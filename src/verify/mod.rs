@@ -29,6 +29,6 @@ pub use certificate::{
     Assumed, Certificate, Change, Identity, Listing, Moment, Outcome, ProgramCertificate, Reason, Seen, Why,
     Witness, implicate,
 };
-pub use driver::{listed, prepare, verify};
+pub use driver::{Picture, listed, pictured, prepare, verify};
 pub use explore::NotReached;
 pub use sides::{Assumptions, Effort, Job, Side, Spent, SymbolMap, class_of, name_of, sha256};

@@ -10,7 +10,7 @@ pub use html::diff as html;
 pub use markdown::diff as markdown;
 pub use sarif::diff as sarif;
 pub use text::{Colour, diff as text};
-pub use words::headline;
+pub use words::{headline, lines as change_lines, what as change_text};
 
 use crate::diff::Diff;
 use crate::text::json_pretty;

@@ -39,8 +39,8 @@ pub fn listed(job: &Job<'_>, program: ProgramRef, witness: Option<&Witness>, mos
 type Place = [Option<(usize, u32, Discriminant<EventKind>)>; 2];
 
 /// The places so far.
-struct Places {
-    listing: Listing,
+pub(super) struct Places {
+    pub(super) listing: Listing,
     /// Which change shows a place.
     known: HashMap<Place, usize>,
     /// What differs at the end, by what it is of.
@@ -56,13 +56,7 @@ impl Verifier<'_, '_> {
         let found = inputs_of_both((source, self.program), (target, there), names, self.called);
         let inch = unit(source, target).or(found.inch);
         let mut proposals = Proposals::new(&found, effort);
-        let mut places = Places {
-            listing: Listing::default(),
-            known: HashMap::new(),
-            at_end: BTreeMap::new(),
-            most,
-            run: 0,
-        };
+        let mut places = Places::new(most);
         if let Some(witness) = witness {
             self.theirs = witness.target_variables.clone();
             self.list(&witness.scenario, there, &mut places);
@@ -79,8 +73,7 @@ impl Verifier<'_, '_> {
             before = places.known.len();
         }
         self.job.spent.add(&self.clock);
-        places.listing.at_end = places.at_end.into_values().collect();
-        places.listing
+        places.end()
     }
 
     /// Runs both sides in a scenario, and on a machine without sizes.
@@ -107,32 +100,37 @@ impl Verifier<'_, '_> {
         places: &mut Places,
         plain: bool,
     ) -> (bool, bool) {
-        let Job { source, target, names, .. } = *self.job;
         let run = self.run_source(scenario);
         let circumstances = self.circumstances(scenario, &run);
-        let other = target.run(there, &circumstances);
+        let other = self.job.target.run(there, &circumstances);
         self.steps += run.steps;
         let pair = Pair { scenario, run: &run, there, circumstances: &circumstances, other: &other };
         let cut = is_cut(&run) || is_cut(&other);
         let Err(Some(first)) = self.fault(&pair) else { return (false, cut) };
-        let strict = compare((source, &run), (target, &other), names, self.tolerance).difference.is_none();
+        if !self.list_pair(&run, &other, places, plain) {
+            places.at_its_end(first.what.clone());
+        }
+        (true, cut)
+    }
+
+    /// Lists all at which two runs differ. False where that is nothing.
+    pub(super) fn list_pair(&self, run: &Run, other: &Run, places: &mut Places, plain: bool) -> bool {
+        let Job { source, target, names, .. } = *self.job;
+        let strict = compare((source, run), (target, other), names, self.tolerance).difference.is_none();
         let most = places.most.saturating_mul(OF_A_RUN);
         let (all, at_end) =
-            differences((source, &run), (target, &other), names, (self.tolerance, strict), most);
+            differences((source, run), (target, other), names, (self.tolerance, strict), most);
         let is_inch = |run: &Run| run.modes.iter().any(|op| op.group() == Group::Units && *op == Op::Inch);
-        places.listing.inch |= is_inch(&run) && is_inch(&other);
-        let sides = [(source, &run, frames(&run)), (target, &other, frames(&other))];
+        places.listing.inch |= is_inch(run) && is_inch(other);
+        let sides = [(source, run, frames(run)), (target, other, frames(other))];
         places.run += 1;
         let mut last = None;
         for apart in &all {
             last = places.take(apart, &sides, last, plain);
         }
-        let unsaid = (all.is_empty() && at_end.is_empty()).then(|| first.what.clone());
-        for text in at_end.into_iter().chain(unsaid) {
-            let of = text.split(' ').next().unwrap_or_default().to_owned();
-            places.at_end.entry(of).or_insert(text);
-        }
-        (true, cut)
+        let any = !all.is_empty() || !at_end.is_empty();
+        at_end.into_iter().for_each(|text| places.at_its_end(text));
+        any
     }
 }
 
@@ -140,6 +138,23 @@ impl Verifier<'_, '_> {
 type Watched<'w> = (&'w Side<'w>, &'w Run, HashMap<*const Event, (u32, u32)>);
 
 impl Places {
+    /// None yet; room for so many.
+    pub(super) fn new(most: usize) -> Self {
+        Self { listing: Listing::default(), known: HashMap::new(), at_end: BTreeMap::new(), most, run: 0 }
+    }
+
+    /// All of them.
+    pub(super) fn end(mut self) -> Listing {
+        self.listing.at_end = self.at_end.into_values().collect();
+        self.listing
+    }
+
+    /// Takes in what differs at the end of a run, each once.
+    fn at_its_end(&mut self, text: String) {
+        let of = text.split(' ').next().unwrap_or_default().to_owned();
+        self.at_end.entry(of).or_insert(text);
+    }
+
     /// Takes in a difference. Yields the number of the change that it was taken in by, which the next one may go on with.
     fn take(
         &mut self,
@@ -238,7 +253,7 @@ fn frames(run: &Run) -> HashMap<*const Event, (u32, u32)> {
 }
 
 /// The same circumstances on a machine whose zero is the part's, and whose tools have no size.
-fn without_sizes(scenario: &Scenario) -> Scenario {
+pub(super) fn without_sizes(scenario: &Scenario) -> Scenario {
     let mut plain = scenario.clone();
     (plain.work_offsets, plain.tools) = Default::default();
     plain.external_shift = Default::default();

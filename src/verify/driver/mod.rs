@@ -7,6 +7,7 @@ mod fewer_digits;
 mod kept;
 mod listed;
 mod otherwise;
+mod pictured;
 mod run;
 mod search;
 mod summary;
@@ -16,4 +17,5 @@ mod verifier;
 mod weigh;
 
 pub use listed::listed;
+pub use pictured::{Picture, pictured};
 pub use run::{prepare, verify};
