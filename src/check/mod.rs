@@ -118,7 +118,7 @@ pub fn check(request: &Request<'_>) -> Checked {
         checked.files.extend(looked_at.map(|(input, _)| input.path.clone()));
     }
     if request.parts.contains(&Part::Fresh) {
-        found.extend(request.signed.iter().flat_map(|report| signed::changed(report)));
+        found.extend(request.signed.iter().flat_map(|report| signed::changed(report, request.root)));
     }
     found.retain(|finding| request.selection.wants(finding.code));
     finding::number(&mut found, request.root);

@@ -148,7 +148,8 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     read_too.extend(profiles.map(|profile| project.root.join(profile)));
     let control_of = |name: &str| {
         let machine = &project.machines[name];
-        control(&machine.dialect, machine.profile.as_ref().map(|p| project.root.join(p)).as_deref())
+        let profile = machine.profile.as_ref().map(|profile| short(&project.root.join(profile)));
+        control(&machine.dialect, profile.as_deref())
     };
     // With --out, the folders of the project file count from there.
     let root = wish.out.unwrap_or(&project.root);

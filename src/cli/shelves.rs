@@ -190,5 +190,5 @@ fn machine(project: &Project, name: &str) -> Result<Control, u8> {
     let Some((_, machine)) = project.machine_of(name) else {
         return Err(complain(format!("no machine is named '{name}'")));
     };
-    control(&machine.dialect, machine.profile.map(|profile| project.root.join(profile)).as_deref())
+    control(&machine.dialect, machine.profile.map(|profile| short(&project.root.join(profile))).as_deref())
 }

@@ -175,6 +175,36 @@ fn a_profile_that_changed_makes_conversions_stale() {
 }
 
 #[test]
+fn a_signed_report_is_about_the_files_that_stand_there() {
+    let shop = shop();
+    shop.write("vf2.toml", b"dialect = \"haas\"\n");
+    let project = PROJECT.replace("dialect = \"haas\"\n", "dialect = \"haas\"\nprofile = \"vf2.toml\"\n");
+    shop.write(
+        "macroglot.toml",
+        project.replace("[checks]", "[checks]\nsigned = [\"signed.html\"]").as_bytes(),
+    );
+    assert_eq!(found(&json(&shop, "--only fresh")), [at("MG0910", "signed.html", 1)], "it is not there yet");
+    assert_eq!(shop.run("convert --quiet --report signed.html").code, 0);
+    assert_eq!(found(&json(&shop, "")), []);
+    let told = |shop: &Shop| {
+        let report = json(shop, "programs/alone.nc");
+        let all = report["findings"].as_array().unwrap().iter().filter(|f| f["code"] == "MG0910");
+        all.map(|f| f["message"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    shop.write("programs/alone.nc", ALONE.replace("X1.", "X2.").as_bytes());
+    let main = shop.read("haas/main.nc");
+    shop.write("haas/main.nc", b"O1000\nM30\n");
+    let changed = "has changed since the report was signed";
+    assert_eq!(told(&shop), [format!("haas/main.nc {changed}"), format!("programs/alone.nc {changed}")]);
+    shop.write("haas/main.nc", main.as_bytes());
+    shop.write("programs/alone.nc", ALONE.as_bytes());
+    shop.write("vf2.toml", b"dialect = \"haas\"\nunits = \"metric\"\n");
+    assert_eq!(told(&shop), [format!("the profile vf2.toml {changed}")]);
+    shop.write("signed.html", b"<p>signed</p>");
+    assert!(told(&shop)[0].starts_with("is no report"));
+}
+
+#[test]
 fn codes_are_chosen_counted_and_allowed() {
     let shop = shop();
     let wrong = ALONE.replace("M30", "M38\nM39\nM30");

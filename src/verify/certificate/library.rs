@@ -75,7 +75,10 @@ impl Identity {
         for (_, text) in control.entry().files() {
             hash.update(text.as_bytes());
         }
-        hash.update(format!("{:?}", control.profile()).as_bytes());
+        // Where the profile lies does not count.
+        let mut profile = control.profile().clone();
+        profile.file = None;
+        hash.update(format!("{profile:?}").as_bytes());
         Self { control: control.name().into(), sha256: hex(&hash.finalize()) }
     }
 }
