@@ -2,10 +2,11 @@
 
 use super::common::{Time, controls, dialect_of, effort, own_profile, read};
 use super::streams::{complain, print, remark};
-use super::{FOUND, WELL};
+use super::{FOUND, WELL, pager};
 use crate::control::LoadedFile;
 use crate::dialect::Control;
 use crate::library::{Files, Home, Input, Lock, Manifest, is_pending, write_file};
+use crate::report;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, verify};
 use std::collections::BTreeMap;
@@ -29,11 +30,20 @@ pub struct Arguments {
     /// Write the certificate to a file too
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+    /// How to print what was found: text on a terminal, and JSON elsewhere, if it is left out
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Replace a read-only certificate too
     #[arg(long)]
     force: bool,
     #[command(flatten)]
     time: Time,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, clap::ValueEnum)]
+enum Format {
+    Text,
+    Json,
 }
 
 pub fn run(arguments: &Arguments) -> u8 {
@@ -65,7 +75,12 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     if let Some(path) = &arguments.certificate {
         write_file(path, text.as_bytes(), arguments.force).map_err(complain)?;
     }
-    print(&text)?;
+    // Scripts rely on the certificate; a person at a terminal reads words.
+    let usual = if pager::on_terminal() { Format::Text } else { Format::Json };
+    match arguments.format.unwrap_or(usual) {
+        Format::Text => print(&report::certificate(&certificate))?,
+        Format::Json => print(&text)?,
+    }
     Ok(if certificate.outcome == Outcome::Same { WELL } else { FOUND })
 }
 

@@ -1,6 +1,7 @@
 //! What people and programs are told: one renderer a format, one file each.
 
 mod asked;
+mod certificate;
 pub mod check;
 mod date;
 pub mod diff;
@@ -16,6 +17,7 @@ mod text;
 mod totals;
 mod trace;
 
+pub use certificate::certificate;
 pub use date::Date;
 pub use drawn::Drawings;
 pub use html::conversion as html;

@@ -144,3 +144,19 @@ fn a_long_trace_is_not_kept() {
     assert!(peak < 100_000, "{peak} kB");
     assert!(code == Some(1) && count > 20_000, "{code:?}, {count} lines");
 }
+
+/// On a terminal people read words; what scripts read is the certificate.
+#[test]
+fn a_certificate_is_printed_in_words_on_request() {
+    let shop = Shop::with(&[("a.nc", CLEAN), ("b.nc", &CLEAN.replace("X2.", "X2.5"))]);
+    let line = "verify a.nc a.nc --from fanuc --to fanuc";
+    let words = shop.run(&format!("{line} --format text"));
+    assert_eq!(words.code, 0);
+    assert!(words.out.starts_with("O1234 (a.nc and a.nc)\n  The same: in no scenario"), "{}", words.out);
+    assert!(words.out.ends_with("\n\n1 program: 1 the same, 0 undecided, 0 different\n"), "{}", words.out);
+    assert!(shop.run(line).out.starts_with("{\n  \"format\""));
+    let words = shop.run("verify a.nc b.nc --from fanuc --to fanuc --format text");
+    assert_eq!(words.code, 1);
+    let differ = "    source: G1 X2. F10., line 5 of a.nc O1234\n    target: G1 X2.5 F10., line 5 of b.nc O1234\n";
+    assert!(words.out.contains("  Where they differ: ") && words.out.contains(differ), "{}", words.out);
+}

@@ -2,8 +2,9 @@
 
 use super::{escaped, plural, ticked};
 use crate::library::{Outcome, ProgramReport};
+use crate::report::certificate::facts;
 use crate::report::trace::number;
-use crate::verify::{self, Assumed, Moment, NotReached, ProgramCertificate};
+use crate::verify::{Assumed, Moment, NotReached, ProgramCertificate};
 use std::fmt::Write;
 
 /// Entries of a list that are shown.
@@ -53,55 +54,6 @@ pub fn certificate(out: &mut String, program: &ProgramReport, found: Option<&Pro
     list(out, "Constants that were edited alike in both texts, to reach what they decide", edits);
     out.push_str("</ul>\n");
     witness(out, found);
-}
-
-/// What is to be said of each certificate.
-fn facts(found: &ProgramCertificate) -> Vec<String> {
-    let outcome = match found.outcome {
-        verify::Outcome::Same => "The same: in no scenario did the machines do anything else.",
-        verify::Outcome::Undecided => "Not decided: no difference was found, but not everything was shown.",
-        verify::Outcome::Different => "Different: the machines do not do the same.",
-    };
-    let mut all = vec![
-        outcome.to_owned(),
-        format!(
-            "{} tried, {} compared to the end on both machines.",
-            plural(found.scenarios_tried, "scenario"),
-            found.scenarios_compared
-        ),
-        format!(
-            "Ways of branches reached: {} of {} of the source, {} of {} of the target.",
-            found.branches_covered,
-            found.branches_total,
-            found.target_branches_covered,
-            found.target_branches_total
-        ),
-        format!(
-            "Largest distance between positions that count as the same: {} mm; allowed are {} mm.",
-            number(found.largest_difference_mm),
-            number(found.tolerance_mm)
-        ),
-    ];
-    match found.rounding_sensitive {
-        Some(true) => all.push("Its path changes where the target computes with fewer digits.".into()),
-        Some(false) => {
-            all.push("Its path stays the same where the target computes with fewer digits.".into())
-        }
-        None => {}
-    }
-    if !found.given.is_empty() {
-        all.push(format!("It was run as its callers leave the machine: {}.", found.given.join(", ")));
-    }
-    if found.never_come_to {
-        all.push("Other programs call it, but none of their runs reached it.".into());
-    }
-    if found.run_alone {
-        all.push("It was run by itself: no run of its callers could show what it does then.".into());
-    }
-    if !found.started.is_empty() {
-        all.push(format!("It was also started with: {}.", found.started.join(", ").replace('_', " ")));
-    }
-    all
 }
 
 fn list(out: &mut String, title: &str, all: impl ExactSizeIterator<Item = String>) {
