@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use support::{assert_fresh, rust_files};
 
-const SECTIONS: [&str; 8] = [
+const SECTIONS: [&str; 9] = [
     "Text and syntax",
     "Dialects and machine profiles",
     "Lowering",
@@ -16,6 +16,7 @@ const SECTIONS: [&str; 8] = [
     "Libraries and projects",
     "The command line",
     "Emulated controls and verification",
+    "Checks",
 ];
 
 #[test]
