@@ -1,6 +1,6 @@
 //! Labels, jumps, loops and ends: what nothing uses, what nothing reaches, what never ends.
 
-use super::looked::{Findings, Looked, end_of};
+use super::looked::{Findings, Looked};
 use crate::canon::Op;
 use crate::diag::Code;
 use crate::ir::analysis::dataflow::reached_among;
@@ -21,7 +21,7 @@ pub(super) fn unused_label(looked: &Looked<'_>, findings: &mut Findings) {
             for label in &block.labels {
                 let shown = match label {
                     Label::Name(name) => format!("'{name}'"),
-                    Label::Number(_) if computed || comes_back || !few => continue,
+                    Label::Number(_) if computed || comes_back || !few || is_heading(block) => continue,
                     Label::Number(number) => number.to_string(),
                 };
                 let Some(span) = start_of(program, id) else { continue };
@@ -30,6 +30,12 @@ pub(super) fn unused_label(looked: &Looked<'_>, findings: &mut Findings) {
             }
         }
     }
+}
+
+/// True where the number stands before a comment alone: it is for people.
+fn is_heading(block: &Block) -> bool {
+    let first = block.stmts.first();
+    first.is_some_and(|stmt| stmt.kind == StmtKind::Comment && !stmt.site.comments.is_empty())
 }
 
 /// The blocks that jumps and calls name; falling through names none.
@@ -144,8 +150,7 @@ fn resolved(program: &Program, mut id: BlockId) -> BlockId {
 
 /// A jump to where control comes to without it.
 pub(super) fn jump_to_next(looked: &Looked<'_>, findings: &mut Findings) {
-    for (at, program) in looked.programs().filter(|(at, _)| !looked.has_hole(*at)) {
-        let _ = at;
+    for (_, program) in looked.programs().filter(|(at, _)| !looked.has_hole(*at)) {
         for (id, block) in program.ids().zip(&program.blocks) {
             if block.term.site.span == Span::default() {
                 continue;
@@ -179,15 +184,37 @@ pub(super) fn no_end(looked: &Looked<'_>, findings: &mut Findings) {
         if !acts || program.name.is_none() {
             continue;
         }
+        let falls = falls_to(program);
         for id in cfg.order() {
             let Some(block) = program.block(*id) else { continue };
-            if matches!(block.term.kind, TermKind::Stray) {
+            // What only jumps lead to and nothing stands in is a label that is missing.
+            let there = !block.stmts.is_empty() || id.index() == 0 || falls.contains(id);
+            if there && matches!(block.term.kind, TermKind::Stray) {
                 let message =
                     format!("the text of {} ends here without a code that ends it", looked.shown(at));
-                findings.add(program.file, Code::EndMissing, end_of(program, block), message);
+                findings.add(program.file, Code::EndMissing, last_of(program), message);
             }
         }
     }
+}
+
+/// The blocks that control comes to without a jump.
+fn falls_to(program: &Program) -> BTreeSet<BlockId> {
+    let to = program.blocks.iter().filter_map(|block| match &block.term.kind {
+        TermKind::Jump(to) if block.term.site.span == Span::default() => Some(*to),
+        TermKind::Branch { otherwise: to, .. } | TermKind::Call { next: to, .. } => Some(*to),
+        _ => None,
+    });
+    to.collect()
+}
+
+/// The last place of a program.
+fn last_of(program: &Program) -> Span {
+    let spans = program
+        .blocks
+        .iter()
+        .flat_map(|block| block.stmts.iter().map(|stmt| stmt.site.span).chain([block.term.site.span]));
+    spans.max().unwrap_or(program.site.span)
 }
 
 /// A sequence number that stands twice in a program.

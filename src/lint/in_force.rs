@@ -62,7 +62,9 @@ impl<'l, 'a> Watch<'l, 'a> {
 
     fn length(&mut self, step: &Step<'_>, noted: &mut Vec<Noted>) {
         let (nc, after) = (step.nc, step.after);
-        let elsewhere = nc.has(Op::MachineOnce) || nc.ops().any(is_reference);
+        // Without any length, 0 is where the spindle is at home.
+        let home = after.length_off && nc.word(Role::Z).and_then(Expr::constant) == Some(0.0);
+        let elsewhere = home || nc.has(Op::MachineOnce) || nc.ops().any(is_reference);
         if self.names_lengths
             && after.old_length
             && nc.moves()

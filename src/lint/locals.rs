@@ -58,7 +58,7 @@ pub(super) fn unread_argument(looked: &Looked<'_>, findings: &mut Findings) {
         let Some(read) = reads.entry(callee).or_insert_with(|| reads_of(looked, callee)) else { continue };
         for argument in &site.call.arguments {
             let var = Var { class: Class::Local, number: argument.local };
-            if read.contains(var) || matches!(argument.value, Expr::Vacant) {
+            if read.contains(var) || argument.value == Expr::Vacant || mentions(looked, callee, var) {
                 continue;
             }
             let (name, shown) = (looked.name(var), looked.shown(callee));
@@ -85,6 +85,7 @@ pub(super) fn never_read(looked: &Looked<'_>, findings: &mut Findings) {
                 && var.class == Class::Local
                 && !read.contains(*var)
                 && told.insert(*var)
+                && !is_named_more(looked, at, *var)
             {
                 let message = format!("{} is set here, and nothing reads it", looked.name(*var));
                 findings.add(program.file, Code::NeverRead, stmt.site.span, message);
@@ -173,6 +174,47 @@ fn read_after(program: &Program, start: BlockId, var: Var) -> bool {
         );
     }
     false
+}
+
+/// True where a block of a program has the name of a variable beside what stands for it in the form: a word that was
+/// not understood reads it.
+fn mentions(looked: &Looked<'_>, at: usize, var: Var) -> bool {
+    named(looked, at, var) > 0
+}
+
+/// The same of a variable that the program sets.
+fn is_named_more(looked: &Looked<'_>, at: usize, var: Var) -> bool {
+    let stmts = looked.module.programs.get(at).into_iter().flat_map(|program| &program.blocks);
+    let sets =
+        stmts.flat_map(|block| &block.stmts).filter(|stmt| stmt.kind.target() == Some(&Place::Var(var)));
+    let places: BTreeSet<Span> = sets.map(|stmt| stmt.site.span).collect();
+    named(looked, at, var) > places.len()
+}
+
+/// How many blocks of a program have the name of a variable outside of comments, each as often as it has it.
+fn named(looked: &Looked<'_>, at: usize, var: Var) -> usize {
+    let Some(program) = looked.module.programs.get(at) else { return 0 };
+    let Some(input) = looked.inputs.get(program.file) else { return 0 };
+    let name = looked.name(var).to_ascii_uppercase();
+    let mut spans = BTreeSet::new();
+    let mut count = 0;
+    for site in program
+        .blocks
+        .iter()
+        .flat_map(|block| block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]))
+    {
+        if !spans.insert(site.span) {
+            continue;
+        }
+        let mut text = String::from_utf8_lossy(site.span.of(&input.bytes)).into_owned();
+        for comment in &site.comments {
+            text = text.replacen(&comment.text, "", 1);
+        }
+        let text = text.to_ascii_uppercase();
+        let ends = |at: usize| !text[at + name.len()..].starts_with(|c: char| c.is_ascii_digit());
+        count += text.match_indices(&name).filter(|(at, _)| ends(*at)).count();
+    }
+    count
 }
 
 /// What a program reads of its locals, with what it calls without a level; none where that cannot be told.

@@ -89,6 +89,8 @@ pub(super) struct Known {
     pub selected: Option<f64>,
     /// The tool in the spindle.
     pub tool: Option<f64>,
+    /// True where the last length code cancelled the length.
+    pub length_off: bool,
     /// True where a tool was changed and no length was named since.
     pub old_length: bool,
 }
@@ -103,6 +105,7 @@ impl Known {
         on: [On::No; Kept::ALL.len()],
         selected: None,
         tool: None,
+        length_off: false,
         old_length: false,
     };
 
@@ -135,6 +138,7 @@ impl Lattice for Known {
         self.motion = if self.motion == other.motion { self.motion } else { None };
         self.selected = same(self.selected, other.selected);
         self.tool = same(self.tool, other.tool);
+        self.length_off &= other.length_off;
         self.old_length &= other.old_length;
         for (mine, theirs) in self.on.iter_mut().zip(&other.on) {
             *mine =
@@ -239,12 +243,12 @@ impl<'l, 'a> Steps<'l, 'a> {
             Op::Incremental => known.put(Kept::Distance, on),
             Op::Absolute => known.put(Kept::Distance, On::No),
             Op::LengthPlus | Op::LengthMinus => {
-                known.old_length = false;
+                (known.old_length, known.length_off) = (false, false);
                 known.put(Kept::Length, on);
             }
             Op::LengthOff => {
                 known.put(Kept::Length, On::No);
-                known.old_length = false;
+                (known.old_length, known.length_off) = (false, true);
             }
             Op::SpindleStop | Op::SpindleOrient => known.spindle = Spindle::Stands(false),
             Op::SpindleCw | Op::SpindleCcw => known.spindle = Spindle::Unknown,

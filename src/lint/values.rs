@@ -1,4 +1,7 @@
 //! Comparisons for equal of what arithmetic came to.
+//!
+//! How exact a variable is, is asked at a place: of the values that it may have got on the ways that lead there, in the
+//! program, in what it calls, and where it is called. What nothing sets there is as somebody wrote it.
 
 use super::conditions::compared;
 use super::locals::is_vacant;
@@ -6,8 +9,8 @@ use super::looked::{Findings, Looked, blocks};
 use crate::canon::{Func, Sys};
 use crate::diag::Code;
 use crate::dialect::Question;
-use crate::ir::{BinOp, Class, Expr, Place, Relation, StmtKind, TermKind, Var};
-use std::collections::BTreeMap;
+use crate::ir::{BinOp, BlockId, Callee, Class, Expr, Place, Relation, StmtKind, TermKind, Var};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How exact a value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,70 +23,169 @@ enum Exact {
     Computed,
 }
 
-/// A variable; a local is one of its program.
-type Key = (Option<usize>, Var);
+/// Before a statement of a block of a program; past the last, before its end.
+type At = (usize, BlockId, usize);
 
-fn key(program: usize, var: Var) -> Key {
-    ((!var.class.shared()).then_some(program), var)
+/// How many variables deep an answer is looked for.
+const DEPTH: usize = 40;
+
+struct Exactness<'l, 'a> {
+    looked: &'l Looked<'a>,
+    /// Where each variable is set.
+    sets: BTreeMap<(usize, Var), Vec<At>>,
+    /// Blocks that lead to each block, by program.
+    before: BTreeMap<usize, BTreeMap<BlockId, Vec<BlockId>>>,
+    /// Answers; while one is looked for, that it adds nothing.
+    found: BTreeMap<(At, Var), Exact>,
 }
 
-/// How exact variables are, by all assignments and arguments of the library. What nothing sets is as somebody wrote it.
-fn exactness(looked: &Looked<'_>) -> BTreeMap<Key, Exact> {
-    let mut sets: Vec<(Key, usize, &Expr)> = Vec::new();
-    for (at, _, block) in blocks(looked.module) {
-        for stmt in &block.stmts {
-            if let StmtKind::Assign { target: Place::Var(var), value } = &stmt.kind {
-                sets.push((key(at, *var), at, value));
+impl<'l, 'a> Exactness<'l, 'a> {
+    fn new(looked: &'l Looked<'a>) -> Self {
+        let mut sets: BTreeMap<(usize, Var), Vec<At>> = BTreeMap::new();
+        for (program, id, block) in blocks(looked.module) {
+            for (at, stmt) in block.stmts.iter().enumerate() {
+                if let Some(Place::Var(var)) = stmt.kind.target() {
+                    sets.entry((program, *var)).or_default().push((program, id, at));
+                }
             }
         }
+        Self { looked, sets, before: BTreeMap::new(), found: BTreeMap::new() }
     }
-    for site in looked.sites() {
-        let Some(callee) = site.callee.filter(|_| site.call.level) else { continue };
-        for argument in &site.call.arguments {
-            let var = Var { class: Class::Local, number: argument.local };
-            sets.push((key(callee, var), site.program, &argument.value));
-        }
-    }
-    let mut known: BTreeMap<Key, Exact> = BTreeMap::new();
-    let mut changed = true;
-    while std::mem::take(&mut changed) {
-        for (key, program, value) in &sets {
-            let value = exact(value, &|var| self::key(*program, var), &known);
-            let mine = known.entry(*key).or_insert(Exact::Whole);
-            changed |= *mine < value;
-            *mine = (*mine).max(value);
-        }
-    }
-    known
-}
 
-fn exact(e: &Expr, key: &dyn Fn(Var) -> Key, known: &BTreeMap<Key, Exact>) -> Exact {
-    match e {
-        Expr::Number(n) if n.fract() == 0.0 => Exact::Whole,
-        Expr::Vacant | Expr::Truth(_) => Exact::Whole,
-        Expr::Var(var) => known.get(&key(*var)).copied().unwrap_or(Exact::Written),
-        Expr::Negate(a) => exact(a, key, known),
-        Expr::Binary(BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor, _) => Exact::Whole,
-        Expr::Binary(BinOp::Div, _) => Exact::Computed,
-        // What nobody computed may be whole: it is not accused.
-        Expr::Binary(_, operands) => {
-            let [a, b] = [&operands[0], &operands[1]].map(|operand| exact(operand, key, known));
-            let fraction = |e: &Expr| e.constant().is_some_and(|n| n.fract() != 0.0);
-            match a.max(b) {
-                Exact::Written if operands.iter().any(fraction) => Exact::Computed,
-                other => other,
+    fn value(&mut self, place: At, e: &Expr, depth: usize) -> Exact {
+        match e {
+            Expr::Number(n) if n.fract() == 0.0 => Exact::Whole,
+            Expr::Vacant | Expr::Truth(_) => Exact::Whole,
+            Expr::Var(var) => self.var(place, *var, depth),
+            Expr::Negate(a) => self.value(place, a, depth),
+            Expr::Binary(BinOp::Mod | BinOp::And | BinOp::Or | BinOp::Xor, _) => Exact::Whole,
+            Expr::Binary(BinOp::Div, _) => Exact::Computed,
+            Expr::Binary(_, operands) => {
+                let fraction = |e: &Expr| e.constant().is_some_and(|n| n.fract() != 0.0);
+                let (a, b) = (&operands[0], &operands[1]);
+                match self.value(place, a, depth).max(self.value(place, b, depth)) {
+                    // What nobody computed may be whole: it is not accused.
+                    Exact::Written if fraction(a) || fraction(b) => Exact::Computed,
+                    other => other,
+                }
+            }
+            Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd | Func::Sign, _) => {
+                Exact::Whole
+            }
+            Expr::Call(Func::Abs | Func::RoundPlaces | Func::RoundIncrement, all) => {
+                all.first().map_or(Exact::Whole, |a| self.value(place, a, depth))
+            }
+            Expr::Call(Func::Parameter, _) => Exact::Written,
+            Expr::Call(..) => Exact::Computed,
+            Expr::System(state, _) if is_measured(*state) => Exact::Computed,
+            _ => Exact::Written,
+        }
+    }
+
+    fn var(&mut self, place: At, var: Var, depth: usize) -> Exact {
+        if depth >= DEPTH {
+            return Exact::Written;
+        }
+        if let Some(found) = self.found.get(&(place, var)) {
+            return *found;
+        }
+        self.found.insert((place, var), Exact::Whole);
+        let exact = self.on_ways(place, var, depth + 1);
+        self.found.insert((place, var), exact);
+        exact
+    }
+
+    /// Goes back from a place to what set the variable.
+    fn on_ways(&mut self, (program, start, at): At, var: Var, depth: usize) -> Exact {
+        let looked = self.looked;
+        let Some(body) = looked.module.programs.get(program) else { return Exact::Written };
+        let mut exact = Exact::Whole;
+        let (mut seen, mut work) = (BTreeSet::new(), vec![(start, at)]);
+        'ways: while let Some((id, end)) = work.pop() {
+            let Some(block) = body.block(id) else { continue };
+            for (at, stmt) in block.stmts.iter().enumerate().take(end).rev() {
+                if stmt.kind.target() != Some(&Place::Var(var)) {
+                    continue;
+                }
+                exact = exact.max(match &stmt.kind {
+                    StmtKind::Assign { value, .. } => self.value((program, id, at), value, depth),
+                    _ => Exact::Written,
+                });
+                if stmt.site.skip.is_none() {
+                    continue 'ways;
+                }
+            }
+            if id == BlockId(0) {
+                exact = exact.max(self.entered(program, var, depth));
+            }
+            let before = self.before.entry(program).or_insert_with(|| {
+                let mut before: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+                for (id, block) in body.ids().zip(&body.blocks) {
+                    block
+                        .term
+                        .kind
+                        .successors()
+                        .into_iter()
+                        .for_each(|to| before.entry(to).or_default().push(id));
+                }
+                before
+            });
+            for from in before.get(&id).cloned().unwrap_or_default() {
+                let Some(block) = body.block(from) else { continue };
+                if let TermKind::Call { call, .. } = &block.term.kind {
+                    exact = exact.max(self.called(program, &call.callee, call.level, var, depth));
+                }
+                if seen.insert(from) {
+                    work.push((from, block.stmts.len()));
+                }
+            }
+            if exact == Exact::Computed {
+                break;
             }
         }
-        Expr::Call(Func::Fix | Func::Fup | Func::Round | Func::Bin | Func::Bcd | Func::Sign, _) => {
-            Exact::Whole
+        exact
+    }
+
+    /// What a call may leave in a variable.
+    fn called(&mut self, program: usize, callee: &Callee, level: bool, var: Var, depth: usize) -> Exact {
+        let program = match callee {
+            Callee::Block(_) => program,
+            Callee::Program(name) if !(level && var.class == Class::Local) => {
+                match self.looked.program_of(name) {
+                    Some(callee) => callee,
+                    None => return Exact::Whole,
+                }
+            }
+            _ => return Exact::Whole,
+        };
+        let sets = self.sets.get(&(program, var)).cloned().unwrap_or_default();
+        let mut exact = Exact::Whole;
+        for (program, id, at) in sets {
+            let stmt =
+                self.looked.module.programs.get(program).and_then(|program| program.block(id)?.stmts.get(at));
+            if let Some(StmtKind::Assign { value, .. }) = stmt.map(|stmt| &stmt.kind) {
+                exact = exact.max(self.value((program, id, at), value, depth));
+            }
         }
-        Expr::Call(Func::Abs | Func::RoundPlaces | Func::RoundIncrement, all) => {
-            all.first().map_or(Exact::Whole, |a| exact(a, key, known))
+        exact
+    }
+
+    /// What a program is entered with.
+    fn entered(&mut self, program: usize, var: Var, depth: usize) -> Exact {
+        let looked = self.looked;
+        let mut exact = Exact::Written;
+        for site in looked.sites().iter().filter(|site| site.callee == Some(program)) {
+            let end =
+                looked.module.programs[site.program].block(site.block).map_or(0, |block| block.stmts.len());
+            let place = (site.program, site.block, end);
+            exact = exact.max(if site.call.level && var.class == Class::Local {
+                let given = site.call.arguments.iter().find(|argument| argument.local == var.number);
+                given.map_or(Exact::Whole, |given| self.value(place, &given.value, depth))
+            } else {
+                self.var(place, var, depth)
+            });
         }
-        Expr::Call(Func::Parameter, _) => Exact::Written,
-        Expr::Call(..) => Exact::Computed,
-        Expr::System(state, _) if is_measured(*state) => Exact::Computed,
-        _ => Exact::Written,
+        exact
     }
 }
 
@@ -108,18 +210,17 @@ pub(super) fn equal_computed(looked: &Looked<'_>, findings: &mut Findings) {
     if looked.control.number(Question::EqualTolerance).is_some_and(|tolerance| tolerance > 0.0) {
         return;
     }
-    let mut known = None;
-    for (at, _, block) in blocks(looked.module) {
+    let mut exactness = None;
+    for (at, id, block) in blocks(looked.module) {
         let TermKind::Branch { cond, .. } = &block.term.kind else { continue };
         compared(cond, &mut |relation, a, b| {
             let same = matches!(relation, Relation::Equal | Relation::NotEqual);
             if !same || is_vacant(a) || is_vacant(b) {
                 return;
             }
-            let known = known.get_or_insert_with(|| exactness(looked));
-            let key = |var| key(at, var);
-            let values = [a, b].map(|e| exact(e, &key, known));
-            if values.contains(&Exact::Computed) {
+            let exactness = exactness.get_or_insert_with(|| Exactness::new(looked));
+            let place = (at, id, block.stmts.len());
+            if [a, b].map(|e| exactness.value(place, e, 0)).contains(&Exact::Computed) {
                 let message =
                     "a computed value is compared for being exactly the same: the last digit decides";
                 let file = looked.module.programs[at].file;

@@ -67,7 +67,9 @@ pub(super) fn unchecked_speed(looked: &Looked<'_>, findings: &mut Findings) {
         for stmt in program.blocks.iter().flat_map(|block| &block.stmts) {
             let Some(speed) = stmt.kind.nc().and_then(|nc| nc.word(Role::Speed)) else { continue };
             let mut vars = BTreeSet::new();
-            speed.variables(&mut |var| drop(vars.insert(var)));
+            speed.variables(&mut |var| {
+                vars.insert(var);
+            });
             if !vars.is_empty() {
                 speeds.push((stmt.site.span, vars));
             }
@@ -100,7 +102,9 @@ fn made_of(program: &Program) -> (BTreeMap<Var, BTreeSet<Var>>, BTreeSet<Var>) {
             let StmtKind::Assign { target, value } = &stmt.kind else { continue };
             if let Place::Var(var) = target {
                 let parts = made.entry(*var).or_default();
-                value.variables(&mut |part| drop(parts.insert(part)));
+                value.variables(&mut |part| {
+                    parts.insert(part);
+                });
             }
         }
         if let TermKind::Branch { cond, .. } = &block.term.kind {
@@ -149,14 +153,15 @@ pub(super) fn long_text(looked: &Looked<'_>, findings: &mut Findings) {
 /// A value that the next statements replace before anything reads it.
 pub(super) fn overwritten(looked: &Looked<'_>, findings: &mut Findings) {
     for (at, program) in looked.programs().filter(|(at, _)| !looked.has_hole(*at)) {
-        let _ = at;
         for block in &program.blocks {
-            let mut open: BTreeMap<Var, Span> = BTreeMap::new();
+            let mut open: BTreeMap<Var, (Span, bool)> = BTreeMap::new();
             for stmt in &block.stmts {
                 let mut seen = BTreeSet::new();
                 let mut indirect = false;
                 stmt.kind.exprs(&mut |e| {
-                    e.variables(&mut |var| drop(seen.insert(var)));
+                    e.variables(&mut |var| {
+                        seen.insert(var);
+                    });
                     e.walk(&mut |part| indirect |= matches!(part, Expr::Indirect(..)));
                 });
                 let acts = !matches!(
@@ -175,7 +180,10 @@ pub(super) fn overwritten(looked: &Looked<'_>, findings: &mut Findings) {
                     open.remove(var);
                     continue;
                 }
-                if let Some(span) = open.insert(*var, stmt.site.span) {
+                let cleared = matches!(&stmt.kind, StmtKind::Assign { value, .. } if value.constant() == Some(0.0) || *value == Expr::Vacant);
+                let before = open.insert(*var, (stmt.site.span, cleared));
+                // Whoever clears a variable first means nothing by the 0.
+                if let Some((span, false)) = before {
                     let line = looked.line(at, stmt.site.span);
                     let message = format!(
                         "{} gets a value here that line {line} replaces before anything reads it",
