@@ -5,12 +5,13 @@ use crate::canon::Op;
 use crate::diag::Code;
 use crate::ir::analysis::dataflow::reached_among;
 use crate::ir::{Block, BlockId, Callee, Program, StmtKind, TermKind};
-use crate::syntax::Label;
+use crate::syntax::{ItemKind, Label, parse_file};
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A label that no jump and no call names.
 pub(super) fn unused_label(looked: &Looked<'_>, findings: &mut Findings) {
+    unnamed_labels(looked, findings);
     let comes_back = returns_to(looked);
     for (at, program) in looked.programs().filter(|(at, _)| !looked.has_hole(*at)) {
         let named = named_blocks(program);
@@ -20,13 +21,52 @@ pub(super) fn unused_label(looked: &Looked<'_>, findings: &mut Findings) {
         for (id, block) in program.ids().zip(&program.blocks).filter(|(id, _)| !named.contains(id)) {
             for label in &block.labels {
                 let shown = match label {
-                    Label::Name(name) => format!("'{name}'"),
+                    Label::Name(_) => continue,
                     Label::Number(_) if computed || comes_back || !few || is_heading(block) => continue,
                     Label::Number(number) => number.to_string(),
                 };
                 let Some(span) = start_of(program, id) else { continue };
                 let message = format!("no jump and no call of {} names the label {shown}", looked.shown(at));
                 findings.add(program.file, Code::UnusedLabel, span, message);
+            }
+        }
+    }
+}
+
+/// A label of its own that no jump and no call names. It may stand in no block of the common form, so the text is asked.
+fn unnamed_labels(looked: &Looked<'_>, findings: &mut Findings) {
+    if looked.control.statement("goto.label").is_none() {
+        return;
+    }
+    let mut used: BTreeMap<usize, BTreeSet<&str>> = BTreeMap::new();
+    for (at, program) in looked.programs() {
+        let named = named_blocks(program).into_iter().filter_map(|id| program.block(id));
+        let names = named.flat_map(|block| &block.labels).filter_map(|label| match label {
+            Label::Name(name) => Some(name.as_str()),
+            Label::Number(_) => None,
+        });
+        used.insert(at, names.collect());
+    }
+    for (file, input) in looked.inputs.iter().enumerate() {
+        let programs: Vec<(usize, &Program)> =
+            looked.programs().filter(|(at, program)| program.file == file && !looked.has_hole(*at)).collect();
+        let parsed = parse_file(&input.bytes, looked.control.entry().parse_items);
+        for item in parsed.blocks.iter().flat_map(|block| &block.items) {
+            let ItemKind::Label(label) = &item.kind else { continue };
+            let own = programs.iter().rev().find(|(_, program)| program.site.span.start <= item.span.start);
+            let Some(used) = own.and_then(|(at, _)| used.get(at)) else { continue };
+            let is_used = match label {
+                Label::Name(name) => used.contains(name.as_str()),
+                // The common form keeps the sign before the number.
+                Label::Number(number) => {
+                    let number = number.to_string();
+                    used.iter().any(|name| name.trim_start_matches(|c: char| !c.is_ascii_digit()) == number)
+                }
+            };
+            if !is_used {
+                let text = String::from_utf8_lossy(item.span.of(&input.bytes)).trim().to_owned();
+                let message = format!("no jump and no call names the label '{text}'");
+                findings.add(file, Code::UnusedLabel, item.span, message);
             }
         }
     }

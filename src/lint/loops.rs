@@ -4,9 +4,9 @@ use super::flow::waits;
 use super::looked::{Findings, Looked};
 use crate::diag::Code;
 use crate::ir::analysis::{Cfg, Vars};
-use crate::ir::{BlockId, Callee, Cond, Expr, Program, StmtKind, TermKind};
+use crate::ir::{BlockId, Callee, Cond, Expr, Place, Program, StmtKind, TermKind, Var};
 use crate::text::Span;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A loop that nothing leaves, or whose way out hangs on what nothing in it changes.
 pub(super) fn endless(looked: &Looked<'_>, findings: &mut Findings) {
@@ -63,7 +63,10 @@ fn fault(looked: &Looked<'_>, program: &Program, ring: &BTreeSet<BlockId>) -> Op
     let Some((_, span)) = conditions.first() else {
         return Some((last, "nothing leaves this loop"));
     };
-    let still = conditions.iter().all(|(cond, _)| is_still(cond, &written));
+    let same = kept_same(program, ring, &written);
+    let still = conditions
+        .iter()
+        .all(|(cond, _)| is_still(cond, &|var| !written.contains(var) || same.contains(&var)));
     still.then_some((
         *span,
         "nothing in the loop changes what decides whether it ends: it never ends, or never runs",
@@ -85,16 +88,50 @@ fn may_not_end(looked: &Looked<'_>, name: &crate::syntax::ProgramName) -> bool {
 }
 
 /// True where the loop leaves everything alone that a condition reads.
-fn is_still(cond: &Cond, written: &Vars) -> bool {
+fn is_still(cond: &Cond, same: &dyn Fn(Var) -> bool) -> bool {
     let mut still = !cond.has_switch();
-    cond.exprs(&mut |e| {
-        e.walk(&mut |part| match part {
-            Expr::System(..) | Expr::Indirect(..) => still = false,
-            Expr::Var(var) => still &= !written.contains(*var),
-            _ => {}
-        });
+    cond.exprs(&mut |e| still &= stays(e, same));
+    still
+}
+
+/// True where an expression has one value as long as these variables have.
+fn stays(e: &Expr, same: &dyn Fn(Var) -> bool) -> bool {
+    let mut still = true;
+    e.walk(&mut |part| match part {
+        Expr::System(..) | Expr::Indirect(..) => still = false,
+        Expr::Var(var) => still &= same(*var),
+        _ => {}
     });
     still
+}
+
+/// The variables that one block of a loop sets, each time to the same.
+fn kept_same(program: &Program, ring: &BTreeSet<BlockId>, written: &Vars) -> BTreeSet<Var> {
+    let mut sets: BTreeMap<Var, Vec<Option<&Expr>>> = BTreeMap::new();
+    for stmt in ring.iter().filter_map(|id| program.block(*id)).flat_map(|block| &block.stmts) {
+        if let Some(Place::Var(var)) = stmt.kind.target() {
+            let value = match &stmt.kind {
+                StmtKind::Assign { value, .. } if stmt.site.skip.is_none() => Some(value),
+                _ => None,
+            };
+            sets.entry(*var).or_default().push(value);
+        }
+    }
+    // What anything else may write is not among them.
+    let classes = written.classes;
+    sets.retain(|var, all| all.len() == 1 && !classes.contains(var.class));
+    let mut same = BTreeSet::new();
+    loop {
+        let more = sets.iter().filter(|(var, all)| {
+            let stay = |value: &Expr| stays(value, &|var| !written.contains(var) || same.contains(&var));
+            !same.contains(*var) && all.iter().all(|value| value.is_some_and(stay))
+        });
+        let more: Vec<Var> = more.map(|(var, _)| *var).collect();
+        if more.is_empty() {
+            return same;
+        }
+        same.extend(more);
+    }
 }
 
 /// The sets of blocks that lead back to one another.
