@@ -91,6 +91,11 @@ fn touched(looked: &Looked<'_>) -> Touched {
             }
             // A program of another maker may set anything.
             TermKind::Call { call, .. } => {
+                if !call.level && matches!(call.callee, Callee::Program(_)) {
+                    let written = looked.summaries().by_call(call);
+                    written.vars().for_each(|var| touched.note(at, var));
+                    touched.computed |= written.classes().next().is_some();
+                }
                 touched.computed |= match &call.callee {
                     Callee::Program(name) => looked.program_of(name).is_none(),
                     Callee::Block(_) => false,

@@ -14,6 +14,9 @@ pub(super) fn unused_label(looked: &Looked<'_>, findings: &mut Findings) {
     unnamed_labels(looked, findings);
     let comes_back = returns_to(looked);
     for (at, program) in looked.programs().filter(|(at, _)| !looked.has_hole(*at)) {
+        if names_by_words(program) {
+            continue;
+        }
         let named = named_blocks(program);
         let computed =
             program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::Computed { .. }));
@@ -103,6 +106,12 @@ fn named_blocks(program: &Program) -> BTreeSet<BlockId> {
     named
 }
 
+/// True where a code that only its machine has may name blocks by their numbers.
+fn names_by_words(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| stmt.kind.has_op(Op::MachineSpecific) || stmt.kind.has_op(Op::CycleOther))
+}
+
 /// True where a program that jumps numbers few of its blocks: then it numbers them to jump there.
 fn few_numbers(program: &Program) -> bool {
     let jumps = program.blocks.iter().any(|block| {
@@ -140,7 +149,7 @@ fn start_of(program: &Program, mut id: BlockId) -> Option<Span> {
 /// Blocks that nothing reaches.
 pub(super) fn unreached(looked: &Looked<'_>, findings: &mut Findings) {
     let comes_back = returns_to(looked);
-    for (at, program) in looked.programs() {
+    for (at, program) in looked.programs().filter(|(at, _)| !looked.has_hole(*at)) {
         let Some(cfg) = looked.cfg(at) else { continue };
         let labelled = program.ids().zip(&program.blocks).filter(|(_, block)| {
             comes_back && block.labels.iter().any(|label| matches!(label, Label::Number(_)))

@@ -1,9 +1,10 @@
 //! Locals that have no value, and arguments that nobody asked for.
 
 use super::looked::{Findings, Looked};
+use super::unset;
 use crate::canon::{Role, Sys};
 use crate::diag::Code;
-use crate::ir::analysis::{Vacancy, VarSet, Vars, calls_of};
+use crate::ir::analysis::{Vars, calls_of};
 use crate::ir::{
     BlockId, Callee, Class, Cond, Expr, NcItem, Place, Program, Relation, StmtKind, TermKind, Var,
 };
@@ -53,12 +54,16 @@ pub(super) fn missing_argument(looked: &Looked<'_>, findings: &mut Findings) {
 /// A call gives an argument that its program never reads.
 pub(super) fn unread_argument(looked: &Looked<'_>, findings: &mut Findings) {
     let mut reads: BTreeMap<usize, Option<Vars>> = BTreeMap::new();
+    let mut mentioned: BTreeMap<(usize, Var), bool> = BTreeMap::new();
     for site in looked.sites().iter().filter(|site| site.call.level) {
         let Some(callee) = site.callee else { continue };
         let Some(read) = reads.entry(callee).or_insert_with(|| reads_of(looked, callee)) else { continue };
         for argument in &site.call.arguments {
             let var = Var { class: Class::Local, number: argument.local };
-            if read.contains(var) || argument.value == Expr::Vacant || mentions(looked, callee, var) {
+            if read.contains(var)
+                || argument.value == Expr::Vacant
+                || *mentioned.entry((callee, var)).or_insert_with(|| mentions(looked, callee, var))
+            {
                 continue;
             }
             let (name, shown) = (looked.name(var), looked.shown(callee));
@@ -94,8 +99,12 @@ pub(super) fn never_read(looked: &Looked<'_>, findings: &mut Findings) {
     }
 }
 
+/// Blocks that are looked at before calls.
+const MOST: usize = 1 << 20;
+
 /// A call with the locals of its caller leaves one changed that the caller had set and reads afterwards.
 pub(super) fn left_changed(looked: &Looked<'_>, findings: &mut Findings) {
+    let mut left = MOST;
     for site in looked.sites().iter().filter(|site| !site.call.level) {
         let Some(callee) = site.callee else { continue };
         let (Some(caller), Some(body)) =
@@ -106,9 +115,15 @@ pub(super) fn left_changed(looked: &Looked<'_>, findings: &mut Findings) {
         let Some(TermKind::Call { next, .. }) = caller.block(site.block).map(|block| &block.term.kind) else {
             continue;
         };
+        let seen = looked.summaries().by_call(site.call);
+        let mut written: BTreeSet<Var> = seen.vars().filter(|var| var.class == Class::Local).collect();
+        // The ways of a large program with very many calls are not all gone.
+        let Some(rest) = left.checked_sub(caller.blocks.len()).filter(|_| !written.is_empty()) else {
+            continue;
+        };
+        left = rest;
         let set = set_before(caller, site.block);
-        let written: BTreeSet<Var> =
-            looked.summaries().by_call(site.call).vars().filter(|var| set.contains(var)).collect();
+        written.retain(|var| set.contains(var));
         if written.is_empty() {
             continue;
         }
@@ -279,54 +294,45 @@ impl Read {
 /// The first read of each local that may be vacant where nothing is given; tests for vacant and copies are none.
 fn unset_reads(looked: &Looked<'_>, at: usize, program: &Program) -> BTreeMap<Var, Read> {
     let mut found = BTreeMap::new();
-    let mut locals = VarSet::default();
-    program.variables(&mut |var| {
-        if var.class == Class::Local {
-            locals.insert(var);
-        }
-    });
-    if locals.is_empty() || looked.has_hole(at) {
+    if looked.has_hole(at) {
         return found;
     }
-    let vacancy = Vacancy::of_called(program, looked.summaries(), &BTreeSet::new());
-    for (id, block) in program.ids().zip(&program.blocks) {
-        vacancy.forward(id, &mut |at, vacant| {
-            let mut note = |e: &Expr, span: Span, how: How| {
-                e.variables(&mut |var| {
-                    if var.class == Class::Local && vacant(&Expr::Var(var)) {
-                        found.entry(var).or_insert(Read { span, how });
-                    }
-                });
-            };
-            let Some(stmt) = block.stmts.get(at) else {
-                let span = block.term.site.span;
-                if let TermKind::Branch { cond, .. } = &block.term.kind {
-                    compared(cond, &mut |e| note(e, span, How::Zero));
-                } else if !matches!(block.term.kind, TermKind::Call { .. }) {
-                    block.term.kind.exprs(&mut |e| note(e, span, How::Zero));
+    unset::visit(looked, program, &mut |block, at, unset| {
+        let mut note = |e: &Expr, span: Span, how: How| {
+            e.variables(&mut |var| {
+                if unset(var) {
+                    found.entry(var).or_insert(Read { span, how });
                 }
-                return;
-            };
-            let span = stmt.site.span;
-            match &stmt.kind {
-                // A copy is as vacant as what it copies.
-                StmtKind::Assign { target, value } => {
-                    target.exprs(&mut |e| note(e, span, How::Zero));
-                    if !matches!((target, value), (Place::Var(_), Expr::Var(_))) {
-                        note(value, span, How::Zero);
-                    }
-                }
-                StmtKind::Nc(nc) => nc.items.iter().for_each(|item| match item {
-                    NcItem::Word(Role::Speed, value) if is_alone(value) => note(value, span, How::Speed),
-                    NcItem::Word(_, value) if is_alone(value) => note(value, span, How::Word),
-                    NcItem::Word(_, value) | NcItem::Code(_, value) => note(value, span, How::Zero),
-                    NcItem::Op(_) => {}
-                }),
-                StmtKind::ModalCall(_) => {}
-                kind => kind.exprs(&mut |e| note(e, span, How::Zero)),
+            });
+        };
+        let Some(stmt) = block.stmts.get(at) else {
+            let span = block.term.site.span;
+            if let TermKind::Branch { cond, .. } = &block.term.kind {
+                compared(cond, &mut |e| note(e, span, How::Zero));
+            } else if !matches!(block.term.kind, TermKind::Call { .. }) {
+                block.term.kind.exprs(&mut |e| note(e, span, How::Zero));
             }
-        });
-    }
+            return;
+        };
+        let span = stmt.site.span;
+        match &stmt.kind {
+            // A copy is as vacant as what it copies.
+            StmtKind::Assign { target, value } => {
+                target.exprs(&mut |e| note(e, span, How::Zero));
+                if !matches!((target, value), (Place::Var(_), Expr::Var(_))) {
+                    note(value, span, How::Zero);
+                }
+            }
+            StmtKind::Nc(nc) => nc.items.iter().for_each(|item| match item {
+                NcItem::Word(Role::Speed, value) if is_alone(value) => note(value, span, How::Speed),
+                NcItem::Word(_, value) if is_alone(value) => note(value, span, How::Word),
+                NcItem::Word(_, value) | NcItem::Code(_, value) => note(value, span, How::Zero),
+                NcItem::Op(_) => {}
+            }),
+            StmtKind::ModalCall(_) => {}
+            kind => kind.exprs(&mut |e| note(e, span, How::Zero)),
+        }
+    });
     found
 }
 

@@ -3,12 +3,12 @@
 use super::state::{self, Noted};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::analysis::{Cfg, Summaries, calls_of, span_of};
+use crate::ir::analysis::{Cfg, Summaries, calls_of, reachable, span_of};
 use crate::ir::{Block, BlockId, Call, Callee, Module, Program, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::name_of;
 use crate::library::Input;
 use crate::syntax::ProgramName;
-use crate::text::Span;
+use crate::text::{LineIndex, Span};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -26,9 +26,11 @@ pub struct Looked<'a> {
     called: Vec<Called>,
     holes: Vec<bool>,
     modal: bool,
+    ends: Vec<bool>,
     summaries: OnceCell<Summaries>,
     cfgs: Vec<OnceCell<Cfg>>,
     noted: OnceCell<Vec<Noted>>,
+    lines: Vec<OnceCell<LineIndex>>,
 }
 
 /// A call where it stands.
@@ -88,10 +90,12 @@ impl<'a> Looked<'a> {
             sites,
             called,
             holes: module.programs.iter().map(hole).collect(),
+            ends: module.programs.iter().map(ends_run).collect(),
             modal: module.programs.iter().flat_map(|program| &program.blocks).any(has_modal_call),
             summaries: OnceCell::new(),
             cfgs: module.programs.iter().map(|_| OnceCell::new()).collect(),
             noted: OnceCell::new(),
+            lines: inputs.iter().map(|_| OnceCell::new()).collect(),
         }
     }
 
@@ -118,12 +122,7 @@ impl<'a> Looked<'a> {
     /// True for a program that a person starts: it ends the run, and nothing calls it.
     pub(super) fn is_main(&self, program: usize) -> bool {
         let called = self.called(program);
-        !called.with_level
-            && !called.without
-            && self.module.programs.get(program).is_some_and(|program| {
-                !program.returns()
-                    && program.blocks.iter().any(|b| matches!(b.term.kind, TermKind::End { .. }))
-            })
+        !called.with_level && !called.without && self.ends.get(program).copied().unwrap_or_default()
     }
 
     /// True where a part of the program was not understood: what it does there is not known.
@@ -174,11 +173,12 @@ impl<'a> Looked<'a> {
     }
 
     /// The number of the line that a place of a program stands in.
-    pub(super) fn line(&self, program: usize, span: Span) -> usize {
-        let text = self.module.programs.get(program).and_then(|program| self.inputs.get(program.file));
-        let text = text.map_or(&[][..], |input| &input.bytes);
-        let before = text.get(..span.start as usize).unwrap_or(text);
-        before.iter().filter(|byte| **byte == b'\n').count() + 1
+    pub(super) fn line(&self, program: usize, span: Span) -> u32 {
+        let file = self.module.programs.get(program).map(|program| program.file);
+        let found = file.and_then(|file| Some((self.inputs.get(file)?, self.lines.get(file)?)));
+        found.map_or(1, |(input, lines)| {
+            lines.get_or_init(|| LineIndex::new(&input.bytes)).place(span.start).0
+        })
     }
 }
 
@@ -197,6 +197,18 @@ pub(super) fn end_of(program: &Program, block: &Block) -> Span {
     }
     let last = block.stmts.iter().rev().map(|stmt| stmt.site.span).find(|span| *span != none);
     last.unwrap_or(program.site.span)
+}
+
+/// True where a program ends the run, and does not return itself: parts that it calls do.
+fn ends_run(program: &Program) -> bool {
+    if !program.blocks.iter().any(|block| matches!(block.term.kind, TermKind::End { .. })) {
+        return false;
+    }
+    !program.returns() || {
+        let own = reachable(program, BlockId(0));
+        let mut kinds = own.iter().filter_map(|id| program.block(*id)).map(|block| &block.term.kind);
+        !kinds.any(|kind| matches!(kind, TermKind::Return { .. }))
+    }
 }
 
 fn has_modal_call(block: &Block) -> bool {

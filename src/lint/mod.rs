@@ -13,6 +13,7 @@ mod locals;
 mod looked;
 mod loops;
 mod state;
+mod unset;
 mod values;
 mod words;
 

@@ -37,7 +37,12 @@ struct Exactness<'l, 'a> {
     before: BTreeMap<usize, BTreeMap<BlockId, Vec<BlockId>>>,
     /// Answers; while one is looked for, that it adds nothing.
     found: BTreeMap<(At, Var), Exact>,
+    /// Blocks and calls that may still be looked at.
+    left: usize,
 }
+
+/// Blocks and calls that are looked at in a library; past them nothing is accused.
+const MOST: usize = 1 << 20;
 
 impl<'l, 'a> Exactness<'l, 'a> {
     fn new(looked: &'l Looked<'a>) -> Self {
@@ -49,7 +54,13 @@ impl<'l, 'a> Exactness<'l, 'a> {
                 }
             }
         }
-        Self { looked, sets, before: BTreeMap::new(), found: BTreeMap::new() }
+        Self { looked, sets, before: BTreeMap::new(), found: BTreeMap::new(), left: MOST }
+    }
+
+    fn spend(&mut self, steps: usize) -> bool {
+        let rest = self.left.checked_sub(steps);
+        self.left = rest.unwrap_or_default();
+        rest.is_some()
     }
 
     fn value(&mut self, place: At, e: &Expr, depth: usize) -> Exact {
@@ -102,7 +113,7 @@ impl<'l, 'a> Exactness<'l, 'a> {
         let mut exact = Exact::Whole;
         let (mut seen, mut work) = (BTreeSet::new(), vec![(start, at)]);
         'ways: while let Some((id, end)) = work.pop() {
-            let Some(block) = body.block(id) else { continue };
+            let Some(block) = body.block(id).filter(|_| self.spend(1)) else { continue };
             for (at, stmt) in block.stmts.iter().enumerate().take(end).rev() {
                 if stmt.kind.target() != Some(&Place::Var(var)) {
                     continue;
@@ -174,6 +185,9 @@ impl<'l, 'a> Exactness<'l, 'a> {
     fn entered(&mut self, program: usize, var: Var, depth: usize) -> Exact {
         let looked = self.looked;
         let mut exact = Exact::Written;
+        if !self.spend(looked.sites().len()) {
+            return exact;
+        }
         for site in looked.sites().iter().filter(|site| site.callee == Some(program)) {
             let end =
                 looked.module.programs[site.program].block(site.block).map_or(0, |block| block.stmts.len());
