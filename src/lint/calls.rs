@@ -4,7 +4,8 @@ use super::looked::{Findings, Looked, blocks};
 use crate::diag::Code;
 use crate::dialect::Limit;
 use crate::ir::analysis::dataflow::reached_among;
-use crate::ir::{Block, BlockId, Call, Callee, StmtKind, TermKind};
+use crate::ir::analysis::own_call;
+use crate::ir::{Block, BlockId, Call, Callee, Program, StmtKind, TermKind};
 use crate::syntax::ProgramName;
 use crate::text::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -97,6 +98,31 @@ impl Routines {
         }
         cyclic
     }
+}
+
+/// So deep calls, and so many programs that come back to themselves, no control runs.
+const DEEPEST: usize = 64;
+
+/// Calls of parts times blocks up to which a program is followed.
+const MOST_PARTS: usize = 1 << 19;
+
+/// True where calls go deeper than any control goes, or a program has more of them than anybody writes: what is in
+/// force is not followed there.
+pub(super) fn is_tangled(looked: &Looked<'_>) -> bool {
+    if looked.sites().is_empty() {
+        return false;
+    }
+    let is_wide = |program: &Program| {
+        let parts = program.blocks.iter().filter_map(own_call).count();
+        parts.saturating_mul(program.blocks.len()) > MOST_PARTS
+    };
+    if looked.module.programs.iter().any(is_wide) {
+        return true;
+    }
+    let routines = routines(looked);
+    let cyclic = routines.cyclic();
+    let depth = depths(&routines, &cyclic, DEEPEST, |_| true);
+    cyclic.iter().filter(|cyclic| **cyclic).count() > DEEPEST || depth.iter().any(|depth| *depth > DEEPEST)
 }
 
 /// A call that goes deeper than the control's levels.

@@ -300,7 +300,7 @@ fn unset_reads(looked: &Looked<'_>, at: usize, program: &Program) -> BTreeMap<Va
     unset::visit(looked, program, &mut |block, at, unset| {
         let mut note = |e: &Expr, span: Span, how: How| {
             e.variables(&mut |var| {
-                if unset(var) {
+                if unset(&var) {
                     found.entry(var).or_insert(Read { span, how });
                 }
             });

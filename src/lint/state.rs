@@ -3,6 +3,7 @@
 //! Law: what is said to be so is so on every way that the text shows. What ways disagree on, what stands outside the
 //! library and what was not understood leave nothing known.
 
+use super::calls::is_tangled;
 use super::looked::{Looked, blocks, is_hole};
 use super::{in_force, left_on};
 use crate::canon::{Group, Op, Role};
@@ -315,6 +316,9 @@ pub(super) struct Step<'s> {
 
 /// Follows the library, and gathers what the rules of what is in force say.
 pub(super) fn noted(looked: &Looked<'_>) -> Vec<Noted> {
+    if is_tangled(looked) {
+        return Vec::new();
+    }
     let steps = Steps::new(looked);
     let found = OverCalls::of(looked.module, &steps);
     let mut noted = Vec::new();

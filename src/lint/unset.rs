@@ -6,7 +6,7 @@
 use super::locals::is_vacant;
 use super::looked::Looked;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Steps, reached_among, solve};
-use crate::ir::analysis::{BitRow, Cfg, Universe, Vars, own_call};
+use crate::ir::analysis::{BitRow, Cfg, Holds, Universe, Vars, own_call};
 use crate::ir::{
     Bank, Block, BlockId, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var,
 };
@@ -119,6 +119,9 @@ impl Rules<'_> {
     }
 }
 
+/// Calls of parts times blocks up to which a program is looked at.
+const MOST: usize = 1 << 22;
+
 /// So deep calls within a program are followed.
 const PARTS_DEEP: usize = 16;
 
@@ -144,7 +147,7 @@ fn sets(program: &Program) -> BTreeMap<BlockId, BTreeSet<Var>> {
 pub(super) fn visit(
     looked: &Looked<'_>,
     program: &Program,
-    f: &mut dyn FnMut(&Block, usize, &dyn Fn(Var) -> bool),
+    f: &mut dyn FnMut(&Block, usize, Holds<'_, Var>),
 ) {
     let mut locals = Vec::new();
     program.variables(&mut |var| {
@@ -155,6 +158,10 @@ pub(super) fn visit(
     let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
     let computes = |place: &Place| matches!(place, Place::Indirect(Bank::Numbered, _));
     if locals.is_empty() || stmts.into_iter().any(|stmt| stmt.kind.target().is_some_and(computes)) {
+        return;
+    }
+    let parts = program.blocks.iter().filter_map(own_call).count();
+    if parts.saturating_mul(program.blocks.len()) > MOST {
         return;
     }
     let universe = Universe::new(locals);
@@ -185,7 +192,7 @@ pub(super) fn visit(
     let unset = |row: &BitRow, var: Var| rules.universe.place(var).is_some_and(|at| row.has(at));
     for (id, block) in program.ids().zip(&program.blocks) {
         let Some(mut row) = states.at(id).cloned() else { continue };
-        rules.each(id, block, &mut row, &mut |at, row| f(block, at, &|var| unset(row, var)));
-        f(block, block.stmts.len(), &|var| unset(&row, var));
+        rules.each(id, block, &mut row, &mut |at, row| f(block, at, &|var| unset(row, *var)));
+        f(block, block.stmts.len(), &|var| unset(&row, *var));
     }
 }
