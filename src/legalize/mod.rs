@@ -33,4 +33,5 @@ pub use expressions::split::ThenLines;
 pub use layout::program_numbers::ProgramNumbers;
 pub use registers::locked::Locked;
 pub use registers::map::{Register, Registers};
+pub use registers::names::name_of;
 pub use rewrite::{Position, PreStatement, Rewriter, Wanted, rewrite_program};

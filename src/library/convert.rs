@@ -98,7 +98,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
     let home: Vec<usize> = module.programs.iter().map(|p| p.file).collect();
     let mut holes = vec![Vec::new(); module.programs.len()];
     let original = options.draft.then(|| (module.clone(), found.clone()));
-    let marks = if options.marks { marks(inputs, target) } else { Vec::new() };
+    let marks = marks(inputs, target, options);
     let begun = Begun { entry: Modal::unknown(), goes_on: false, continues: false, marks: &marks };
     let mut made = make(module, found, source, target, lock.clone(), options, begun.clone());
     if let Some((original, found)) = original {

@@ -3,7 +3,7 @@
 //! Who reads the program at the machine knows from it which source to change. A program that goes on to another control gets
 //! a line of its own; the one of the conversion before goes.
 
-use super::Input;
+use super::{Input, Options};
 use crate::dialect::Control;
 use crate::ir::{Module, Program, StmtKind};
 
@@ -13,9 +13,9 @@ const BEGINS: &str = "MACROGLOT ";
 /// Letters of a file's name, and of a machine's, that are shown.
 const MOST: usize = 24;
 
-/// By file, the line that its programs get; none if the target's profile wants none.
-pub(super) fn marks(inputs: &[Input], target: &Control) -> Vec<String> {
-    if target.profile().head == Some(false) {
+/// By file, the line that its programs get; none if it is not asked for, or the target's profile wants none.
+pub(super) fn marks(inputs: &[Input], target: &Control, options: Options) -> Vec<String> {
+    if !options.marks || target.profile().head == Some(false) {
         return Vec::new();
     }
     let machine = target.profile().title.as_deref().unwrap_or(&target.dialect().title);
@@ -73,7 +73,7 @@ fn is_mark(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::library::{Lock, Options, convert};
+    use crate::library::{Lock, convert};
 
     fn converted(bytes: &[u8], from: &str, to: &str) -> String {
         let inputs =

@@ -157,6 +157,7 @@ fn a_certificate_is_printed_in_words_on_request() {
     assert!(shop.run(line).out.starts_with("{\n  \"format\""));
     let words = shop.run("verify a.nc b.nc --from fanuc --to fanuc --format text");
     assert_eq!(words.code, 1);
-    let differ = "    source: G1 X2. F10., line 5 of a.nc O1234\n    target: G1 X2.5 F10., line 5 of b.nc O1234\n";
+    let differ =
+        "    source: G1 X2. F10., line 5 of a.nc O1234\n    target: G1 X2.5 F10., line 5 of b.nc O1234\n";
     assert!(words.out.contains("  Where they differ: ") && words.out.contains(differ), "{}", words.out);
 }

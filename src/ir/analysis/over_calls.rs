@@ -5,9 +5,9 @@
 
 use super::dataflow::{Analysis, Direction, Lattice, States, solve};
 use super::{Cfg, calls_of, reachable};
-use crate::ir::{Block, BlockId, Call, Callee, Module, TermKind};
+use crate::ir::{Block, BlockId, Call, Callee, Module, Program, TermKind};
 use crate::syntax::ProgramName;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is followed.
 pub trait Follow {
@@ -102,42 +102,52 @@ impl<K: Lattice + Clone> OverCalls<K> {
                 entries.insert((index, BlockId(0)), follow.outside(index));
             }
         }
-        let mut states = Vec::new();
-        let mut changed = true;
-        while std::mem::take(&mut changed) {
-            states.clear();
+        let callers = callers(module, &names);
+        let mut bodies: BTreeMap<Entry, Vec<BlockId>> = BTreeMap::new();
+        let mut states: Vec<States<Reach<K>>> = module.programs.iter().map(|_| States::default()).collect();
+        // A program is looked at again where something that it is entered with, or that its callees leave, has changed.
+        let mut waits = vec![true; module.programs.len()];
+        while waits.contains(&true) {
             for (index, program) in module.programs.iter().enumerate() {
+                if !std::mem::take(&mut waits[index]) {
+                    continue;
+                }
                 let rules = Rules { index, follow, names: &names, entries: &entries, exits: &exits };
                 let found = solve(&rules, program, &Cfg::of(program));
                 let mut calls: Vec<(Entry, K)> = Vec::new();
-                let mut ends: Vec<(BlockId, K)> = Vec::new();
+                let mut ends: BTreeMap<BlockId, K> = BTreeMap::new();
                 for (id, block) in program.ids().zip(&program.blocks) {
                     let Some(mut known) = found.at(id).and_then(|state| state.0.clone()) else { continue };
-                    follow.stmts((index, id), block, &mut known);
                     match &block.term.kind {
                         TermKind::Call { call, .. } => {
                             let Some(entry) = rules.entry(call) else { continue };
+                            follow.stmts((index, id), block, &mut known);
                             // Its next run begins as it returned.
                             let again = exits.get(&entry).filter(|_| call.count.is_some());
                             calls.extend(again.map(|again| (entry, again.clone())));
                             calls.push((entry, known));
                         }
-                        TermKind::Return { .. } => ends.push((id, known)),
+                        TermKind::Return { .. } => {
+                            follow.stmts((index, id), block, &mut known);
+                            ends.insert(id, known);
+                        }
                         _ => {}
                     }
                 }
                 for (entry, known) in &calls {
-                    changed |= join(&mut entries, *entry, known);
+                    waits[entry.0] |= join(&mut entries, *entry, known);
                 }
-                let roots = entries.keys().filter(|(at, _)| *at == index && !ends.is_empty());
-                let roots: Vec<BlockId> = roots.map(|(_, id)| *id).collect();
+                let own = entries.range((index, BlockId(0))..(index + 1, BlockId(0)));
+                let roots: Vec<BlockId> = own.map(|((_, id), _)| *id).filter(|_| !ends.is_empty()).collect();
                 for root in roots {
-                    let body = reachable(program, root);
-                    for (_, known) in ends.iter().filter(|(id, _)| body.contains(id)) {
-                        changed |= join(&mut exits, (index, root), known);
+                    let body = bodies.entry((index, root)).or_insert_with(|| returns(program, root));
+                    for known in body.iter().filter_map(|id| ends.get(id)) {
+                        if join(&mut exits, (index, root), known) {
+                            callers[index].iter().for_each(|caller| waits[*caller] = true);
+                        }
                     }
                 }
-                states.push(found);
+                states[index] = found;
             }
         }
         Self { states }
@@ -147,6 +157,33 @@ impl<K: Lattice + Clone> OverCalls<K> {
     pub fn at(&self, program: usize, id: BlockId) -> Option<&K> {
         self.states.get(program)?.at(id)?.0.as_ref()
     }
+}
+
+/// The blocks of a routine that return.
+fn returns(program: &Program, entry: BlockId) -> Vec<BlockId> {
+    let returns = |id: &BlockId| {
+        program.block(*id).is_some_and(|block| matches!(block.term.kind, TermKind::Return { .. }))
+    };
+    reachable(program, entry).into_iter().filter(returns).collect()
+}
+
+/// By program, those that call it, itself where it calls a part of its own.
+fn callers(module: &Module, names: &BTreeMap<ProgramName, usize>) -> Vec<BTreeSet<usize>> {
+    let mut callers = vec![BTreeSet::new(); module.programs.len()];
+    for (index, program) in module.programs.iter().enumerate() {
+        for block in &program.blocks {
+            let TermKind::Call { call, .. } = &block.term.kind else { continue };
+            let callee = match &call.callee {
+                Callee::Block(_) => Some(index),
+                Callee::Program(name) => names.get(name).copied(),
+                Callee::Computed(_) | Callee::Cycle(_) => None,
+            };
+            callers.get_mut(callee.unwrap_or(usize::MAX)).into_iter().for_each(|all| {
+                all.insert(index);
+            });
+        }
+    }
+    callers
 }
 
 /// Which programs of a library others call.

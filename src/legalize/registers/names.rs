@@ -36,7 +36,7 @@ pub(super) fn reached(bank: Bank, source: &Control) -> Vec<u32> {
 }
 
 /// The name of a variable on the source.
-pub(in crate::legalize) fn name_of(var: Var, module: &Module, source: &Control) -> Option<String> {
+pub fn name_of(var: Var, module: &Module, source: &Control) -> Option<String> {
     if let Some(name) = module.names.get(&var) {
         return Some(name.clone());
     }

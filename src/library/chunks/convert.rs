@@ -84,7 +84,7 @@ fn convert_pieces(
 ) -> Option<Conversion> {
     let mut sink = Sink::new(input.bytes.len() + input.bytes.len() / 8);
     let mut state = Modal::unknown();
-    let marks = if options.marks { marks(std::slice::from_ref(input), target) } else { Vec::new() };
+    let marks = marks(std::slice::from_ref(input), target, options);
     let mut pieces = Pieces::new(&input.bytes, source, sizes.piece);
     loop {
         let many = BATCH * rayon::current_num_threads();
@@ -92,7 +92,6 @@ fn convert_pieces(
         if batch.is_empty() {
             break;
         }
-        let is_first = sink.programs.is_empty();
         let goes_on = |piece: &Piece| (piece.lines.end as usize) < input.bytes.len();
         let lowered: Option<Vec<(bool, Lowered)>> = batch
             .into_par_iter()
@@ -102,7 +101,7 @@ fn convert_pieces(
             .into_iter()
             .enumerate()
             .map(|(at, (goes_on, piece))| {
-                let continues = at > 0 || !is_first;
+                let continues = at > 0 || !sink.programs.is_empty();
                 let begun = Begun { entry: state.clone(), goes_on, continues, marks: &marks };
                 piece.programs.iter().for_each(|(program, _)| step(&mut state, program));
                 (begun, piece)
