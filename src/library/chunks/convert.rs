@@ -87,8 +87,7 @@ fn convert_pieces(
     let marks = marks(std::slice::from_ref(input), target, options);
     let mut pieces = Pieces::new(&input.bytes, source, sizes.piece);
     loop {
-        let many = BATCH * rayon::current_num_threads();
-        let batch: Vec<Piece> = pieces.by_ref().take(many).collect();
+        let batch: Vec<Piece> = pieces.by_ref().take(BATCH * rayon::current_num_threads()).collect();
         if batch.is_empty() {
             break;
         }
