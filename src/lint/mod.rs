@@ -55,6 +55,7 @@ pub const RULES: &[Rule] = &[
     rule(Code::EndlessLoop, loops::endless),
     rule(Code::JumpToNext, flow::jump_to_next),
     rule(Code::EndMissing, flow::no_end),
+    // Off: shops number by hand and never jump, and where a jump is concerned the lowering says so.
     asked(Code::SequenceTwice, flow::sequence_twice),
     rule(Code::CallsTooDeep, calls::too_deep),
     rule(Code::EndlessCalls, calls::endless_calls),
@@ -79,6 +80,7 @@ pub const RULES: &[Rule] = &[
     rule(Code::CycleLeftOn, left_on::cycle),
     rule(Code::FrameLeftOn, left_on::frame),
     rule(Code::IncrementalLeftOn, left_on::incremental),
+    // Off: programs name each tool's length after its change, and leave the last one on by the shop's rule.
     asked(Code::LengthLeftOn, left_on::length),
     rule(Code::ModalCallLeftOn, left_on::modal_call),
 ];
