@@ -340,6 +340,11 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// How many findings there are so far.
+    pub fn found(&self) -> usize {
+        self.findings.by_program.iter().map(Vec::len).sum()
+    }
+
     /// What was found, by program of the source.
     pub fn into_findings(self) -> Vec<Vec<Diagnostic>> {
         self.findings.by_program

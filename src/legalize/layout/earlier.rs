@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(in crate::legalize) struct Earlier {
     /// What the value of a register was called on the control that it came from, by the register's name.
     pub held: BTreeMap<String, String>,
+    /// The numbers that programs without one had, by program.
+    pub numbers: BTreeMap<usize, u32>,
     /// By program: the names of registers for values in between.
     pub between: Vec<BTreeSet<String>>,
 }
@@ -15,7 +17,7 @@ pub(in crate::legalize) struct Earlier {
 impl Earlier {
     /// Nothing, of so many programs.
     pub fn of(programs: usize) -> Self {
-        Self { held: BTreeMap::new(), between: vec![BTreeSet::new(); programs] }
+        Self { between: vec![BTreeSet::new(); programs], ..Self::default() }
     }
 
     /// Adds what a comment at the head of a program says. What the first program says of a register holds for all.

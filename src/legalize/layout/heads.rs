@@ -8,9 +8,10 @@
 use super::earlier::Earlier;
 use super::head_text::Head;
 use crate::dialect::Control;
-use crate::ir::{Block, Module, Program, SourceInfo, Stmt, StmtKind};
-use crate::legalize::Context;
+use crate::ir::{Block, Callee, Module, Program, SourceInfo, Stmt, StmtKind};
+use crate::legalize::{Context, calls_of};
 use crate::syntax::ProgramName;
+use std::collections::BTreeSet;
 
 /// Leaves such comments out; true if there were any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -23,6 +24,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             changed |= drop_name(block);
         }
     }
+    changed |= take_numbers(module, &mut earlier, context);
     context.earlier = earlier;
     changed
 }
@@ -48,6 +50,49 @@ pub(in crate::legalize) fn counts(name: &str) -> bool {
     let number =
         name.strip_prefix(['$', 'N']).or_else(|| name.strip_prefix('L').filter(|rest| rest.len() < 3));
     number.is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
+/// Takes the numbers that programs without one had before, `(O1029)`, where nothing else has them; true if there were any.
+fn take_numbers(module: &mut Module, earlier: &mut Earlier, context: &Context<'_>) -> bool {
+    let most = context.target.text().program_max;
+    let claims = module.programs.iter().map(number_at_head);
+    let claims: Vec<Option<u32>> = claims.map(|n| n.filter(|n| (1..=most).contains(n))).collect();
+    if claims.iter().all(Option::is_none) {
+        return false;
+    }
+    let mut taken: BTreeSet<u32> = context.locked.programs.values().copied().collect();
+    for program in &module.programs {
+        let called = program.blocks.iter().flat_map(calls_of).filter_map(|call| match &call.callee {
+            Callee::Program(name) => Some(name),
+            _ => None,
+        });
+        taken.extend(program.name.iter().chain(called).filter_map(|name| match name {
+            ProgramName::Number(number) => Some(*number),
+            ProgramName::Name(_) => None,
+        }));
+    }
+    let mut changed = false;
+    for (index, (program, claim)) in module.programs.iter_mut().zip(&claims).enumerate() {
+        let Some(number) = claim.filter(|number| !taken.contains(number)) else { continue };
+        if claims.iter().filter(|other| **other == Some(number)).count() == 1 {
+            earlier.numbers.insert(index, number);
+            program.blocks.iter_mut().take(1).for_each(|block| drop(block.stmts.remove(0)));
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// The number in the first comment of a program that has none, if that comment is nothing else.
+fn number_at_head(program: &Program) -> Option<u32> {
+    if matches!(program.name, Some(ProgramName::Number(_))) {
+        return None;
+    }
+    let first = program.blocks.first()?.stmts.first().filter(|stmt| stmt.kind == StmtKind::Comment)?;
+    let [comment] = first.site.comments.as_slice() else { return None };
+    let digits = comment.text.strip_prefix('O')?;
+    let plain = (4..=5).contains(&digits.len()) && digits.bytes().all(|digit| digit.is_ascii_digit());
+    digits.parse().ok().filter(|_| plain)
 }
 
 /// True for the number of a program as a comment, which a control without such numbers has at its head.

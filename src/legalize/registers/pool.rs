@@ -87,13 +87,11 @@ impl<'a> Pool<'a> {
         there.filter(|number| self.fits(class, *number))
     }
 
-    /// True for a free register that a variable of the class may have and nothing else is in use for.
+    /// True for a free register that a variable of the class may have.
     fn fits(&self, class: Class, number: u32) -> bool {
         let keeps = |row: &&VariableClass| row.retained != Some(false);
         let row = self.rows.iter().copied().find(|row| (row.first..=row.last).contains(&number));
-        row.is_some_and(|row| keeps(&row) || is_volatile(class))
-            && self.free(number)
-            && !self.target.is_in_use(&self.name, number)
+        row.is_some_and(|row| keeps(&row) || is_volatile(class)) && self.free(number)
     }
 
     /// A register for a variable: the one that the lock has under its name, the one where it was on
