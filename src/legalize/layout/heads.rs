@@ -90,9 +90,8 @@ fn number_at_head(program: &Program) -> Option<u32> {
     }
     let first = program.blocks.first()?.stmts.first().filter(|stmt| stmt.kind == StmtKind::Comment)?;
     let [comment] = first.site.comments.as_slice() else { return None };
-    let digits = comment.text.strip_prefix('O')?;
-    let plain = (4..=5).contains(&digits.len()) && digits.bytes().all(|digit| digit.is_ascii_digit());
-    digits.parse().ok().filter(|_| plain)
+    let (_, digits) = parted(&comment.text)?;
+    digits.parse().ok().filter(|number| ProgramName::Number(*number).to_string() == comment.text)
 }
 
 /// True for the number of a program as a comment, which a control without such numbers has at its head.
