@@ -4,6 +4,8 @@
 //! conversion writes such a head of its own: with the old one above it, each way there and back would add to the text.
 //! Only comments at the head go that hold nothing but names of registers, one of them the source's. Any other word in one
 //! keeps it, and so does a statement before it. The program's own number goes there too. At a label `($1)`, `(N10)` or `(L1)` was its name on another control.
+//! A program without a number that begins with one, `(O1029)`, gets it back where nothing else has it or calls it. What heads
+//! say is kept ([`Earlier`]): the registers are given by it, where they are free.
 
 use super::earlier::Earlier;
 use super::head_text::Head;
@@ -54,6 +56,10 @@ pub(in crate::legalize) fn counts(name: &str) -> bool {
 
 /// Takes the numbers that programs without one had before, `(O1029)`, where nothing else has them; true if there were any.
 fn take_numbers(module: &mut Module, earlier: &mut Earlier, context: &Context<'_>) -> bool {
+    // Only a control without such numbers has them in comments.
+    if context.source.names().program.is_some() || context.target.names().program.is_none() {
+        return false;
+    }
     let most = context.target.text().program_max;
     let claims = module.programs.iter().map(number_at_head);
     let claims: Vec<Option<u32>> = claims.map(|n| n.filter(|n| (1..=most).contains(n))).collect();
@@ -85,9 +91,7 @@ fn take_numbers(module: &mut Module, earlier: &mut Earlier, context: &Context<'_
 
 /// The number in the first comment of a program that has none, if that comment is nothing else.
 fn number_at_head(program: &Program) -> Option<u32> {
-    if matches!(program.name, Some(ProgramName::Number(_))) {
-        return None;
-    }
+    let Some(ProgramName::Name(_)) = program.name else { return None };
     let first = program.blocks.first()?.stmts.first().filter(|stmt| stmt.kind == StmtKind::Comment)?;
     let [comment] = first.site.comments.as_slice() else { return None };
     let (_, digits) = parted(&comment.text)?;

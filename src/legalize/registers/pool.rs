@@ -91,7 +91,9 @@ impl<'a> Pool<'a> {
     fn fits(&self, class: Class, number: u32) -> bool {
         let keeps = |row: &&VariableClass| row.retained != Some(false);
         let row = self.rows.iter().copied().find(|row| (row.first..=row.last).contains(&number));
-        row.is_some_and(|row| keeps(&row) || is_volatile(class)) && self.free(number)
+        row.is_some_and(|row| keeps(&row) || is_volatile(class))
+            && self.free(number)
+            && !self.supposed.contains(number)
     }
 
     /// A register for a variable: the one that the lock has under its name, the one where it was on

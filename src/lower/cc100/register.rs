@@ -6,8 +6,9 @@
 //! that variable with zero; it is exact, since the register keeps the sign of
 //! what the variable was given last. Where ways with different settings meet, the
 //! register itself is assigned, in those places that a jump can see. A test of the
-//! machine's state directly before its jump is the jump's condition. All other
-//! markers go.
+//! machine's state directly before its jump is the jump's condition; where the
+//! profile says its outcome, the jump goes or not, and what only it came to is
+//! left out. All other markers go.
 //!
 //! Whether a plain load sets the register no source says. A jump that sees one
 //! after the last arithmetic is therefore left to a reviewer.

@@ -1,4 +1,5 @@
-//! What every call of a program gives a value: it is not vacant at the program's entry.
+//! What every call of a program gives a value: it is not vacant at the program's entry. And what the program gives one
+//! whenever it returns: it is not vacant after the call.
 
 use super::marks::Names;
 use crate::ir::analysis::computed_calls::CalledPrograms;
