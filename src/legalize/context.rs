@@ -9,6 +9,7 @@ use crate::dialect::{Control, Question, Row, Side};
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::{ModalFacts, Summaries};
 use crate::ir::{Module, Var};
+use crate::legalize::layout::earlier::Earlier;
 use crate::legalize::layout::program_numbers::ProgramNumbers;
 use crate::legalize::registers::locked::Locked;
 use crate::legalize::registers::map::Registers;
@@ -49,6 +50,8 @@ pub struct Context<'a> {
     pub(super) chained: bool,
     /// True where the library drills, and its holes became moves.
     pub(super) drills: bool,
+    /// What heads of an earlier conversion say, from the pass `heads` on.
+    pub(super) earlier: Earlier,
     /// What earlier runs chose.
     pub locked: Locked<'a>,
     /// The temporaries and statics that are needed after calls, from the pass `temporaries` on.
@@ -136,6 +139,7 @@ impl<'a> Context<'a> {
             level: Level::default(),
             chained: false,
             drills: false,
+            earlier: Earlier::default(),
             locked: Locked::default(),
             over_calls: BTreeSet::new(),
             copied: Vec::new(),
@@ -334,6 +338,11 @@ impl<'a> Context<'a> {
             let finding = control.unconfirmed(side, &row.fact(), row.origin.note.as_deref(), span);
             self.add_once(program, &format!("{side} {}", row.fact()), finding);
         }
+    }
+
+    /// How many findings there are so far.
+    pub fn found(&self) -> usize {
+        self.findings.by_program.iter().map(Vec::len).sum()
     }
 
     /// What was found, by program of the source.

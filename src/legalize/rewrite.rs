@@ -351,6 +351,6 @@ pub(super) fn terminator(kind: &mut TermKind, f: &mut Each<'_>) {
 }
 
 /// The highest number of a temporary in a program.
-pub(super) fn highest_temp(program: &Program) -> u32 {
+pub(in crate::legalize) fn highest_temp(program: &Program) -> u32 {
     program.temporaries().map(|var| var.number).max().unwrap_or(0)
 }

@@ -17,6 +17,7 @@ mod pass;
 mod random;
 mod retarget;
 mod unreachable;
+mod word_values;
 
 pub use branches::Branches;
 pub use copy_propagation::CopyPropagation;
@@ -27,6 +28,7 @@ pub use list::{PASSES, find};
 pub use pass::{Level, Library, Pass, run};
 pub use retarget::Retarget;
 pub use unreachable::Unreachable;
+pub use word_values::WordValues;
 
 #[cfg(test)]
 mod tests;

@@ -50,6 +50,7 @@ pub fn drive(case: &Case) -> Result<Option<String>, String> {
 
 /// The groups of passes that run before variables have registers, but for those that only tidy.
 pub const LEGALIZE: &[&str] = &[
+    "earlier",
     "source",
     "structure",
     "blocks",
@@ -87,12 +88,11 @@ pub fn acts(case: &Case) -> Result<Vec<(&'static str, bool)>, String> {
     let (source, target) = (machine(source)?, machine(target)?);
     let mut module = parse(&case.text).map_err(|e| e.to_string())?;
     let mut all = Vec::new();
+    let mut context = Context::new(&source, &target, module.programs.len());
     for pass in named(names)? {
-        let before = module.clone();
-        let mut context = Context::new(&source, &target, module.programs.len());
+        let (before, said) = (module.clone(), context.found());
         pass.apply(&mut module, &mut context);
-        let said = context.into_findings().iter().any(|findings| !findings.is_empty());
-        all.push((pass.name, said || module != before));
+        all.push((pass.name, context.found() > said || module != before));
     }
     Ok(all)
 }

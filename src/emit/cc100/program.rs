@@ -15,6 +15,9 @@ use crate::ir::analysis::reachable;
 use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, StmtKind, TermKind};
 use crate::text::Span;
 
+/// Registers for values in between that a comment names, so that it fits into a line.
+const SCRATCH_IN_A_LINE: usize = 6;
+
 /// V30 to V80 are for programs (seed 004:52).
 const CROWDED: &str = "the library has more variables than V30 to V80: this program uses others too, which belong to cycles of \
                        the maker and the builder. Make sure that no cycle of your control uses the ones at its head";
@@ -107,6 +110,11 @@ impl<'p> Emitter<'p> {
         let taken = Taken::of(self.program, self.names);
         for ((name, number), label) in taken.named {
             self.comment(&format!("{name}{number} = {label}"));
+        }
+        let scratch: Vec<String> =
+            taken.scratch.into_iter().map(|(name, number)| format!("{name}{number}")).collect();
+        for some in scratch.chunks(SCRATCH_IN_A_LINE) {
+            self.comment(&format!("SCRATCH {}", some.join(" ")));
         }
     }
 

@@ -34,7 +34,7 @@ pub use modal_facts::{ModalFacts, replace_statements};
 pub use ranges::{Numbers, Ranges, Values};
 pub use set::{BitRow, Universe, VarSet};
 pub use temps::Temps;
-pub use vacancy::Vacancy;
+pub use vacancy::{Around, Filled, Vacancy};
 pub use values::{Assigned, Constant, values_at};
 
 /// Whether something holds of a thing at the place that is being visited.

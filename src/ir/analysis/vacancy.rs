@@ -12,8 +12,9 @@ use crate::ir::{
     Bank, Block, BlockId, Call, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind,
     TermKind, Var,
 };
+use crate::syntax::ProgramName;
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What may be vacant in one program.
 #[derive(Debug)]
@@ -32,6 +33,27 @@ struct Rules<'p> {
     entry: BitRow,
     /// True if only callers enter the program: no return starts it again.
     called: bool,
+    /// What callees leave with a number, by their names.
+    filled: &'p Filled,
+}
+
+/// The variables that a program leaves with a number whenever it returns, by its name.
+pub type Filled = BTreeMap<ProgramName, BTreeSet<Var>>;
+
+/// Of no program.
+static NONE: Filled = Filled::new();
+
+/// What is known of a program by the library around it.
+#[derive(Clone, Copy, Debug)]
+pub struct Around<'a> {
+    /// What is never vacant at its entry.
+    pub assigned: &'a BTreeSet<Var>,
+    /// True if only its callers enter it: it never starts itself again.
+    pub called: bool,
+    /// Variables to follow that it may not name itself.
+    pub named: &'a BTreeSet<Var>,
+    /// What its callees leave with a number.
+    pub filled: &'a Filled,
 }
 
 impl Lattice for BitRow {
@@ -81,7 +103,11 @@ impl Analysis for Rules<'_> {
                     }
                 }
                 Callee::Block(_) if to != *next => Some(Cow::Borrowed(row)),
-                _ => self.changed(row, |row| self.disturb(self.summaries.by_call(call), row)),
+                _ => self.changed(row, |row| {
+                    self.disturb(self.summaries.by_call(call), row);
+                    let filled = self.filled_by(call).into_iter().flatten();
+                    filled.filter_map(|var| self.universe.place(*var)).for_each(|at| row.remove(at));
+                }),
             },
             _ => Some(Cow::Borrowed(row)),
         }
@@ -108,26 +134,52 @@ impl Steps for Rules<'_> {
 impl<'p> Vacancy<'p> {
     /// Computes it. `assigned` are never vacant at the entry.
     pub fn of(program: &'p Program, summaries: &'p Summaries, assigned: &BTreeSet<Var>) -> Self {
-        Self::entered(program, summaries, assigned, false)
+        let named = BTreeSet::new();
+        let around = Around { assigned, called: false, named: &named, filled: &NONE };
+        Self::entered(program, summaries, around, &NONE)
     }
 
-    /// The same of a program that only its callers enter: it never starts itself again.
-    pub fn of_called(program: &'p Program, summaries: &'p Summaries, assigned: &BTreeSet<Var>) -> Self {
-        Self::entered(program, summaries, assigned, true)
+    /// The same with what the library says of the program.
+    pub fn around(program: &'p Program, summaries: &'p Summaries, around: Around<'p>) -> Self {
+        Self::entered(program, summaries, around, around.filled)
     }
 
     fn entered(
         program: &'p Program,
         summaries: &'p Summaries,
-        assigned: &BTreeSet<Var>,
-        called: bool,
+        Around { assigned, called, named, .. }: Around<'_>,
+        filled: &'p Filled,
     ) -> Self {
-        let universe = universe(program);
+        let universe = universe(program, named);
         let mut entry = universe.all();
         assigned.iter().filter_map(|var| universe.place(*var)).for_each(|at| entry.remove(at));
-        let rules = Rules { program, summaries, universe, entry, called };
+        let rules = Rules { program, summaries, universe, entry, called, filled };
         let states = solve(&rules, program, &Cfg::whole(program, summaries.come_back()));
         Self { rules, states }
+    }
+
+    /// The variables of several programs that have a number wherever this one returns; none if it may go on elsewhere.
+    pub fn filled(&self) -> BTreeSet<Var> {
+        let blocks = || self.rules.program.ids().zip(&self.rules.program.blocks);
+        let elsewhere =
+            |kind: &TermKind| matches!(kind, TermKind::Return { to: Some(_) } | TermKind::Chain(_));
+        if blocks().any(|(_, block)| elsewhere(&block.term.kind)) {
+            return BTreeSet::new();
+        }
+        let mut all: Option<BTreeSet<Var>> = None;
+        for (id, block) in blocks().filter(|(_, block)| matches!(block.term.kind, TermKind::Return { .. })) {
+            if self.states.at(id).is_none() {
+                continue;
+            }
+            let vars = self.rules.universe.vars().iter().filter(|var| var.class.shared());
+            let sure =
+                vars.filter(|var| !self.may_be_vacant(id, block.stmts.len(), **var)).copied().collect();
+            all = Some(match all {
+                Some(all) => &all & &sure,
+                None => sure,
+            });
+        }
+        all.unwrap_or_default()
     }
 
     /// True where the variable may be vacant before statement `at` of a block (past the last:
@@ -153,9 +205,10 @@ impl<'p> Vacancy<'p> {
     }
 }
 
-/// The variables that a program names and that may be vacant.
-fn universe(program: &Program) -> Universe {
+/// The variables that a program names and that may be vacant, and these.
+fn universe(program: &Program, named: &BTreeSet<Var>) -> Universe {
     let mut vars = VarSet::default();
+    vars.extend(named.iter().copied().filter(|var| var.class.nullable()));
     program.variables(&mut |var| {
         if var.class.nullable() {
             vars.insert(var);
@@ -175,6 +228,13 @@ impl Rules<'_> {
         let mut row = row.clone();
         change(&mut row);
         Some(Cow::Owned(row))
+    }
+
+    /// What a call surely leaves with a number: it runs, and comes back behind itself.
+    fn filled_by(&self, call: &Call) -> Option<&BTreeSet<Var>> {
+        let Callee::Program(name) = &call.callee else { return None };
+        let runs = call.count.as_ref().is_none_or(|count| count.constant().is_some_and(|n| n >= 1.0));
+        self.filled.get(name).filter(|_| runs && !self.summaries.come_back())
     }
 
     fn locals(&self) -> BitRow {

@@ -16,6 +16,7 @@ use crate::ir::{
 };
 use crate::legalize::calls::inlined;
 use crate::legalize::context::Copied;
+use crate::legalize::layout::heads::counts;
 use crate::legalize::registers::frames::repeats;
 use crate::legalize::rewrite::highest_temp;
 use crate::legalize::{Context, calls_of};
@@ -112,7 +113,7 @@ fn merge(
             body.blocks.iter().map(|block| copy(block, shift, temps, span)).collect();
         if let Some(first) = blocks.first_mut() {
             first.labels.clear();
-            first.stmts.insert(0, headline(body, span));
+            headline(body, span).into_iter().for_each(|line| first.stmts.insert(0, line));
         }
         program.blocks.extend(blocks);
         let of = body.name.as_ref().map(|name| name.short().into_owned()).unwrap_or_default();
@@ -130,14 +131,19 @@ fn merge(
     }
 }
 
-/// What the copied program is called, as a comment at its head.
-fn headline(body: &Program, span: Option<Span>) -> Stmt {
-    let name = body.name.iter().map(|name| name.to_string());
-    let words: Vec<String> =
-        name.chain(body.site.comments.iter().map(|comment| comment.text.clone())).collect();
+/// What the copied program is called, as a comment at its head. One that was a part `($1)` of a program here before has a
+/// number that an earlier conversion gave it, which nobody knows.
+fn headline(body: &Program, span: Option<Span>) -> Option<Stmt> {
+    let comments = || body.site.comments.iter().map(|comment| &comment.text);
+    let part = comments().any(|text| counts(text));
+    let name = body.name.iter().filter(|_| !part).map(|name| name.to_string());
+    let words: Vec<String> = name.chain(comments().filter(|text| !counts(text)).cloned()).collect();
+    if words.is_empty() {
+        return None;
+    }
     let comments = [Comment { text: words.join(" "), leading: false }].into_iter().collect();
     let site = SourceInfo { span: span.unwrap_or(body.site.span), comments, ..SourceInfo::default() };
-    Stmt { kind: StmtKind::Comment, site }
+    Some(Stmt { kind: StmtKind::Comment, site })
 }
 
 /// A block whose ids and temporaries are moved; of another file it stands for the place of the call.
@@ -155,6 +161,7 @@ fn copy(block: &Block, shift: u32, temps: u32, span: Option<Span>) -> Block {
             }
         });
     };
+    let (mut before, mut odd) = (None, false);
     for stmt in &mut block.stmts {
         stmt.kind.exprs_mut(&mut { each });
         match &mut stmt.kind {
@@ -162,7 +169,12 @@ fn copy(block: &Block, shift: u32, temps: u32, span: Option<Span>) -> Block {
             | StmtKind::Input { target: Place::Var(target), .. } => var(target),
             _ => {}
         }
-        stmt.site.span = span.unwrap_or(stmt.site.span);
+        // Neighbours of one block there are of one block here, and others are not.
+        odd ^= before.replace(stmt.site.span).is_some_and(|before| before != stmt.site.span);
+        stmt.site.span = span.map_or(stmt.site.span, |span| Span {
+            end: span.end.saturating_sub(u32::from(odd)).max(span.start),
+            ..span
+        });
     }
     block.term.kind.exprs_mut(&mut { each });
     block.term.kind.for_each_target(&mut |id| id.0 += shift);

@@ -4,42 +4,98 @@
 //! conversion writes such a head of its own: with the old one above it, each way there and back would add to the text.
 //! Only comments at the head go that hold nothing but names of registers, one of them the source's. Any other word in one
 //! keeps it, and so does a statement before it. The program's own number goes there too. At a label `($1)`, `(N10)` or `(L1)` was its name on another control.
+//! A program without a number that begins with one, `(O1029)`, gets it back where nothing else has it or calls it. What heads
+//! say is kept ([`Earlier`]): the registers are given by it, where they are free.
 
+use super::earlier::Earlier;
+use super::head_text::Head;
 use crate::dialect::Control;
-use crate::ir::{Block, Module, Program, Stmt, StmtKind};
-use crate::legalize::Context;
+use crate::ir::{Block, Callee, Module, Program, SourceInfo, Stmt, StmtKind};
+use crate::legalize::{Context, calls_of};
 use crate::syntax::ProgramName;
+use std::collections::BTreeSet;
 
 /// Leaves such comments out; true if there were any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let source = context.source;
     let mut changed = false;
-    for program in &mut module.programs {
-        changed |= drop_head(program, source);
+    let mut earlier = Earlier::of(module.programs.len());
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        changed |= drop_head(program, source, &mut |head| earlier.add(index, head));
         for block in program.blocks.iter_mut().filter(|block| !block.labels.is_empty()) {
             changed |= drop_name(block);
         }
     }
+    changed |= take_numbers(module, &mut earlier, context);
+    context.earlier = earlier;
     changed
 }
 
 /// Takes the old name of a label out of the comments of the block's first statement.
 fn drop_name(block: &mut Block) -> bool {
-    let Some(first) = block.stmts.first_mut() else { return false };
-    let all = first.site.comments.len();
-    first.site.comments.retain(|comment| !counts(&comment.text));
-    let changed = first.site.comments.len() < all;
+    let Some(first) = block.stmts.first_mut() else { return drop_from(&mut block.term.site) };
+    let changed = drop_from(&mut first.site);
     if changed && first.kind == StmtKind::Comment && first.site.comments.is_empty() {
         block.stmts.remove(0);
     }
     changed
 }
 
+fn drop_from(site: &mut SourceInfo) -> bool {
+    let all = site.comments.len();
+    site.comments.retain(|comment| !counts(&comment.text));
+    site.comments.len() < all
+}
+
 /// True for a name that only counts.
-fn counts(name: &str) -> bool {
+pub(in crate::legalize) fn counts(name: &str) -> bool {
     let number =
         name.strip_prefix(['$', 'N']).or_else(|| name.strip_prefix('L').filter(|rest| rest.len() < 3));
     number.is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
+/// Takes the numbers that programs without one had before, `(O1029)`, where nothing else has them; true if there were any.
+fn take_numbers(module: &mut Module, earlier: &mut Earlier, context: &Context<'_>) -> bool {
+    // Only a control without such numbers has them in comments.
+    if context.source.names().program.is_some() || context.target.names().program.is_none() {
+        return false;
+    }
+    let most = context.target.text().program_max;
+    let claims = module.programs.iter().map(number_at_head);
+    let claims: Vec<Option<u32>> = claims.map(|n| n.filter(|n| (1..=most).contains(n))).collect();
+    if claims.iter().all(Option::is_none) {
+        return false;
+    }
+    let mut taken: BTreeSet<u32> = context.locked.programs.values().copied().collect();
+    for program in &module.programs {
+        let called = program.blocks.iter().flat_map(calls_of).filter_map(|call| match &call.callee {
+            Callee::Program(name) => Some(name),
+            _ => None,
+        });
+        taken.extend(program.name.iter().chain(called).filter_map(|name| match name {
+            ProgramName::Number(number) => Some(*number),
+            ProgramName::Name(_) => None,
+        }));
+    }
+    let mut changed = false;
+    for (index, (program, claim)) in module.programs.iter_mut().zip(&claims).enumerate() {
+        let Some(number) = claim.filter(|number| !taken.contains(number)) else { continue };
+        if claims.iter().filter(|other| **other == Some(number)).count() == 1 {
+            earlier.numbers.insert(index, number);
+            program.blocks.iter_mut().take(1).for_each(|block| drop(block.stmts.remove(0)));
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// The number in the first comment of a program that has none, if that comment is nothing else.
+fn number_at_head(program: &Program) -> Option<u32> {
+    let Some(ProgramName::Name(_)) = program.name else { return None };
+    let first = program.blocks.first()?.stmts.first().filter(|stmt| stmt.kind == StmtKind::Comment)?;
+    let [comment] = first.site.comments.as_slice() else { return None };
+    let (_, digits) = parted(&comment.text)?;
+    digits.parse().ok().filter(|number| ProgramName::Number(*number).to_string() == comment.text)
 }
 
 /// True for the number of a program as a comment, which a control without such numbers has at its head.
@@ -55,7 +111,8 @@ fn parted(name: &str) -> Option<(&str, &str)> {
     Some((sign, digits.trim_start_matches('0')))
 }
 
-fn drop_head(program: &mut Program, source: &Control) -> bool {
+/// Takes the head away, and calls `f` with what each of its comments says.
+fn drop_head(program: &mut Program, source: &Control, f: &mut dyn FnMut(&Head)) -> bool {
     let name = program.name.clone();
     let (mut changed, mut scratch) = (false, false);
     // A block with a number is a block of the IR too, where something may jump to it.
@@ -74,10 +131,11 @@ fn drop_head(program: &mut Program, source: &Control) -> bool {
                 if is_name(&comment.text, name.as_ref()) {
                     return false;
                 }
-                let head = Head::of(&comment.text, source);
-                let is_one = head.is_some_and(|head| head.pairs || scratch);
-                scratch = is_one && (scratch || head.is_some_and(|head| head.scratch));
-                !is_one
+                let head = Head::of(&comment.text, source, scratch);
+                let head = head.filter(|head| head.pairs || scratch);
+                head.iter().for_each(&mut *f);
+                scratch = head.as_ref().is_some_and(|head| scratch || head.scratch);
+                head.is_none()
             });
             let left_out = stmt.site.comments.len() < all;
             changed |= left_out;
@@ -92,62 +150,4 @@ fn drop_head(program: &mut Program, source: &Control) -> bool {
         }
     }
     changed
-}
-
-/// What a comment of nothing but names says.
-#[derive(Clone, Copy, Default)]
-struct Head {
-    /// It says what registers hold: `V31=#100`, and one of the names is the source's.
-    pairs: bool,
-    /// It names registers for values in between; the rest of them may stand in the next comment.
-    scratch: bool,
-}
-
-impl Head {
-    /// None for a comment with another word in it.
-    fn of(text: &str, source: &Control) -> Option<Self> {
-        let spaced = text.replace('=', " = ");
-        let mut head = Self::default();
-        let (mut equals, mut own) = (false, false);
-        for word in spaced.split_ascii_whitespace() {
-            match word {
-                "=" => equals = true,
-                "FLAG" | "OF" => {}
-                "SCRATCH" => head.scratch = true,
-                word => {
-                    let (first, last) = word.split_once('-').unwrap_or((word, word));
-                    let (first, last) = (Name::of(first)?, Name::of(last)?);
-                    own |= first.is_of(source) || last.is_of(source);
-                }
-            }
-        }
-        head.pairs = own && (equals || head.scratch);
-        own.then_some(head)
-    }
-}
-
-/// The name of a register as any control may have it: a sign, and a number or a letter.
-struct Name<'t> {
-    sign: &'t str,
-    rest: &'t str,
-}
-
-impl<'t> Name<'t> {
-    fn of(word: &'t str) -> Option<Self> {
-        let sign = word.chars().next().filter(|sign| sign.is_ascii_graphic() && !sign.is_ascii_digit())?;
-        let (sign, rest) = word.split_at_checked(sign.len_utf8())?;
-        let is_number = rest.len() < 6 && rest.bytes().all(|digit| digit.is_ascii_digit());
-        let is_letter = rest.len() == 1 && rest.bytes().all(|letter| letter.is_ascii_uppercase());
-        (!rest.is_empty() && (is_number || is_letter)).then_some(Self { sign, rest })
-    }
-
-    fn is_of(&self, control: &Control) -> bool {
-        match self.rest.parse() {
-            Ok(number) => control.variable_class(self.sign, number).is_some(),
-            Err(_) => {
-                let letter = self.rest.chars().next();
-                letter.is_some_and(|letter| control.letter_class(self.sign, letter).is_some())
-            }
-        }
-    }
 }

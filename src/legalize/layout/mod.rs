@@ -1,8 +1,11 @@
 //! Sequence numbers, program numbers and blocks without words.
 
 pub(in crate::legalize) mod blanks;
+pub(in crate::legalize) mod earlier;
 pub(in crate::legalize) mod emptied;
+mod head_text;
 pub(in crate::legalize) mod heads;
 pub(in crate::legalize) mod macro_lines;
 pub(in crate::legalize) mod program_numbers;
+pub(in crate::legalize) mod scratch;
 pub(in crate::legalize) mod sequence_numbers;

@@ -1,7 +1,7 @@
 //! Numbers of programs on the target.
 //!
-//! Law: a program keeps its own number if the target has it; else it gets the one that the lock gives it, or the next free
-//! one. Side condition: no computed call finds a program that has its number by this conversion; if it may, that is
+//! Law: a program keeps its own number if the target has it; else it gets the one that the lock gives it, the one that it had
+//! before an earlier conversion, or the next free one. Side condition: no computed call finds a program that has its number by this conversion; if it may, that is
 //! an assumption. Counter-example: `M98 P#1` and a macro that became O8000.
 
 use crate::diag::{Code, Diagnostic};
@@ -52,6 +52,8 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
     let max = context.target.text().program_max;
     let bounded = looked_for.last().is_none_or(|last| last < max);
     // Numbers are only ever taken: each search goes on where the last one ended.
+    let mut before = context.earlier.numbers.clone();
+    let kept: BTreeSet<u32> = before.values().copied().collect();
     let mut free = [FIRST_MAIN, FIRST_SUB].map(|first| (first..=max).chain(1..first));
     let mut out = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
@@ -61,8 +63,12 @@ fn choose(module: &Module, looked_for: &Numbers, context: &mut Context<'_>) -> P
             (_, ProgramName::Number(n)) if *n >= 1 && *n <= max => Some(*n),
             (Some(n), _) => Some(*n),
             _ => {
+                let origin = context.origins.get(index).copied().unwrap_or(index);
+                let before = before.remove(&origin);
                 let sub = program.returns() && !program.ends();
-                free[usize::from(sub)].find(|n| !(taken.contains(n) || bounded && looked_for.contains(*n)))
+                let is_free = |n: &u32| !(taken.contains(n) || bounded && looked_for.contains(*n));
+                let new = |n: &u32| is_free(n) && !kept.contains(n);
+                before.filter(is_free).or_else(|| free[usize::from(sub)].find(new))
             }
         };
         match number {

@@ -20,7 +20,7 @@ use crate::legalize::expressions::{
     codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
 };
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::layout::{blanks, heads};
+use crate::legalize::layout::{blanks, heads, scratch};
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, questions};
@@ -28,10 +28,11 @@ use crate::legalize::variables::{
     banks, computed_numbers, modal_reads, output_codes, probe_points, signals, state, subscript_chains,
     timers, touch_points, vacancy_flags, vacant_writes,
 };
-use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable};
+use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable, WordValues};
 
 /// The passes from lowering to emission.
 pub const GROUPS: &[Group] = &[
+    Group { name: "earlier", heading: "What an earlier conversion left", passes: EARLIER },
     Group { name: "tidy", heading: "What lowering put in, tidier", passes: TIDY },
     Group { name: "source", heading: "What the programs rest on at the source", passes: SOURCE },
     Group {
@@ -67,6 +68,19 @@ const UNREACHABLE: Pass =
 const DEAD_STORES: Pass =
     Pass::tidies(&DeadStores, "dead-stores", "temporaries that nothing reads are removed");
 
+const EARLIER: &[Pass] = &[
+    Pass::edits("heads", "heads of an earlier conversion go, as this one writes its own", heads::run),
+    Pass::edits("scratch", "registers that an earlier conversion took are temporaries again", scratch::run)
+        .when(scratch::concerns)
+        .needs(&["heads"]),
+    Pass::tidies(
+        &WordValues,
+        "word-values",
+        "a value goes straight into the word that its temporary was set for",
+    )
+    .when(scratch::concerns),
+];
+
 const TIDY: &[Pass] = &[
     Pass::tidies(
         &CopyPropagation,
@@ -96,7 +110,6 @@ const STRUCTURE: &[Pass] = &[
     // First of all: what only output reads is no matter of the conversion.
     Pass::rewrites("omitted", "output that the target's profile says to leave out goes", omitted::run)
         .when(omitted::concerns),
-    Pass::edits("heads", "heads of an earlier conversion go, as this one writes its own", heads::run),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
     Pass::edits("link", "reports calls that leave the library", link::run)

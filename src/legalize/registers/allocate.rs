@@ -56,7 +56,8 @@ fn allocate(
     let banked: Vec<Bank> = banks.keys().copied().collect();
     let kept: BTreeSet<Var> = users.keys().copied().filter(|var| keeps_number(*var, context)).collect();
     let effective = locked::settle(module, locked, &kept, &banked, context);
-    let mut pool = Pool::new(context, &effective, locked);
+    let held = context.earlier.held.clone();
+    let mut pool = Pool::new(context, &effective, locked, &held);
     let mut registers =
         Registers { freed: effective.freed.clone(), alike: numbers_alike(context), ..Registers::default() };
     registers.reached = context.reached.sure.clone();
@@ -99,8 +100,15 @@ fn assign(
     context: &Context<'_>,
 ) -> (Registers, Vec<Var>) {
     let mut short = Vec::new();
-    for &var in wanted {
-        let name = name_of(var, module, context.source);
+    let named = wanted.iter().map(|var| (*var, name_of(*var, module, context.source)));
+    // What goes back to where it was comes first: nothing else takes its register.
+    let mut kept = BTreeSet::new();
+    let (mut back, new): (Vec<_>, Vec<_>) = named.partition(|(var, name)| {
+        let there = name.as_deref().and_then(|name| pool.back_to(*var, name));
+        there.is_some_and(|number| kept.insert(number))
+    });
+    back.extend(new);
+    for (var, name) in back {
         let over = context.over_calls.contains(&var);
         let found = match class_of_colour(var, context.target) {
             Some(class) => pool.take_of(class),

@@ -64,7 +64,7 @@ pub(super) fn numbers_alike(context: &Context<'_>) -> bool {
 }
 
 /// True for a variable whose number the target has too.
-pub(super) fn keeps_number(var: Var, context: &Context<'_>) -> bool {
+pub(in crate::legalize) fn keeps_number(var: Var, context: &Context<'_>) -> bool {
     let name = pool_name(context.target);
     let there = context.target.variable_class(&name, var.number);
     let same_kind = there.is_some_and(|row| (row.class == "local") == (var.class == Class::Local));

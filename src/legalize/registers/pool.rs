@@ -25,6 +25,8 @@ pub(super) struct Pool<'a> {
     over_calls: BTreeSet<u32>,
     /// True if no program of an earlier run stays as it is.
     alone: bool,
+    /// What heads of an earlier conversion say of the source's registers.
+    held: &'a BTreeMap<String, String>,
     /// Numbers that computed ones reach.
     reached: Numbers,
     /// Numbers that computed ones are supposed to be: taken where nothing else is free.
@@ -33,7 +35,12 @@ pub(super) struct Pool<'a> {
 }
 
 impl<'a> Pool<'a> {
-    pub fn new(context: &Context<'a>, effective: &'a Effective, locked: &Locked<'_>) -> Self {
+    pub fn new(
+        context: &Context<'a>,
+        effective: &'a Effective,
+        locked: &Locked<'_>,
+        held: &'a BTreeMap<String, String>,
+    ) -> Self {
         let target = context.target;
         let supposed = context.reached.supposed();
         let mut reached = context.reached.sure.clone();
@@ -55,6 +62,7 @@ impl<'a> Pool<'a> {
             apart: BTreeSet::new(),
             locked: &effective.variables,
             scratch,
+            held,
             reached,
             supposed,
             target,
@@ -68,15 +76,36 @@ impl<'a> Pool<'a> {
             && !self.target.is_reserved(&self.name, number)
     }
 
-    /// A register for a variable: the one that the lock has under its name, or the best that is free. What is needed
+    /// Where the variable was on this control, if a head of an earlier conversion says so.
+    fn was_at(&self, name: &str) -> Option<u32> {
+        self.held.get(name)?.strip_prefix(self.name.as_str())?.parse().ok()
+    }
+
+    /// Where a variable that no earlier run has a register for can go back to, if it was on this control.
+    pub fn back_to(&self, Var { class, .. }: Var, name: &str) -> Option<u32> {
+        let there = self.was_at(name).filter(|_| !self.locked.contains_key(name));
+        there.filter(|number| self.fits(class, *number))
+    }
+
+    /// True for a free register that a variable of the class may have.
+    fn fits(&self, class: Class, number: u32) -> bool {
+        let keeps = |row: &&VariableClass| row.retained != Some(false);
+        let row = self.rows.iter().copied().find(|row| (row.first..=row.last).contains(&number));
+        row.is_some_and(|row| keeps(&row) || is_volatile(class))
+            && self.free(number)
+            && !self.supposed.contains(number)
+    }
+
+    /// A register for a variable: the one that the lock has under its name, the one where it was on
+    /// this control before, or the best that is free. What is needed
     /// `over` calls shares none with programs of earlier runs that stay as they are: a call may run them.
     pub fn take(&mut self, Var { class, .. }: Var, name: Option<&str>, over: bool) -> Option<u32> {
+        let before = name.and_then(|name| self.was_at(name));
         if let Some(&number) = name.and_then(|name| self.locked.get(name)) {
             return Some(number);
         }
         let keeps = |row: &&&VariableClass| row.retained != Some(false);
-        let volatile =
-            matches!(class, Class::Temp | Class::Static | Class::Register | Class::Common | Class::Local);
+        let volatile = is_volatile(class);
         let preferred = self.rows.iter().filter(|row| keeps(row) != volatile);
         let rest = self.rows.iter().filter(|row| keeps(row) == volatile && (volatile || keeps(row)));
         let alone = over && !self.alone;
@@ -94,7 +123,8 @@ impl<'a> Pool<'a> {
             .collect();
         let in_use = |number: u32| self.target.is_in_use(&self.name, number);
         let best = || free.iter().copied().min_by_key(|n| (self.supposed.contains(*n), in_use(*n)));
-        let number = self.scratch.iter().copied().find(again).or_else(best)?;
+        let back = before.filter(|number| self.fits(class, *number));
+        let number = back.or_else(|| self.scratch.iter().copied().find(again)).or_else(best)?;
         self.used.insert(number);
         Some(number)
     }
@@ -133,4 +163,9 @@ impl<'a> Pool<'a> {
         self.used.extend(base + first..=base + last);
         Some(base)
     }
+}
+
+/// True for a class whose values may end at power-off.
+fn is_volatile(class: Class) -> bool {
+    matches!(class, Class::Temp | Class::Static | Class::Register | Class::Common | Class::Local)
 }

@@ -6,8 +6,9 @@
 //! that variable with zero; it is exact, since the register keeps the sign of
 //! what the variable was given last. Where ways with different settings meet, the
 //! register itself is assigned, in those places that a jump can see. A test of the
-//! machine's state directly before its jump is the jump's condition. All other
-//! markers go.
+//! machine's state directly before its jump is the jump's condition; where the
+//! profile says its outcome, the jump goes or not, and what only it came to is
+//! left out. All other markers go.
 //!
 //! Whether a plain load sets the register no source says. A jump that sees one
 //! after the last arithmetic is therefore left to a reviewer.
@@ -16,8 +17,10 @@ use super::parts::leaves;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::Cfg;
-use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, solve, solve_everywhere};
-use crate::ir::{Block, BlockId, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind, TermKind, Var};
+use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, reached_among, solve, solve_everywhere};
+use crate::ir::{
+    Block, BlockId, Class, Cond, Expr, Place, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
+};
 use crate::lower::common::Findings;
 use std::borrow::Cow;
 
@@ -135,13 +138,23 @@ fn jump(block: &Block) -> Option<Relation> {
 pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
     let cfg = Cfg::parts(program);
     let starts = solve_everywhere(&Settings, program, &cfg, &State::outside());
-    let mut seen = false;
+    let (mut seen, mut passed) = (false, false);
     for (at, block) in (0..).map(BlockId).zip(&mut program.blocks) {
         let Some(relation) = jump(block) else { continue };
         let mut state = starts.at(at).cloned().unwrap_or_else(State::outside);
         Settings.block(at, block, &mut state);
         report(&state, relation, block, findings);
         let tested = tested(block, relation);
+        if let Some(jumps) = settled(block, relation)
+            && let TermKind::Branch { then, otherwise, .. } = &block.term.kind
+        {
+            block.term.kind = TermKind::Jump(if jumps { *then } else { *otherwise });
+            if block.term.site.comments.is_empty() {
+                block.term.site = SourceInfo::default();
+            }
+            passed = true;
+            continue;
+        }
         match (state.var, tested, &mut block.term.kind) {
             (Some(var), _, TermKind::Branch { cond, .. }) => {
                 *cond = Cond::Compare(relation, Expr::Var(var), Expr::Number(0.0));
@@ -149,6 +162,9 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
             (None, Some(differs), TermKind::Branch { cond, .. }) => *cond = differs,
             _ => seen = true,
         }
+    }
+    if passed {
+        leave_out(program, &cfg);
     }
     let live = if seen { solve(&Seen { program }, program, &cfg) } else { Default::default() };
     for (at, block) in (0..).map(BlockId).zip(&mut program.blocks) {
@@ -163,6 +179,34 @@ fn tested(block: &Block, relation: Relation) -> Option<Cond> {
         Relation::Equal => Some(Cond::clone(differs).negated()),
         Relation::NotEqual => Some(Cond::clone(differs)),
         _ => None,
+    }
+}
+
+/// Whether a jump goes that looks at a test directly before it whose outcome the profile of the machine says.
+fn settled(block: &Block, relation: Relation) -> Option<bool> {
+    let (Source::Flag, Expr::Number(flag)) = source_of(block.stmts.last()?)? else { return None };
+    match relation {
+        Relation::Equal => Some(*flag == 0.0),
+        Relation::NotEqual => Some(*flag != 0.0),
+        _ => None,
+    }
+}
+
+/// Takes the text out of blocks that only such a jump came to, as the stop of a machine that is set to the other unit.
+fn leave_out(program: &mut Program, before: &Cfg) {
+    let reached = |program: &Program, cfg: &Cfg| {
+        let roots = cfg.roots().iter().map(|root| root.index());
+        reached_among(program.blocks.len(), roots, |at, go| {
+            cfg.succs(BlockId(at as u32)).iter().for_each(|to| go(to.index()));
+        })
+    };
+    let (was, is) = (reached(program, before), reached(program, &Cfg::parts(program)));
+    for (block, (was, is)) in program.blocks.iter_mut().zip(was.into_iter().zip(is)) {
+        if was && !is {
+            block.labels.clear();
+            block.stmts.clear();
+            block.term.site = SourceInfo::default();
+        }
     }
 }
 

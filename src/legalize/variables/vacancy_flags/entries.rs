@@ -1,8 +1,9 @@
-//! What every call of a program gives a value: it is not vacant at the program's entry.
+//! What every call of a program gives a value: it is not vacant at the program's entry. And what the program gives one
+//! whenever it returns: it is not vacant after the call.
 
 use super::marks::Names;
 use crate::ir::analysis::computed_calls::CalledPrograms;
-use crate::ir::analysis::{CallGraph, Holds, VarSet};
+use crate::ir::analysis::{Around, CallGraph, Filled, Holds, Summaries, Vacancy, VarSet};
 use crate::ir::{Call, Class, Expr, Module, Program, TermKind, Var};
 use crate::legalize::calls_of;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,12 +12,14 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) struct Entries {
     /// The programs, callers first.
     pub order: Vec<usize>,
-    /// What a program names and may be vacant.
-    named: Vec<BTreeSet<Var>>,
+    /// What a program names and may be vacant, and what all programs see of what its callees name.
+    pub named: Vec<BTreeSet<Var>>,
     /// What all calls so far give a value; none before the first.
     set: Vec<Option<BTreeSet<Var>>>,
     /// Programs that calls come back to: of them only what the text of each call says is known.
     cyclic: Vec<bool>,
+    /// Programs that some call runs.
+    runs: Vec<bool>,
     given: BTreeMap<usize, BTreeSet<Var>>,
 }
 
@@ -42,6 +45,8 @@ impl Entries {
                 }
             }
         }
+        let mut runs = vec![false; module.programs.len()];
+        calls.iter().flatten().for_each(|(to, _)| runs[*to] = true);
         let graph = CallGraph::new(calls);
         let component = graph.components();
         let mut members: BTreeMap<usize, usize> = BTreeMap::new();
@@ -52,9 +57,30 @@ impl Entries {
         });
         let cyclic = cyclic.collect();
         let order = graph.callees_first().into_iter().rev().collect();
-        let named = module.programs.iter().map(named).collect();
+        let mut named: Vec<BTreeSet<Var>> = module.programs.iter().map(named).collect();
+        for caller in graph.callees_first() {
+            let of_callees = graph.callees(caller).flat_map(|callee| &named[callee]);
+            let shared: Vec<Var> = of_callees.copied().filter(|var| var.class.shared()).collect();
+            named[caller].extend(shared);
+        }
         let given = CalledPrograms::of(module).given(module);
-        Self { order, named, set: vec![None; module.programs.len()], cyclic, given }
+        Self { order, named, set: vec![None; module.programs.len()], cyclic, runs, given }
+    }
+
+    /// What every called program leaves with a number when it returns, whatever it found; callees are looked at first.
+    pub fn filled(&self, module: &Module, names: &Names, summaries: &Summaries) -> Filled {
+        let (mut filled, assigned) = (Filled::new(), BTreeSet::new());
+        for index in self.order.iter().rev().copied().filter(|index| self.runs[*index]) {
+            let program = &module.programs[index];
+            let Some(name) = program.name.as_ref().filter(|name| names.find(name) == Some(index)) else {
+                continue;
+            };
+            let named = &self.named[index];
+            let around = Around { assigned: &assigned, called: true, named, filled: &filled };
+            let found = Vacancy::around(program, summaries, around).filled();
+            filled.insert(name.clone(), found);
+        }
+        filled
     }
 
     /// What is not vacant at a program's entry.

@@ -5,7 +5,7 @@ use super::conditions::asks;
 use super::entries::Entries;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::dataflow::reached;
-use crate::ir::analysis::{Holds, Summaries, Vacancy};
+use crate::ir::analysis::{Around, Holds, Summaries, Vacancy};
 use crate::ir::{
     Bank, BlockId, Call, Callee, Class, Cond, Expr, Module, NcItem, Place, Program, Relation, Stmt, StmtKind,
     TermKind, Var,
@@ -57,6 +57,8 @@ impl Marks {
         let count = module.programs.len();
         (marks.may, marks.refused) = (vec![BTreeSet::new(); count], vec![Vec::new(); count]);
         marks.zeroed = vec![BTreeMap::new(); count];
+        let named = entries.named.clone();
+        let filled = entries.filled(module, &marks.names, summaries);
         for index in std::mem::take(&mut entries.order) {
             let program = &module.programs[index];
             let set = entries.of_program(index);
@@ -70,14 +72,8 @@ impl Marks {
                 all: &mut gathered,
                 entries: &mut entries,
             };
-            own.look(
-                program,
-                &if called {
-                    Vacancy::of_called(program, summaries, &set)
-                } else {
-                    Vacancy::of(program, summaries, &set)
-                },
-            );
+            let around = Around { assigned: &set, called, named: &named[index], filled: &filled };
+            own.look(program, &Vacancy::around(program, summaries, around));
             (marks.may[index], marks.refused[index]) = (own.may, own.refused);
             marks.zeroed[index] = own.zeroed;
         }
