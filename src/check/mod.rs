@@ -140,7 +140,9 @@ fn of_shelf(shelf: &Shelf, request: &Request<'_>, checked: &mut Checked) -> Vec<
         if is(Part::Lint) {
             let wanted = |code| request.selection.wants(code);
             let lint = crate::lint::lint(&shelf.inputs, &shelf.control, &library.module, &wanted);
-            let lint = lint.into_iter().filter(|(file, _)| shelf.wanted[*file]);
+            // What is not understood would be linted for what it is not.
+            let sound = understood::sound(&library, shelf.inputs.len());
+            let lint = lint.into_iter().filter(|(file, _)| shelf.wanted[*file] && sound[*file]);
             found.extend(lint.map(|(file, diagnostic)| pages.finding(file, &diagnostic)));
         }
         if is(Part::Round) && !shelf.rounds.is_empty() {

@@ -16,6 +16,15 @@ const OF_THE_SOURCE: &[Code] =
 /// What the first of all sections has codes for: what the text alone shows.
 const OF_THE_TEXT: &str = "MG01";
 
+/// By file, true where every program of it is understood.
+pub fn sound(library: &Understood, files: usize) -> Vec<bool> {
+    let mut sound = vec![true; files];
+    for (program, found) in library.module.programs.iter().zip(&library.found) {
+        sound[program.file] &= found.iter().all(|finding| finding.severity() != Severity::Error);
+    }
+    sound
+}
+
 /// True if an error of this code is one of the source, whichever control it goes to.
 pub fn is_of_source(code: Code) -> bool {
     ["MG01", "MG03"].iter().any(|section| code.number().starts_with(section)) || OF_THE_SOURCE.contains(&code)

@@ -87,6 +87,9 @@ fn at(moment: &Moment) -> String {
 pub(super) fn facts(found: &ProgramCertificate) -> Vec<String> {
     let outcome = match found.outcome {
         verify::Outcome::Same => "The same: in no scenario did the machines do anything else.",
+        verify::Outcome::Undecided if found.scenarios_compared == 0 => {
+            "Not decided: nothing could be compared to the end on both machines."
+        }
         verify::Outcome::Undecided => "Not decided: no difference was found, but not everything was shown.",
         verify::Outcome::Different => "Different: the machines do not do the same.",
     };
@@ -104,12 +107,14 @@ pub(super) fn facts(found: &ProgramCertificate) -> Vec<String> {
             found.target_branches_covered,
             found.target_branches_total
         ),
-        format!(
+    ];
+    if found.scenarios_compared > 0 {
+        all.push(format!(
             "Largest distance between positions that count as the same: {} mm; allowed are {} mm.",
             number(found.largest_difference_mm),
             number(found.tolerance_mm)
-        ),
-    ];
+        ));
+    }
     match found.rounding_sensitive {
         Some(true) => all.push("Its path changes where the target computes with fewer digits.".into()),
         Some(false) => {

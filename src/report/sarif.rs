@@ -6,31 +6,46 @@ use crate::library::{Link, Linked, Pairs, with_pairs};
 use crate::syntax::{Block, ItemKind, Label, Target, for_each_item};
 use crate::text::{CodePoints, Span, json_pretty};
 use crate::verify::sha256;
+use serde::ser::SerializeSeq;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::path::Path;
 
+/// The log. Its results are written one by one: a library of many findings makes more of them than of itself.
+#[derive(Serialize)]
+struct Log<'a> {
+    #[serde(rename = "$schema")]
+    schema: &'static str,
+    runs: [Run<'a>; 1],
+    version: &'static str,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Run<'a> {
+    // Columns count what a reader sees that takes every file for UTF-8, and lines end as controls end them.
+    column_kind: &'static str,
+    default_encoding: &'static str,
+    newline_sequences: [&'static str; 3],
+    #[serde(serialize_with = "results")]
+    results: &'a [Part<'a>],
+    tool: Value,
+}
+
 /// The conversions as SARIF text.
 pub fn conversion(parts: &[Part<'_>]) -> String {
-    let results: Vec<Value> = parts.iter().flat_map(results).collect();
-    let log = json!({
-        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-        "version": "2.1.0",
-        "runs": [{
-            "tool": { "driver": {
-                "name": "macroglot",
-                "version": env!("CARGO_PKG_VERSION"),
-                "rules": rules(),
-            }},
-            // Columns count what a reader sees that takes every file for UTF-8, and lines end as controls end them.
-            "columnKind": "unicodeCodePoints",
-            "defaultEncoding": "UTF-8",
-            "newlineSequences": ["\r\n", "\n", "\r"],
-            "results": results,
-        }],
-    });
-    json_pretty(&log) + "\n"
+    let version = env!("CARGO_PKG_VERSION");
+    let run = Run {
+        column_kind: "unicodeCodePoints",
+        default_encoding: "UTF-8",
+        newline_sequences: ["\r\n", "\n", "\r"],
+        results: parts,
+        tool: json!({ "driver": { "name": "macroglot", "version": version, "rules": rules() } }),
+    };
+    let schema = "https://json.schemastore.org/sarif-2.1.0.json";
+    json_pretty(&Log { schema, runs: [run], version: "2.1.0" }) + "\n"
 }
 
 /// Every code of the catalogue, with its page.
@@ -47,34 +62,39 @@ pub(super) fn rules() -> Vec<Value> {
     ALL.iter().map(rule).collect()
 }
 
-fn results(part: &Part<'_>) -> Vec<Value> {
-    let any = part.conversion.programs.iter().any(|program| !program.diagnostics.is_empty());
-    let controls = (part.controls[0], part.controls[1]);
-    let read =
-        any.then(|| with_pairs(part.inputs, part.conversion, controls, |pairs| all(part, Some(pairs))));
-    read.flatten().unwrap_or_else(|| all(part, None))
+fn results<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut out = serializer.serialize_seq(None)?;
+    for part in parts {
+        let any = part.conversion.programs.iter().any(|program| !program.diagnostics.is_empty());
+        let controls = (part.controls[0], part.controls[1]);
+        let read = any.then(|| {
+            with_pairs(part.inputs, part.conversion, controls, |pairs| of_part(part, Some(pairs), &mut out))
+        });
+        read.flatten().unwrap_or_else(|| of_part(part, None, &mut out))?;
+    }
+    out.end()
 }
 
-fn all(part: &Part<'_>, pairs: Option<&Pairs<'_>>) -> Vec<Value> {
+fn of_part<S: SerializeSeq>(part: &Part<'_>, pairs: Option<&Pairs<'_>>, out: &mut S) -> Result<(), S::Error> {
     let indexes: Vec<CodePoints> = part.inputs.iter().map(|input| CodePoints::new(&input.bytes)).collect();
     let lines = part.indexes();
     let mut links: HashMap<usize, Vec<&Link>> = HashMap::new();
     part.conversion.links.iter().for_each(|link| links.entry(link.caller).or_default().push(link));
     // How often a fingerprint came before in the same file.
     let mut seen: HashMap<String, usize> = HashMap::new();
-    let mut out = Vec::new();
+    let region = |file: usize, span: Span| {
+        let [(line, column), (end_line, end_column)] = indexes[file].region(span);
+        json!({
+            "artifactLocation": { "uri": uri(&part.inputs[file].path) },
+            "region": {
+                "startLine": line, "startColumn": column,
+                "endLine": end_line, "endColumn": end_column,
+            },
+        })
+    };
+    let step = |(file, span, text): &(usize, Span, &str)| json!({ "location": { "physicalLocation": region(*file, *span), "message": { "text": text } } });
     for (at, program) in part.conversion.programs.iter().enumerate() {
         let file = program.file;
-        let region = |file: usize, span: Span| {
-            let [(line, column), (end_line, end_column)] = indexes[file].region(span);
-            json!({
-                "artifactLocation": { "uri": uri(&part.inputs[file].path) },
-                "region": {
-                    "startLine": line, "startColumn": column,
-                    "endLine": end_line, "endColumn": end_column,
-                },
-            })
-        };
         let ways = Ways::of(part, pairs, at, links.get(&at).map_or(&[], Vec::as_slice));
         for d in &program.diagnostics {
             let text = part.place(file, &lines[file], d).text.trim_ascii();
@@ -87,16 +107,14 @@ fn all(part: &Part<'_>, pairs: Option<&Pairs<'_>>) -> Vec<Value> {
                 "locations": [{ "physicalLocation": region(file, d.span) }],
                 "partialFingerprints": { "macroglot/v1": key },
             });
-            let way = ways.from(d);
-            if !way.is_empty() {
-                let step = |(file, span, text): &(usize, Span, &str)| json!({ "location": { "physicalLocation": region(*file, *span), "message": { "text": text } } });
-                let steps: Vec<Value> = way.iter().map(step).collect();
+            let steps: Vec<Value> = ways.from(d).iter().map(step).collect();
+            if !steps.is_empty() {
                 result["codeFlows"] = json!([{ "threadFlows": [{ "locations": steps }] }]);
             }
-            out.push(result);
+            out.serialize_element(&result)?;
         }
     }
-    out
+    Ok(())
 }
 
 /// What is the matter, and what to do about it.
@@ -122,7 +140,8 @@ fn fingerprint(finding: &Diagnostic, file: &str, text: &[u8], seen: &mut HashMap
 struct Ways<'w> {
     part: &'w Part<'w>,
     program: usize,
-    blocks: &'w [Block],
+    /// The blocks that jump to a written number, and those numbers, by the places of the blocks.
+    jumps: BTreeMap<u32, (Span, u32)>,
     labels: HashMap<u32, Span>,
     calls: BTreeMap<u32, &'w Link>,
 }
@@ -139,8 +158,10 @@ impl<'w> Ways<'w> {
                 }
             }
         }
+        let jump = |block: &Block| Some((block.span.start, (block.span, target_of(block)?)));
+        let jumps = blocks.iter().filter_map(jump).collect();
         let calls = links.iter().map(|link| (link.span.start, *link)).collect();
-        Self { part, program, blocks, labels, calls }
+        Self { part, program, jumps, labels, calls }
     }
 
     /// The way from a jump to its label, or from a call to what keeps the called program from being converted; empty
@@ -157,9 +178,9 @@ impl<'w> Ways<'w> {
             let why = "why the called program is refused";
             return vec![(file, finding.span, "the call"), (callee.file, fault.span, why)];
         }
-        let next = self.blocks.partition_point(|block| block.span.start <= at);
-        let block = next.checked_sub(1).map(|block| &self.blocks[block]).filter(|block| at < block.span.end);
-        match block.and_then(target_of).and_then(|number| self.labels.get(&number)) {
+        let jump = self.jumps.range(..=at).next_back().map(|(_, jump)| *jump);
+        let number = jump.filter(|(span, _)| at < span.end).map(|(_, number)| number);
+        match number.and_then(|number| self.labels.get(&number)) {
             Some(label) => vec![(file, finding.span, "the jump"), (file, *label, "where it goes")],
             None => Vec::new(),
         }

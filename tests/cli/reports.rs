@@ -152,7 +152,7 @@ fn a_report_says_what_was_not_shown() {
     let shop = shop();
     convert(&shop, "--report r.html --no-verify --draft");
     let html = shop.read("r.html");
-    assert!(html.contains("No program was verified."));
+    assert!(html.contains("No program was verified.") && !html.contains("Both machines did the same"));
     assert!(html.contains("1 program: it was not verified (<a href=\"#p1\">a.nc O1234</a>)"));
     assert!(html.contains("a draft with an alarm at every hole; it is no conversion"));
     let empty = Shop::with(&[("in/a.nc", "(NOTHING)\n")]);
@@ -160,6 +160,35 @@ fn a_report_says_what_was_not_shown() {
         .run("convert in --from fanuc --to haas --out out --report r.html --report r.md --report r.sarif");
     assert!(run.code < 2, "{}", run.err);
     assert!(empty.read("r.html").contains("</html>"));
+}
+
+/// A target that stops before its source shows nothing of what comes then, and the report does not say that it does.
+#[test]
+fn a_run_that_was_cut_short_is_told_as_such() {
+    let main = "O1001\nG20 G17 G90 G40 G80 G94\nG0 X0 Y0\nG1 X2. F10.\nG65 P1002 A3.\nM30\n";
+    let refused = "O1002\nG0 X#1\nM38\nM99\n";
+    let shop = Shop::with(&[("in/a.nc", main), ("in/b.nc", refused)]);
+    let run = shop.run("convert in --from fanuc --to haas --out out --report r.html");
+    assert_eq!(run.code, 1, "{}", run.err);
+    let html = shop.read("r.html");
+    let first = html.split("<details class=\"program\"").nth(1).unwrap();
+    assert!(first.contains("They did not both run to their ends") && !first.contains("In this run no move"));
+    assert!(first.contains("nothing could be compared to the end") && !first.contains("Largest distance"));
+}
+
+/// What changes every move if the answer is no is asked first, and facts of tables last.
+#[test]
+fn the_most_dangerous_question_comes_first() {
+    let text = "O1\nG17 G90 G40 G80 G94\nG4 P500\nG0 X1.\nM30\n";
+    let shop = Shop::with(&[("in/a.nc", text)]);
+    shop.run("convert in --from fanuc --to haas --out out --report r.html --report r.md --no-verify");
+    for (report, first, last) in
+        [("r.html", "no G20 or G21", "dwell.bare"), ("r.md", "no G20 or G21", "dwell.bare")]
+    {
+        let text = shop.read(report);
+        let at = |words| text.find(words).unwrap_or_else(|| panic!("{report}: {words}"));
+        assert!(at(first) < at(last), "{report}");
+    }
 }
 
 /// Several libraries in one report: each has its machines, and programs have one name each in the page.

@@ -66,21 +66,25 @@ fn tools(out: &mut String, totals: &Totals) {
 /// What the outcomes mean.
 fn outcomes(out: &mut String, totals: &Totals) {
     let Totals { converted, review, refused, verified, undecided, different, .. } = totals;
-    let rows = [
-        ("converted", *converted, "Both machines did the same in every scenario and down every branch."),
-        ("review", *review, "No difference was found, but a person must answer the questions of its codes."),
-        (
-            "refused",
-            *refused,
-            "Nothing that can be run is written: something in it has no equivalent, or a difference was found.",
-        ),
-    ];
+    let judged = verified + undecided + different;
+    let [same, looked] = match judged {
+        0 => [
+            "Nothing was found in the translation that a person must look at.",
+            "A person must answer the questions of its codes.",
+        ],
+        _ => [
+            "Both machines did the same in every scenario and down every branch.",
+            "No difference was found, but a person must answer the questions of its codes.",
+        ],
+    };
+    let none =
+        "Nothing that can be run is written: something in it has no equivalent, or a difference was found.";
+    let rows = [("converted", *converted, same), ("review", *review, looked), ("refused", *refused, none)];
     out.push_str("<table class=\"list\">\n<tr><th>Outcome<th>Programs<th>What it means\n");
     for (outcome, count, meaning) in rows {
         let _ = writeln!(out, "<tr><td class=\"{outcome}\">{outcome}<td>{count}<td>{meaning}");
     }
     out.push_str("</table>\n");
-    let judged = verified + undecided + different;
     if judged == 0 && converted + review > 0 {
         out.push_str(
             "<p class=\"refused\"><b>No program was verified.</b> The outcomes rest on the translation alone: nothing was run beside \

@@ -129,11 +129,16 @@ fn path(out: &mut String, picture: &Picture, at: usize) {
         Some(svg) => out.push_str(&svg),
         None => out.push_str("<p>Nothing moves in it.</p>\n"),
     }
-    if target.is_none() {
-        return;
-    }
+    let Some(other) = target else { return };
     if apart.changes.is_empty() && apart.at_end.is_empty() {
-        out.push_str("<p>In this run no move, feed, wait or stop differs.</p>\n");
+        let both_ended = source.end == End::Ended && other.end == End::Ended;
+        out.push_str(match both_ended {
+            true => "<p>In this run no move, feed, wait or stop differs.</p>\n",
+            false => {
+                "<p>Nothing differs as far as both went. <b>They did not both run to their ends, so this run does not show the \
+                 rest.</b></p>\n"
+            }
+        });
         return;
     }
     out.push_str("<p>In this run these differ, source to target:</p>\n<ul>\n");

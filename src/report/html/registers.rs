@@ -30,7 +30,10 @@ pub fn held<'a>(part: &Part<'a>) -> Vec<Held<'a>> {
 
 /// The registers of each library.
 pub fn registers(out: &mut String, parts: &[Part<'_>]) {
-    out.push_str("<h2 id=\"registers\">Registers</h2>\n");
+    out.push_str(
+        "<h2 id=\"registers\">Registers</h2>\n<p class=\"small\">Variables that programs share, and those of a main program. What a call \
+         has for itself is named in the comment at the head of each program.</p>\n",
+    );
     for part in parts {
         let _ = writeln!(out, "<h3>{} to {}</h3>", escaped(part.from), escaped(part.to));
         let lock = &part.conversion.lock;

@@ -105,8 +105,8 @@ fn side(path: &Path, view: &View, drawing: &Drawing, [rapid, cut]: [&str; 2], ou
         for stroke in strokes.step_by(thinned) {
             let last = stroke.points.len().saturating_sub(1);
             let kept = stroke.points.iter().enumerate().filter(|(at, _)| at % every == 0 || *at == last);
-            for (at, point) in kept {
-                let (x, y) = place(point);
+            let seen = kept.map(|(_, point)| place(point)).filter(|(x, y)| x.is_finite() && y.is_finite());
+            for (at, (x, y)) in seen.enumerate() {
                 let _ = write!(way, "{}{x:.1} {y:.1}", if at == 0 { "M" } else { " " });
             }
         }
@@ -121,5 +121,44 @@ fn side(path: &Path, view: &View, drawing: &Drawing, [rapid, cut]: [&str; 2], ou
     for touch in path.touches.iter().take(MARKS) {
         let (x, y) = place(touch);
         let _ = writeln!(out, "<path class=\"{cut}\" d=\"M{:.1} {y:.1}h8m-4 -4v8\"/>", x - 4.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::trace::{EventKind, Place, Position, Told};
+
+    fn feeds(points: &[[f64; 2]]) -> Vec<Event> {
+        let at = |[x, y]: [f64; 2]| {
+            let mut position = Position::default();
+            (position.0[0], position.0[1]) = (x, y);
+            position
+        };
+        let event = |pair: &[[f64; 2]]| Event {
+            at: Place::default(),
+            what: EventKind::Rapid { from: at(pair[0]), to: at(pair[1]) },
+            rounded: 0.0,
+            told: Told::Plain,
+            open: [false; 2],
+        };
+        points.windows(2).map(event).collect()
+    }
+
+    #[test]
+    fn a_picture_is_bounded_and_has_both_sides() {
+        let long: Vec<[f64; 2]> = (0..50_000).map(|at| [f64::from(at % 100), f64::from(at)]).collect();
+        let drawn = overlay(&feeds(&long), Some(&feeds(&long)), 7, "<a>").unwrap();
+        assert!(drawn.len() < 120_000, "{}", drawn.len());
+        assert_eq!((drawn.matches("class=\"sr\"").count(), drawn.matches("class=\"tr\"").count()), (2, 2));
+        assert!(drawn.contains("<title>&lt;a&gt;</title>") && drawn.contains("id=\"k7-0\""));
+    }
+
+    #[test]
+    fn numbers_without_a_place_are_not_drawn() {
+        let odd = feeds(&[[0.0, 0.0], [f64::NAN, 1.0], [f64::INFINITY, 2.0], [3.0, 4.0]]);
+        let drawn = overlay(&odd, None, 1, "").unwrap();
+        assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+        assert_eq!(overlay(&[], Some(&[]), 1, ""), None);
     }
 }
