@@ -1,6 +1,7 @@
 //! What earlier checks found, by the hash of all that it rests on. Safe to delete at any time.
 
 use crate::verify::sha256;
+use etcetera::BaseStrategy;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fs;
@@ -36,7 +37,8 @@ impl Cache {
 
     /// The folder of this user's caches; none on a system that has none.
     pub fn of_user() -> Option<PathBuf> {
-        dirs::cache_dir().map(|folder| folder.join("macroglot").join("check"))
+        let folder = etcetera::choose_base_strategy().ok()?.cache_dir();
+        Some(folder.join("macroglot").join("check"))
     }
 
     /// The key of a question.
