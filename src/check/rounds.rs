@@ -119,7 +119,18 @@ impl Way<'_> {
         let mut second = plain(&there, away, home);
         judge(&there, &mut second, away, home, *effort);
         let mut shown = Vec::new();
-        for program in &first.programs {
+        let owners: Vec<Option<usize>> = second
+            .programs
+            .iter()
+            .map(|back| {
+                let name = &there[back.file].name;
+                let of_file = first.programs.iter().enumerate();
+                let of_file = of_file.filter(|(_, program)| inputs[program.file].name == *name);
+                let ranges = of_file.map(|(at, program)| (at, program.range.clone()));
+                owner(ranges.filter(|(_, range)| !range.is_empty()), place_of(back))
+            })
+            .collect();
+        for (at, program) in first.programs.iter().enumerate() {
             let (start, name) = (start_of(program), &inputs[program.file].name);
             let here = |code, at, message: String, help| shown_at(code, name, at, message, help);
             if let Some(why) = refused(program) {
@@ -131,11 +142,13 @@ impl Way<'_> {
                 continue;
             }
             // Its programs on the other machine.
-            let back = second.programs.iter().filter(|back| {
-                let at = start_of(back).start as usize;
-                there[back.file].name == *name && (program.range.contains(&at) || program.range.is_empty())
-            });
-            let back: Vec<&ProgramReport> = back.collect();
+            let back = second.programs.iter().zip(&owners).filter(|(_, owner)| **owner == Some(at));
+            let back: Vec<&ProgramReport> = back.map(|(back, _)| back).collect();
+            if back.is_empty() && !program.range.is_empty() {
+                let message = format!("the program gets to {machine}, and nothing of it comes back");
+                shown.push(here(Code::RoundRefused, start, message, None));
+                continue;
+            }
             if let Some((stays, why)) = back.iter().find_map(|back| Some((back, refused(back)?))) {
                 let differs = stays.verdict == Some(verify::Outcome::Different);
                 let code = if differs { Code::RoundDiffers } else { Code::RoundRefused };
@@ -212,6 +225,27 @@ fn start_of(program: &ProgramReport) -> Span {
     program.map.iter().map(|(span, _)| *span).min_by_key(|span| span.start).unwrap_or_default()
 }
 
+/// Where a program stood on the other machine: one that is refused has no blocks, but a reason at its place.
+fn place_of(back: &ProgramReport) -> usize {
+    let place = match back.map.is_empty() {
+        true => refused(back).map(|why| why.span).unwrap_or_default(),
+        false => start_of(back),
+    };
+    place.start as usize
+}
+
+/// The program, of those of one file with their places in its text, that this place is of: the last one that begins
+/// before it, and the first one for a place before all of them.
+fn owner(ranges: impl Iterator<Item = (usize, std::ops::Range<usize>)>, place: usize) -> Option<usize> {
+    let mut found = None;
+    for (at, range) in ranges {
+        if found.is_none() || range.start <= place {
+            found = Some(at);
+        }
+    }
+    found
+}
+
 fn shown_at(code: Code, file: &str, at: Span, message: String, help: Option<&str>) -> Shown {
     let help = help.map(str::to_owned);
     Shown { code: code.number().into(), file: file.into(), at: (at.start, at.end), message, help, why: None }
@@ -232,7 +266,15 @@ fn first_difference(before: &[u8], after: &[u8]) -> Option<[String; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use super::first_difference;
+    use super::{first_difference, owner};
+
+    /// The text begins with the frame of its file, and a refused program may say nothing of its place.
+    #[test]
+    fn what_comes_back_is_always_of_a_program() {
+        let of = |place| owner([(3, 2..40), (4, 40..90)].into_iter(), place);
+        assert_eq!([0, 2, 39, 40, 200].map(of), [Some(3), Some(3), Some(3), Some(4), Some(4)]);
+        assert_eq!(owner(std::iter::empty(), 7), None);
+    }
 
     #[test]
     fn the_first_difference_is_told() {
