@@ -679,7 +679,7 @@ Look up which letter sets which local, and take the argument out if nobody needs
 Use another local in the called program, or call it with locals of its own."
 
     "0924" NeverRead Note "a value is set and never read"
-"No block of the program, nor of what it calls with its own locals, reads this local. Perhaps another variable is meant where it should be read.
+"Neither the program nor what it calls with the same locals reads this local. Perhaps the place that should read it names another variable.
 
 Look for the place that should read it, or take the assignment out."
 
@@ -694,7 +694,7 @@ Look at both variables, and take out the assignment that is not needed."
 Look for the jump that should go here, or take the label out."
 
     "0927" Unreached Note "a block is never run"
-"No way through the program leads to this block: a jump, a return or an end stands before it, and no jump and no call comes to it.
+"Nothing leads to this block: a jump, a return or an end stands before it, and no jump or call goes to it.
 
 Take the block out, or look for the jump that should go to it."
 
