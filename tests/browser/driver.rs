@@ -12,7 +12,7 @@ use tempfile::TempDir;
 const HOW: &str = "the tests of reports need a browser: `apt-get install chromium chromium-driver`, or name chromedriver in \
                    CHROMEDRIVER and the browser in CHROMIUM";
 
-/// One browser at a time: a test measures how long a page takes.
+/// One browser at a time: several are more than a small machine takes.
 static ONE: Mutex<()> = Mutex::new(());
 
 /// What WebDriver calls an element.
