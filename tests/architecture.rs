@@ -93,6 +93,8 @@ const OTHER_SIGNS: &[(&str, &str)] = &[
     ("src/report/markdown.rs", "the sign of a heading"),
     ("src/report/html/mod.rs", "a number of a character, and the sign of a link in a page"),
     ("src/report/plot.rs", "colours"),
+    ("src/report/plot/legend.rs", "colours"),
+    ("src/report/plot/pair.rs", "colours"),
     ("src/report/plot/view.rs", "colours"),
 ];
 

@@ -1,11 +1,11 @@
 //! `macroglot check [PATH...]`.
 
-use super::common::{Time, effort};
+use super::common::{Time, effort, not_over};
 use super::shelves::{Asked, Shelves, shelves};
 use super::streams::{complain, print};
 use super::{FOUND, WELL, common};
 use crate::check::{Allowed, Baseline, Cache, Checked, Part, Request, Selection, check};
-use crate::library::{Checks, Files, write_file};
+use crate::library::{Checks, write_file};
 use crate::report;
 use std::path::{Path, PathBuf};
 
@@ -164,8 +164,5 @@ fn allowed(found: &Shelves) -> Result<Vec<Allowed>, u8> {
 /// Says so if the baseline would be written over a file that is read.
 fn beside_inputs(path: &Path, found: &Shelves) -> Result<(), u8> {
     let inputs = found.shelves.iter().flat_map(|shelf| &shelf.inputs).map(|input| input.path.as_path());
-    if Files::of(inputs.chain(found.read.iter().map(PathBuf::as_path))).holds(path) {
-        return Err(complain(format!("{} is an input and would be overwritten", path.display())));
-    }
-    Ok(())
+    not_over(path, inputs.chain(found.read.iter().map(PathBuf::as_path)))
 }

@@ -4,7 +4,9 @@ use super::UNUSABLE;
 use super::streams::{complain, complain_lines, remark};
 use crate::diag::Code;
 use crate::dialect::{Control, Entry, Profile, registry};
-use crate::library::{Detected, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like};
+use crate::library::{
+    Detected, Files, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like,
+};
 use crate::verify::Effort;
 use std::path::{Path, PathBuf};
 
@@ -214,4 +216,12 @@ pub struct Time {
 pub fn effort(time: &Time) -> Effort {
     let Time { program_seconds, library_seconds } = *time;
     Effort { program_seconds, library_seconds, ..Effort::default() }
+}
+
+/// Says so if a file that is to be written is one that is read.
+pub fn not_over<'p>(path: &Path, read: impl Iterator<Item = &'p Path>) -> Result<(), u8> {
+    match Files::of(read).holds(path) {
+        true => Err(complain(format!("{} is an input and would be overwritten", path.display()))),
+        false => Ok(()),
+    }
 }

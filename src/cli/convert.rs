@@ -24,6 +24,9 @@ pub struct Arguments {
     /// The folder that conversions are written to; a single program goes to standard output without it
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Files and folders with the programs that those call, or that call them: read with them, and not written
+    #[arg(long, value_name = "PATH")]
+    library: Vec<PathBuf>,
     /// Write refused programs too, with an alarm at every hole
     #[arg(long)]
     draft: bool,
@@ -78,6 +81,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         to: arguments.to.as_deref(),
         machines: &arguments.machine,
         out: arguments.out.as_deref(),
+        library: &arguments.library,
     })?;
     outcome::check_reports(&arguments.report, &jobs, &read)?;
     let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
@@ -90,6 +94,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         rayon::scope(|_| jobs.iter().map(made).collect())
     });
     let certificates = verified(arguments, &jobs, &mut conversions);
+    jobs.iter().zip(&conversions).for_each(|(job, conversion)| outcome::tell_of_library(job, conversion));
     let (mut changes, mut folders) = (Vec::new(), Vec::new());
     for (at, (job, conversion)) in jobs.iter().zip(&conversions).enumerate() {
         let wanted = |out| outcome::wanted(job, out, conversion, certificates.get(at));
@@ -109,6 +114,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             to: job.target.name(),
             controls: [&job.source, &job.target],
             inputs: &job.inputs,
+            named: &job.named,
             conversion,
             certificates: certificates.get(at),
             targets,
@@ -148,7 +154,13 @@ fn verified(arguments: &Arguments, jobs: &[Job], conversions: &mut [Conversion])
             match job.source.is_same_machine(&job.target) {
                 // A program that stays on its machine is copied, byte for byte.
                 true => Certificates::default(),
-                false => judge_telling(&job.inputs, conversion, (&job.source, &job.target), effort, done),
+                false => judge_telling(
+                    &job.inputs,
+                    conversion,
+                    (&job.source, &job.target),
+                    (effort, &job.named),
+                    done,
+                ),
             }
         });
         judged.collect()

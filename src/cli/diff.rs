@@ -1,12 +1,12 @@
 //! `macroglot diff OLD NEW`.
 
-use super::common::{Time, controls, dialect_of, doubt, effort, endings, own_profile};
+use super::common::{Time, controls, dialect_of, doubt, effort, endings, not_over, own_profile};
 use super::streams::{complain, print};
 use super::verify::{folder_of, names};
-use super::{FOUND, WELL, common, pager};
+use super::{FOUND, WELL, common, drawing, pager};
 use crate::diff::{Diff, Levels, Request, Shelf, Verdict, diff, normalised};
-use crate::library::{Home, Input, InputError, WhyNot, gather};
-use crate::report;
+use crate::library::{Home, Input, InputError, Lock, Manifest, WhyNot, gather};
+use crate::report::{self, PairOfRuns};
 use crate::verify::SymbolMap;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,15 @@ pub struct Arguments {
     /// Show where the machine does something else
     #[arg(long)]
     motion: bool,
+    /// Draw the paths of the first program that differs, both in one picture: SVG, or PNG if the name ends in .png
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Draw it in machine coordinates, not from the work zero
+    #[arg(long, requires = "plot")]
+    machine_coordinates: bool,
+    /// Replace a read-only drawing too
+    #[arg(long, requires = "plot")]
+    force: bool,
     /// Places that lie no farther apart count as the same
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     tolerance: f64,
@@ -58,7 +67,7 @@ pub struct Arguments {
     #[arg(long)]
     exit_code: bool,
     /// Print one program without what no machine sees, a block a line: for git's textconv
-    #[arg(long, conflicts_with_all = ["text", "normalised", "structure", "motion", "library"])]
+    #[arg(long, conflicts_with_all = ["text", "normalised", "structure", "motion", "library", "plot"])]
     normalise: bool,
     #[command(flatten)]
     time: Time,
@@ -146,6 +155,7 @@ fn compare(
 ) -> Result<u8, u8> {
     let known = if ours.is_empty() { &theirs } else { &ours };
     if known.is_empty() {
+        plot(arguments, &Diff::of_nothing(), (old, new))?;
         print(&draw(arguments, &Diff::of_nothing(), &[], &[]))?;
         return Ok(WELL);
     }
@@ -165,6 +175,12 @@ fn compare(
     if let Some(folder) = &arguments.library {
         add_library(folder, [(old, &mut ours), (new, &mut theirs)])?;
     }
+    if let Some(path) = &arguments.plot {
+        let inputs = ours.iter().chain(&theirs).map(|input| &input.path);
+        let also = arguments.paths.iter().chain(&arguments.machine).chain(&own);
+        let own_files = [Lock::NAME, Manifest::NAME].map(|name| folder_of(new).join(name));
+        not_over(path, inputs.chain(also).chain(&own_files).map(PathBuf::as_path))?;
+    }
     let all = !(arguments.text || arguments.normalised || arguments.structure || arguments.motion);
     let levels = Levels {
         text: all || arguments.text,
@@ -181,11 +197,13 @@ fn compare(
         levels,
         effort,
         most: arguments.most,
+        picture: arguments.plot.is_some(),
     };
     let Some(mut found) = diff(&request) else {
         return Err(complain(format!("there is no emulated control for '{from}' or for '{to}'")));
     };
     found.notes = notes;
+    plot(arguments, &found, (old, new))?;
     match arguments.format {
         Format::Text => {
             let colour = if is_coloured(arguments.color) {
@@ -198,6 +216,27 @@ fn compare(
         _ => print(&draw(arguments, &found, &ours, &theirs))?,
     }
     Ok(if found.verdict == Verdict::Same { WELL } else { FOUND })
+}
+
+/// Draws a program of both sides, where that was asked for.
+fn plot(arguments: &Arguments, found: &Diff, (old, new): (&Path, &Path)) -> Result<(), u8> {
+    let Some(path) = &arguments.plot else { return Ok(()) };
+    let (old, new) = (old.display().to_string(), new.display().to_string());
+    let one = found.picture.as_deref();
+    let named = |name: Option<&String>, path: &str| match name {
+        Some(name) if !name.is_empty() => format!("{path}: {name}"),
+        _ => path.to_owned(),
+    };
+    let shown = PairOfRuns {
+        old: &named(one.map(|one| &one.old), &old),
+        new: &named(one.map(|one| &one.new), &new),
+        picture: one.map(|one| &one.runs),
+    };
+    drawing::write(
+        path,
+        &report::pair(&shown, drawing::coordinates(arguments.machine_coordinates)),
+        arguments.force,
+    )
 }
 
 fn draw(arguments: &Arguments, found: &Diff, old: &[Input], new: &[Input]) -> String {

@@ -1,11 +1,11 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
-use super::common::{control, controls, dialect_of, doubt, names, own_profile, read_all};
+use super::common::{control, controls, dialect_of, doubt, names, own_profile, read, read_all};
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
     Files, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots, certificate_of, plan, real_place,
-    slashed, withheld_of,
+    same_file, slashed, withheld_of,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 pub struct Job {
     /// Its programs.
     pub inputs: Vec<Input>,
+    /// By program file: true if it is to be written. The others are its library.
+    pub named: Vec<bool>,
     /// What was left out of the folders that were named.
     pub left_out: Vec<LeftOut>,
     /// The control they are written for.
@@ -76,12 +78,17 @@ pub struct Wish<'a> {
     pub machines: &'a [PathBuf],
     /// The output folder.
     pub out: Option<&'a Path>,
+    /// Files and folders with the programs that those call, or that call them.
+    pub library: &'a [PathBuf],
 }
 
 /// The jobs, planned: every place is known, and no two files go to one. With them come all files that the command
 /// reads: none of them is ever written to.
 pub fn jobs(wish: &Wish<'_>) -> Result<(Vec<Job>, Files), u8> {
     let mut read: Vec<PathBuf> = wish.machines.to_vec();
+    if wish.paths.is_empty() && !wish.library.is_empty() {
+        return Err(complain("--library goes with files that are named: name the programs to convert"));
+    }
     let jobs =
         if wish.paths.is_empty() { of_project(wish, &mut read)? } else { vec![of_paths(wish, &mut read)?] };
     let programs = jobs.iter().flat_map(|job| &job.inputs).map(|input| input.path.as_path());
@@ -110,6 +117,7 @@ fn apart(jobs: &[Job]) -> Result<(), u8> {
 
 fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let (inputs, left_out) = read_all(wish.paths)?;
+    let (inputs, named) = with_library(inputs, wish.library)?;
     let from = dialect_of(wish.from, &inputs)?;
     let Some(to) = wish.to else {
         return Err(complain(format!("name the control to convert for with --to: one of {}", names())));
@@ -118,11 +126,39 @@ fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
     read_too.extend(own);
     planned(
-        (inputs, left_out),
+        (inputs, named, left_out),
         source,
         target,
         wish.out.map(|folder| hold(folder).map(|held| (folder, held))).transpose()?,
     )
+}
+
+/// The programs with the rest of their library, and which of them were named. A file that stands in the library has its name
+/// there: its conversion goes where it would go with the whole.
+fn with_library(inputs: Vec<Input>, library: &[PathBuf]) -> Result<(Vec<Input>, Vec<bool>), u8> {
+    if library.is_empty() {
+        let named = vec![true; inputs.len()];
+        return Ok((inputs, named));
+    }
+    let ours = Files::of(inputs.iter().map(|input| input.path.as_path()));
+    let mut all: BTreeMap<String, (Input, bool)> = BTreeMap::new();
+    let (mut missing, mut read) = (inputs, read(library)?);
+    for input in read.drain(..) {
+        let is_named = ours.holds(&input.path);
+        // The path by which it was named is the one that people know.
+        let own = missing.iter().position(|own| is_named && same_file(&own.path, &input.path));
+        let path = own.map(|at| missing.remove(at).path);
+        let input = Input { path: path.unwrap_or(input.path), ..input };
+        all.insert(input.name.clone(), (input, is_named));
+    }
+    for input in missing {
+        if let Some((other, _)) = all.get(&input.name) {
+            let (a, b) = (input.path.display(), other.path.display());
+            return Err(complain(format!("{a} and {b} would both be written to {}", input.name)));
+        }
+        all.insert(input.name.clone(), (input, true));
+    }
+    Ok(all.into_values().unzip())
 }
 
 /// A library of the project file, and one of the machines that it goes to.
@@ -170,7 +206,9 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     let mut held = hold_all(&ways)?;
     let planned = ways.into_iter().map(|way| {
         let out = held.remove(&way.folder).map(|held| (way.folder.as_path(), held));
-        planned(read_all(&[way.path])?, way.source, way.target, out)
+        let (inputs, left_out) = read_all(&[way.path])?;
+        let named = vec![true; inputs.len()];
+        planned((inputs, named, left_out), way.source, way.target, out)
     });
     planned.collect()
 }
@@ -207,7 +245,7 @@ fn hold(folder: &Path) -> Result<Held, u8> {
 }
 
 fn planned(
-    (inputs, left_out): (Vec<Input>, Vec<LeftOut>),
+    (inputs, named, left_out): (Vec<Input>, Vec<bool>, Vec<LeftOut>),
     source: Control,
     target: Control,
     out: Option<(&Path, Held)>,
@@ -230,13 +268,13 @@ fn planned(
                 places.iter().map(|place| slashed(place.strip_prefix(folder).unwrap_or(place))).collect();
             (Some(Out { held, names, keeps_lock, manifest }), lock)
         }
-        None if inputs.len() > 1 => {
+        None if named.iter().filter(|named| **named).count() > 1 => {
             return Err(complain("several programs need an output folder: give --out DIR"));
         }
         None => (None, fresh),
     };
     let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, left_out, source, target, out, lock, notes })
+    Ok(Job { inputs, named, left_out, source, target, out, lock, notes })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

@@ -10,6 +10,7 @@ mod completions;
 mod convert;
 mod dialects;
 mod diff;
+mod drawing;
 mod explain;
 mod ir;
 mod jobs;

@@ -4,7 +4,8 @@ use super::jobs::{Job, Out};
 use super::streams::{complain, print, remark, tell, tell_drawn};
 use crate::library::{
     Certificates, Change, Conversion, Files, Held, Input, Kind, Lock, Made, Outcome, ProgramReport, Spots,
-    Told, Wanted, certificate_of, changes, check, profiles_of, publish, withheld_of, write_file,
+    Told, Wanted, certificate_of, changes, check, linked_files, profiles_of, publish, withheld_of,
+    write_file,
 };
 use crate::report::{self, Date, Drawings, Part};
 use crate::verify::{Certificate, sha256};
@@ -58,7 +59,7 @@ pub fn wanted<'p>(
     judged: Option<&Certificates>,
 ) -> Vec<Wanted<'p>> {
     let mut wanted = Vec::new();
-    for (at, name) in out.names.iter().enumerate() {
+    for (at, name) in out.names.iter().enumerate().filter(|(at, _)| job.named[*at]) {
         let bytes = match conversion.texts.get(at).and_then(Option::as_ref) {
             _ if job.source.is_same_machine(&job.target) => Some(job.inputs[at].bytes.as_slice()),
             text => text.map(String::as_bytes),
@@ -75,7 +76,11 @@ pub fn wanted<'p>(
         let mut certificate = |all: Option<&Vec<Option<Certificate>>>, name: String, kind| {
             if let Some(certificate) = all.and_then(|all| all.get(at)).and_then(Option::as_ref) {
                 let bytes = certificate.print().into_bytes().into();
-                let rests_on = if kind == Kind::Certificate { rests_on(judged, at, out) } else { Vec::new() };
+                let rests_on = if kind == Kind::Certificate {
+                    rests_on(judged, at, out, conversion)
+                } else {
+                    Vec::new()
+                };
                 wanted.push(Wanted { name, kind, source: &out.names[at], bytes, rests_on });
             }
         };
@@ -85,10 +90,19 @@ pub fn wanted<'p>(
     wanted
 }
 
-/// The other conversions that the certificate of a file rests on.
-fn rests_on(judged: Option<&Certificates>, at: usize, out: &Out) -> Vec<String> {
+/// The other conversions that the certificate of a file rests on, with the hashes of their texts.
+fn rests_on(
+    judged: Option<&Certificates>,
+    at: usize,
+    out: &Out,
+    conversion: &Conversion,
+) -> Vec<(String, String)> {
     let others = judged.and_then(|judged| judged.rest_on.get(at)).into_iter().flatten();
-    others.filter_map(|other| out.names.get(*other).cloned()).collect()
+    let other = |other: &usize| {
+        let text = conversion.texts.get(*other)?.as_ref()?;
+        Some((out.names.get(*other)?.clone(), sha256(text.as_bytes())))
+    };
+    others.filter_map(other).collect()
 }
 
 /// What is new in an output folder, and what is told of it.
@@ -99,11 +113,11 @@ pub fn changed<'p>(
     prune: bool,
 ) -> Result<(Vec<Change<'p>>, Told), u8> {
     let Some(out) = &job.out else { return Ok(Default::default()) };
-    let sources =
-        out.names.iter().map(String::as_str).zip(job.inputs.iter().map(|input| input.path.as_path()));
+    let named = || out.names.iter().zip(&job.inputs).zip(&job.named).filter(|(_, named)| **named);
+    let sources = named().map(|((name, input), _)| (name.as_str(), input.path.as_path()));
     let profiles = profiles_of(&job.source, &job.target);
     let made = |input: &Input| Made { sha256: sha256(&input.bytes), profiles: profiles.clone() };
-    let made = out.names.iter().cloned().zip(job.inputs.iter().map(made)).collect();
+    let made = named().map(|((name, input), _)| (name.clone(), made(input))).collect();
     let found = changes(out.held.folder(), &out.manifest, wanted, &sources.collect(), made, prune);
     let (mut changes, told) = found.map_err(complain)?;
     let mut lock = conversion.lock.clone();
@@ -117,6 +131,25 @@ pub fn changed<'p>(
         changes.insert(0, Change { place: Lock::NAME.into(), bytes: Some(lock.into()), aside: None });
     }
     Ok((changes, told))
+}
+
+/// Says which programs of a library the written ones call, or are called by, that stand otherwise in the output folder.
+pub fn tell_of_library(job: &Job, conversion: &Conversion) {
+    let Some(out) = job.out.as_ref().filter(|_| job.named.contains(&false)) else { return };
+    for at in linked_files(conversion, &job.named) {
+        let (Some(text), Some(name)) = (conversion.texts.get(at).and_then(Option::as_ref), out.names.get(at))
+        else {
+            continue;
+        };
+        let path = out.held.folder().join(name);
+        let what = match std::fs::read(&path) {
+            Ok(bytes) if bytes == text.as_bytes() => continue,
+            Ok(_) => "is not what this conversion goes with",
+            Err(_) => "is not there yet",
+        };
+        let (path, input) = (path.display(), job.inputs[at].path.display());
+        remark(format!("{path} {what}: convert {input} into the same folder too, before either runs"));
+    }
 }
 
 /// The reports, in the places where the user wants them.
@@ -158,14 +191,15 @@ pub fn publish_all(
 /// Where the conversion of each file of a job is written, if it is.
 pub fn targets(job: &Job, conversion: &Conversion) -> Vec<Option<PathBuf>> {
     let Some(out) = &job.out else { return vec![None; conversion.texts.len()] };
-    let written = conversion.texts.iter().zip(&out.names);
-    written.map(|(text, name)| text.as_ref().map(|_| out.held.folder().join(name))).collect()
+    let all = conversion.texts.iter().zip(&out.names).zip(&job.named);
+    all.map(|((text, name), named)| text.as_ref().filter(|_| *named).map(|_| out.held.folder().join(name)))
+        .collect()
 }
 
 /// Draws the findings at their source, on standard error.
 pub fn draw(part: &Part<'_>) {
     let mut drawings: Option<(usize, Drawings<'_>)> = None;
-    for program in &part.conversion.programs {
+    for (_, program) in part.programs() {
         for diagnostic in &program.diagnostics {
             let (file, input) = (program.file, &part.inputs[program.file]);
             if drawings.as_ref().is_none_or(|(at, _)| *at != file) {
@@ -192,7 +226,8 @@ pub fn summarize(jobs: &[Job], parts: &[Part<'_>], asks: bool) -> Result<(), u8>
     let summary = if asks { report::summary(parts) } else { report::outcomes(parts) };
     match (jobs, parts) {
         ([Job { out: None, .. }], [part]) => {
-            if let Some(Some(text)) = part.conversion.texts.first() {
+            let at = part.named.iter().position(|named| *named).unwrap_or_default();
+            if let Some(Some(text)) = part.conversion.texts.get(at) {
                 print(text)?;
             }
             tell(&summary);

@@ -1,13 +1,13 @@
 //! `macroglot run FILE`.
 
-use super::common::{control, dialect_of, own_profile, read};
+use super::common::{control, dialect_of, not_over, own_profile, read};
 use super::streams::{be_open, complain, complain_lines, print_by, tell};
-use super::{FOUND, UNUSABLE, WELL};
+use super::{FOUND, UNUSABLE, WELL, drawing};
 use crate::control::trace::Place;
 use crate::control::{End, Library, LoadedFile, ProgramRef, Run, Scenario};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::library::{Files, Input, write_file};
+use crate::library::Input;
 use crate::report::{Sheet, TraceFormat, TraceWriter, backplot};
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::shown;
@@ -44,9 +44,12 @@ pub struct Arguments {
     /// How to print the trace
     #[arg(long, value_enum, default_value_t = Format::Text)]
     trace: Format,
-    /// Draw the tool's path
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draw the tool's path, as SVG, or as PNG if the name ends in .png
+    #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Draw it in machine coordinates, not from the work zero
+    #[arg(long, requires = "plot")]
+    machine_coordinates: bool,
     /// Replace a read-only drawing too
     #[arg(long)]
     force: bool,
@@ -94,16 +97,14 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         inputs.extend(others.into_iter().filter(|input| Some(&input.path) != main.as_ref()));
     }
     let also = [&arguments.machine, &arguments.scenario, &own].into_iter().flatten();
-    let read = Files::of(inputs.iter().map(|input| &input.path).chain(also).map(PathBuf::as_path));
-    if let Some(path) = arguments.plot.as_ref().filter(|path| read.holds(path)) {
-        return Err(complain(format!("{} is an input and would be overwritten", path.display())));
-    }
+    let read = inputs.iter().map(|input| &input.path).chain(also).map(PathBuf::as_path);
+    arguments.plot.as_ref().map_or(Ok(()), |path| not_over(path, read))?;
     let scenario = scenario(arguments, &control)?;
     let run = print_run(arguments, &inputs, &control, &scenario)?;
     if let Some(path) = &arguments.plot {
         let title = inputs.first().map_or_else(String::new, |input| input.name.clone());
-        let bytes = backplot(&run.events, &title).into_bytes();
-        write_file(path, &bytes, arguments.force).map_err(complain)?;
+        let from = drawing::coordinates(arguments.machine_coordinates);
+        drawing::write(path, &backplot(&run, &title, from), arguments.force)?;
     }
     let Some((at, finding)) = finding(&run) else { return Ok(WELL) };
     let file = run.programs.get(at.program as usize).map_or(0, |program| program.file);

@@ -1,11 +1,11 @@
 //! `macroglot verify SOURCE TARGET`.
 
-use super::common::{Time, controls, dialect_of, effort, own_profile, read};
+use super::common::{Time, controls, dialect_of, effort, not_over, own_profile, read};
 use super::streams::{complain, print, remark};
 use super::{FOUND, WELL, pager};
 use crate::control::LoadedFile;
 use crate::dialect::Control;
-use crate::library::{Files, Home, Input, Lock, Manifest, is_pending, write_file};
+use crate::library::{Home, Input, Lock, Manifest, is_pending, write_file};
 use crate::report;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::verify::{Assumptions, Certificate, Effort, Job, Outcome, Side, Spent, SymbolMap, verify};
@@ -60,9 +60,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let own_files = [Lock::NAME, Manifest::NAME].map(|name| home.folder.join(name));
     let programs = ours.iter().chain(&theirs).map(|input| &input.path);
     let read_files = programs.chain(&arguments.machine).chain(&own_files).map(PathBuf::as_path);
-    if let Some(path) = arguments.certificate.as_ref().filter(|path| Files::of(read_files).holds(path)) {
-        return Err(complain(format!("{} is an input and would be overwritten", path.display())));
-    }
+    arguments.certificate.as_ref().map_or(Ok(()), |path| not_over(path, read_files))?;
     tell_changed(&home, &theirs)?;
     let from = dialect_of(arguments.from.as_deref(), &ours)?;
     let to = dialect_of(arguments.to.as_deref(), &theirs)?;

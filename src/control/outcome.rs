@@ -1,7 +1,7 @@
 //! What a run amounts to.
 
 use super::machine::ExitState;
-use super::trace::{Computed, Event, Place, Program};
+use super::trace::{Computed, Event, Place, Program, Zero};
 use crate::canon::{Func, Op};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,6 +42,10 @@ pub struct Run {
     /// The arguments that it gave functions which few controls have.
     #[serde(skip)]
     pub arguments: Vec<Computed<(Func, [f64; 2])>>,
+    /// The zero points that its moves count from, and how many events came before each; the first
+    /// [`super::trace::MOST_ZEROS`].
+    #[serde(skip)]
+    pub zeros: Vec<(usize, Zero)>,
 }
 
 /// How a run ended.

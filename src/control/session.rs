@@ -319,6 +319,7 @@ impl<'r, 'f> Session<'r, 'f> {
             computed_codes: self.trace.computed_codes(),
             computed_numbers: self.trace.computed_numbers(),
             arguments: self.trace.arguments(),
+            zeros: self.trace.zeros,
             events: self.trace.events,
             programs: self.programs,
             variables,

@@ -100,6 +100,21 @@ pub struct Computed<T> {
     pub before: usize,
 }
 
+/// Where a program counts from, in which unit, and in which plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Zero {
+    /// Machine coordinates of the work zero in X, Y and Z, with the tool length that is applied; millimetres. A local
+    /// shift is left aside: it moves within the work coordinates.
+    pub at: [f64; 3],
+    /// True where lengths are inches.
+    pub inch: bool,
+    /// The plane of arcs and of cutter compensation.
+    pub plane: Plane,
+}
+
+/// Changes of the zero point that a run remembers.
+pub const MOST_ZEROS: usize = 1 << 16;
+
 /// Bytes of messages and outputs that a run remembers.
 const MOST_TEXT: usize = 16 << 20;
 
@@ -133,6 +148,8 @@ pub struct Trace {
     computed_numbers: BTreeMap<(u32, Place), usize>,
     /// Arguments of functions that few controls have, and how many events came before each.
     arguments: BTreeMap<(Func, u64, u64, Place), usize>,
+    /// Zero points, and how many events came before each was in force.
+    pub zeros: Vec<(usize, Zero)>,
     /// Matters that the machine's profile confirms.
     confirmed: Vec<String>,
 }
@@ -153,6 +170,7 @@ impl Trace {
             computed_codes: BTreeMap::new(),
             computed_numbers: BTreeMap::new(),
             arguments: BTreeMap::new(),
+            zeros: Vec::new(),
             confirmed: confirmed.to_vec(),
         }
     }
@@ -195,6 +213,13 @@ impl Trace {
     /// True when an event found no room: the run must end.
     pub fn is_full(&self) -> bool {
         self.full
+    }
+
+    /// Records the zero point that the next moves count from.
+    pub fn zero(&mut self, zero: Zero) {
+        if self.zeros.last().is_none_or(|(_, last)| *last != zero) && self.zeros.len() < MOST_ZEROS {
+            self.zeros.push((self.count(), zero));
+        }
     }
 
     /// Records a code whose number was computed.

@@ -15,6 +15,8 @@ mod structure;
 mod whole;
 
 pub use normal::variables;
-pub use result::{Diff, FORMAT, FileDiff, Hunk, Line, Note, On, Piece, ProgramDiff, Renamed, Text, Verdict};
+pub use result::{
+    Diff, FORMAT, FileDiff, Hunk, Line, Note, On, Pictured, Piece, ProgramDiff, Renamed, Text, Verdict,
+};
 pub use sides::Shelf;
 pub use whole::{Levels, Request, diff, normalised};

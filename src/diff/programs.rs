@@ -9,7 +9,8 @@ use super::whole::Levels;
 use crate::control::ProgramRef;
 use crate::syntax::ProgramName;
 use crate::verify::{
-    Job, Listing, Moment, Outcome, ProgramCertificate, Reason, Side, SymbolMap, Why, class_of, listed, verify,
+    Job, Listing, Moment, Outcome, ProgramCertificate, Reason, Side, SymbolMap, Why, Witness, class_of,
+    listed, verify,
 };
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -187,15 +188,43 @@ fn renumbered(source: &Side<'_>, target: &Side<'_>, names: &mut SymbolMap) -> BT
     found
 }
 
-/// What became of the programs that anything changed for.
-pub fn programs(job: &Job<'_>, changes: &Changes<'_>, levels: Levels, most: usize) -> Vec<ProgramDiff> {
+/// What the verifier says of the old programs that a change reaches.
+pub type Certificates = BTreeMap<ProgramRef, ProgramCertificate>;
+
+/// Verifies the programs that anything changed for.
+pub fn certificates(job: &Job<'_>, changes: &Changes<'_>) -> Certificates {
     let touched: Vec<ProgramRef> =
         changes.pairs.iter().map(|(old, _)| *old).filter(|old| changes.touched.contains(old)).collect();
     // Of no program named, all would be verified.
-    let certificates: BTreeMap<ProgramRef, ProgramCertificate> = match touched.is_empty() {
+    match touched.is_empty() {
         true => BTreeMap::new(),
         false => touched.iter().copied().zip(verify(job, &touched).programs).collect(),
+    }
+}
+
+/// The program that a picture shows: the first one that differs, else one that is not decided, else the first one.
+pub fn pictured_one<'c>(
+    changes: &Changes<'_>,
+    certificates: &'c Certificates,
+) -> Option<(ProgramRef, ProgramRef, Option<&'c Witness>)> {
+    let rank = |old: &ProgramRef| match certificates.get(old).map(|certificate| certificate.outcome) {
+        Some(Outcome::Different) => 0,
+        Some(Outcome::Undecided) => 1,
+        Some(Outcome::Same) | None => 2,
     };
+    let (old, new) = changes.pairs.iter().min_by_key(|(old, _)| rank(old))?;
+    let witness = certificates.get(old).and_then(|certificate| certificate.witness.as_ref());
+    Some((*old, *new, witness))
+}
+
+/// What became of the programs that anything changed for.
+pub fn programs(
+    job: &Job<'_>,
+    changes: &Changes<'_>,
+    certificates: &Certificates,
+    levels: Levels,
+    most: usize,
+) -> Vec<ProgramDiff> {
     let mut out: Vec<ProgramDiff> = changes
         .pairs
         .par_iter()

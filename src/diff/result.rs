@@ -1,13 +1,13 @@
 //! What a diff found: the same values for people and for programs. `docs/diff.md` explains the keys.
 
-use crate::verify::Listing;
+use crate::verify::{Listing, Picture};
 use serde::Serialize;
 
 /// Version of the shape of a diff in JSON.
 pub const FORMAT: u32 = 1;
 
 /// What changed between two files, or two libraries.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Diff {
     /// Version of the shape of this object.
     pub format: u32,
@@ -31,6 +31,20 @@ pub struct Diff {
     pub renamed: Vec<Renamed>,
     /// What is to be said of the diff as a whole.
     pub notes: Vec<String>,
+    /// A run of a program on both sides, if one was asked for and a program stands on both.
+    #[serde(skip)]
+    pub picture: Option<Box<Pictured>>,
+}
+
+/// A program of both sides, as it is drawn.
+#[derive(Clone, Debug)]
+pub struct Pictured {
+    /// What tells it from other programs of the old side: file and name; empty if there is one alone.
+    pub old: String,
+    /// The same on the new one.
+    pub new: String,
+    /// What both do.
+    pub runs: Picture,
 }
 
 impl Diff {
@@ -48,6 +62,7 @@ impl Diff {
             untouched: 0,
             renamed: Vec::new(),
             notes: Vec::new(),
+            picture: None,
         }
     }
 }

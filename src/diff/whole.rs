@@ -2,15 +2,15 @@
 
 use super::lines::{Numbered, changed};
 use super::normal::{Named, normal};
-use super::programs::{Changes, programs};
-use super::result::{Diff, FORMAT, FileDiff, Verdict};
-use super::sides::{Shelf, Texts, named, texts};
-use crate::control::LoadedFile;
+use super::programs::{Certificates, Changes, certificates, pictured_one, programs};
+use super::result::{Diff, FORMAT, FileDiff, Pictured, Verdict};
+use super::sides::{Shelf, Texts, file_of, named, texts};
+use crate::control::{LoadedFile, ProgramRef};
 use crate::dialect::Control;
 use crate::library::Input;
 use crate::syntax::parse_file;
 use crate::text::{Lines, decode};
-use crate::verify::{Assumptions, Effort, Job, Side, Spent, SymbolMap};
+use crate::verify::{Assumptions, Effort, Job, Side, Spent, SymbolMap, pictured};
 use std::collections::BTreeMap;
 
 /// What a diff shows. What the machine does is worked out in any case: it decides.
@@ -41,6 +41,8 @@ pub struct Request<'a> {
     pub effort: Effort,
     /// Places that are listed of a program, at the most.
     pub most: usize,
+    /// Whether a run of a program is kept, to be drawn.
+    pub picture: bool,
 }
 
 /// Works out what changed. None where a control has no emulation.
@@ -64,7 +66,9 @@ pub fn diff(request: &Request<'_>) -> Option<Diff> {
         effort: *effort,
         spent: &spent,
     };
-    let programs = programs(&job, &changes, *levels, request.most);
+    let certificates = certificates(&job, &changes);
+    let programs = programs(&job, &changes, &certificates, *levels, request.most);
+    let picture = if request.picture { picture(&job, &changes, &certificates, request.most) } else { None };
     let files = files(request, (&source, &texts[0]), (&target, &texts[1]));
     let verdict = programs.iter().map(|program| program.verdict).max().unwrap_or(Verdict::Same);
     Some(Diff {
@@ -79,7 +83,26 @@ pub fn diff(request: &Request<'_>) -> Option<Diff> {
         programs,
         renamed: changes.renamed,
         notes: Vec::new(),
+        picture,
     })
+}
+
+/// A run of a program on both sides.
+fn picture(
+    job: &Job<'_>,
+    changes: &Changes<'_>,
+    certificates: &Certificates,
+    most: usize,
+) -> Option<Box<Pictured>> {
+    let (old, new, witness) = pictured_one(changes, certificates)?;
+    let is_only = job.source.programs().len() == 1 && job.target.programs().len() == 1;
+    let name = |side: &Side<'_>, program: ProgramRef| {
+        let file = (side.files.len() > 1).then(|| file_of(side, program)).flatten();
+        let name = side.name(program).filter(|_| !is_only).map(ToString::to_string);
+        file.into_iter().chain(name).collect::<Vec<_>>().join(" ")
+    };
+    let (old_name, new_name) = (name(job.source, old), name(job.target, new));
+    Some(Box::new(Pictured { old: old_name, new: new_name, runs: pictured(job, old, witness, most)? }))
 }
 
 /// What changed in the text of each file. Files go together by name; two single ones whatever their names.

@@ -53,6 +53,25 @@ pub fn programs_of(conversion: &Conversion, all: &[ProgramRef]) -> BTreeMap<Prog
     pairs.collect()
 }
 
+/// The files besides the `named` ones whose conversions must stand where those of the named ones do: what they call and what
+/// calls them, however far. A program that holds a copy of what it calls needs no other file.
+pub fn linked_files(conversion: &Conversion, named: &[bool]) -> BTreeSet<usize> {
+    let programs = &conversion.programs;
+    let calls = |link: &Link| match link.callee {
+        Linked::Program { at, made: false, .. } => Some((link.caller, at)),
+        _ => None,
+    };
+    let calls: Vec<(usize, usize)> = conversion.links.iter().filter_map(calls).collect();
+    let is_named = |at: &usize| named.get(programs[*at].file).is_none_or(|named| *named);
+    let above = reached((0..programs.len()).filter(is_named), |at, go| {
+        calls.iter().filter(|(_, callee)| *callee == at).for_each(|(caller, _)| go(*caller));
+    });
+    let all = reached(above, |at, go| {
+        calls.iter().filter(|(caller, _)| *caller == at).for_each(|(_, callee)| go(*callee));
+    });
+    all.into_iter().filter(|at| !is_named(at)).map(|at| programs[at].file).collect()
+}
+
 impl Callees {
     /// The calls of a conversion, of whose programs some were `refused`.
     pub fn of(

@@ -31,6 +31,7 @@ mod verified;
 mod walk;
 mod withdrawn;
 
+pub use callees::linked_files;
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
 pub use detect::{Detected, detect, looks_like};
 pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};

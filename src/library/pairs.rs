@@ -26,7 +26,7 @@ impl Pairs<'_> {
     /// they differ.
     pub fn picture(&self, at: usize, most: usize) -> Option<Picture> {
         let program = *self.programs.get(&at)?;
-        (!is_long(self.inputs.get(program.file)?)).then(|| pictured(self.job, program, most))?
+        (!is_long(self.inputs.get(program.file)?)).then(|| pictured(self.job, program, None, most))?
     }
 
     /// The blocks of a program of the source.

@@ -31,15 +31,16 @@ pub fn judge(
     target: &Control,
     effort: Effort,
 ) -> Certificates {
-    judge_telling(inputs, conversion, (source, target), effort, &|_| ())
+    judge_telling(inputs, conversion, (source, target), (effort, &[]), &|_| ())
 }
 
-/// The same, and tells how many programs of a file are done, whenever one is.
+/// The same for the files that are `named`, or for all if none is told; and tells how many programs of a file are done,
+/// whenever one is.
 pub fn judge_telling(
     inputs: &[Input],
     conversion: &mut Conversion,
     (source, target): (&Control, &Control),
-    effort: Effort,
+    (effort, named): (Effort, &[bool]),
     done: &(dyn Fn(usize) + Sync),
 ) -> Certificates {
     let (Some(run), Some(run_there)) = (source.entry().execute, target.entry().execute) else {
@@ -84,7 +85,7 @@ pub fn judge_telling(
         effort,
         spent: &Spent::default(),
     };
-    let wanted = wanted(conversion, all, inputs.len());
+    let wanted = wanted(conversion, all, (inputs.len(), named));
     let all_wanted: Vec<ProgramRef> = wanted.iter().flatten().map(|(_, program)| *program).collect();
     verify::prepare(&job, &all_wanted);
     let mut verified: Vec<Option<Certificate>> = wanted
@@ -180,13 +181,18 @@ fn open(conversion: &mut Conversion) -> impl Iterator<Item = &mut super::Program
 }
 
 /// The programs of each file that are to be judged.
-fn wanted(conversion: &mut Conversion, all: &[ProgramRef], files: usize) -> Vec<Vec<Wanted>> {
+fn wanted(
+    conversion: &mut Conversion,
+    all: &[ProgramRef],
+    (files, named): (usize, &[bool]),
+) -> Vec<Vec<Wanted>> {
     let mut wanted = vec![Vec::new(); files];
     for (file, wanted) in wanted.iter_mut().enumerate() {
         let sections = all.iter().filter(|program| program.file == file).copied();
         let reports: Vec<usize> =
             (0..conversion.programs.len()).filter(|at| conversion.programs[*at].file == file).collect();
-        if reports.iter().all(|at| conversion.programs[*at].verdict.is_some()) {
+        let is_named = named.get(file).is_none_or(|named| *named);
+        if !is_named || reports.iter().all(|at| conversion.programs[*at].verdict.is_some()) {
             continue;
         }
         // Both sides cut a file at its program words; where they disagree, nothing can be verified.

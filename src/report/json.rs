@@ -86,7 +86,7 @@ fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S
     let texts = RefCell::default();
     let texts = &texts;
     let programs = parts.iter().zip(&files).flat_map(|(part, files)| {
-        part.conversion.programs.iter().map(move |program| {
+        part.programs().map(move |(_, program)| {
             let (file, index) = &files[program.file];
             let target = part.targets.get(program.file).and_then(Option::as_ref);
             // Another program of the same file may have been written when this one was not.
@@ -109,7 +109,7 @@ fn programs<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S
 fn files(part: &Part<'_>) -> Vec<(String, LineIndex)> {
     // Lines are counted as far as findings lie.
     let mut ends = vec![0; part.inputs.len()];
-    for program in &part.conversion.programs {
+    for (_, program) in part.programs() {
         let last = program.diagnostics.iter().map(|d| d.span.start as usize + 1).max();
         ends[program.file] = last.unwrap_or(0).max(ends[program.file]);
     }

@@ -80,13 +80,13 @@ fn item(question: &Question<'_>) -> String {
 
 /// A table of all programs.
 fn programs(out: &mut Sheet, parts: &[Part<'_>]) {
-    for part in parts.iter().filter(|part| !part.conversion.programs.is_empty()) {
+    for part in parts.iter().filter(|part| part.programs().next().is_some()) {
         out.line("");
         out.line(&format!("## {} to {}", escaped(part.from), escaped(part.to)));
         out.line("");
         out.line("| File | Program | Outcome | Verified | Codes |");
         out.line("|---|---|---|---|---|");
-        for program in &part.conversion.programs {
+        for (_, program) in part.programs() {
             let file = escaped(&part.inputs[program.file].name);
             let name = program.name.as_deref().map(escaped).unwrap_or_default();
             let codes: BTreeSet<&str> = program.diagnostics.iter().map(|d| d.code.number()).collect();

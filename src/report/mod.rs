@@ -24,7 +24,7 @@ pub use html::conversion as html;
 pub use json::{conversion as json, write_conversion as write_json};
 pub use markdown::conversion as markdown;
 pub use part::{Part, Place};
-pub use plot::backplot;
+pub use plot::{Coordinates, PairOfRuns, backplot, pair, png};
 pub use questions::Questions;
 pub use sarif::conversion as sarif;
 pub use text::{Sheet, explain, left_out_text, outcomes, summary};

@@ -17,6 +17,8 @@ pub struct Part<'a> {
     pub controls: [&'a Control; 2],
     /// Its files.
     pub inputs: &'a [Input],
+    /// By file: true if it is told of. The others were read because these call them, or they call these.
+    pub named: &'a [bool],
     /// What became of its programs.
     pub conversion: &'a Conversion,
     /// What the verifier found; none if it was not asked.
@@ -50,10 +52,21 @@ pub struct Place<'a> {
 }
 
 impl<'a> Part<'a> {
+    /// The programs that are told of, with their indexes.
+    pub fn programs(&self) -> impl Iterator<Item = (usize, &'a ProgramReport)> + use<'a> {
+        let (named, programs) = (self.named, &self.conversion.programs);
+        programs.iter().enumerate().filter(|(_, program)| named.get(program.file).is_none_or(|named| *named))
+    }
+
+    /// The files that are told of.
+    pub fn files(&self) -> usize {
+        (0..self.inputs.len()).filter(|at| self.named.get(*at).is_none_or(|named| *named)).count()
+    }
+
     /// The advice, if any program can be run.
     pub fn advised(&self) -> Option<&'a str> {
-        let runs = |program: &ProgramReport| program.outcome != Outcome::Refused;
-        self.advice.filter(|_| self.conversion.programs.iter().any(runs))
+        let runs = |(_, program): (usize, &ProgramReport)| program.outcome != Outcome::Refused;
+        self.advice.filter(|_| self.programs().any(runs))
     }
 
     /// The lines of each file.
@@ -100,6 +113,7 @@ mod tests {
             from: "fanuc",
             to: "haas",
             inputs: &inputs,
+            named: &[],
             conversion: &conversion,
             certificates: None,
             targets: &[],

@@ -1,43 +1,41 @@
 //! The backplot: the tool's path from above and askew, as SVG.
 
+mod legend;
 mod overlay;
+mod pair;
+mod path;
+mod png;
 mod view;
 
 pub use overlay::overlay;
+pub use pair::{PairOfRuns, pair};
+pub use png::png;
 
 use super::html::escaped;
-use crate::control::trace::{Event, EventKind};
+use crate::control::{End, Run};
+use legend::{colour, legend};
+use path::{Kind, Path, Stroke};
+use std::borrow::Cow;
 use std::fmt::Write;
 use view::{Bounds, View};
 
-/// A point of the path, millimetres.
+/// A point of the path.
 type Point = [f64; 3];
 
-/// A stretch of the path.
-#[derive(Clone)]
-struct Stroke {
-    kind: Kind,
-    points: Vec<Point>,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Rapid,
-    Cut,
+/// What a drawing counts its places from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coordinates {
+    /// The work zero, and the tip of the tool.
+    #[default]
+    Work,
+    /// The zero of the machine.
+    Machine,
 }
 
 /// A way to look at the path: two of its axes, across and up, or none for askew.
 struct Drawing {
     axes: Option<(char, char)>,
     project: fn(Point) -> (f64, f64),
-}
-
-/// What is drawn.
-#[derive(Default)]
-struct Path {
-    strokes: Vec<Stroke>,
-    holes: Vec<Point>,
-    touches: Vec<Point>,
 }
 
 /// Thirty degrees to either side, Z up.
@@ -51,36 +49,112 @@ const SIZE: f64 = 560.0;
 /// Room round a drawing.
 const MARGIN: f64 = 60.0;
 
+/// Points that are drawn, about; of a longer path some are left out.
+const POINTS: usize = 50_000;
+/// Holes and touches that are drawn.
+const MARKS: usize = 2000;
+/// Letters of a text in the picture.
+const LETTERS: usize = 140;
+
 /// The path as an SVG with two drawings: XY from above, and isometric. A path without a move along Y, as a
-/// lathe's, is drawn over Z and X. The rapids before the first cut and after the last one end at the
-/// edge of a drawing, so that the part fills it.
-pub fn backplot(events: &[Event], title: &str) -> String {
-    let path = Path::of(events);
+/// lathe's, and one whose cuts are all in the ZX plane, is drawn over Z and X. The rapids before the first cut and after the last one end at the
+/// edge of a drawing, so that the part fills it. Lengths are in the unit of the program; of one that uses both, in
+/// millimetres.
+pub fn backplot(run: &Run, title: &str, coordinates: Coordinates) -> String {
+    let path = Path::of(run, coordinates);
     let mut out = String::new();
-    let (width, height) = (2.0 * SIZE + 3.0 * MARGIN, SIZE + 2.5 * MARGIN);
+    let (width, height) = (2.0 * SIZE + 3.0 * MARGIN, SIZE + 3.6 * MARGIN);
     let _ = writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"12\">"
     );
     let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>");
-    let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", escaped(title));
-    let flat = path.flat();
-    for (column, drawing) in [flat, Drawing { axes: None, project: ISOMETRIC }].into_iter().enumerate() {
-        let left = MARGIN + column as f64 * (SIZE + MARGIN);
-        draw(&path, &drawing, (left, 1.25 * MARGIN), &mut out);
+    let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"24\" font-size=\"16\">{}</text>", told(title));
+    let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"42\" fill=\"#555\">{}</text>", about(&path));
+    let ending = ending(&run.end);
+    if let Some(text) = &ending {
+        let _ = writeln!(
+            out,
+            "<text x=\"{MARGIN}\" y=\"58\" fill=\"#b00\" font-weight=\"bold\">{}</text>",
+            told(text)
+        );
     }
-    legend(height, &mut out);
+    if path.strokes.is_empty() {
+        let (x, y) = (width / 2.0, height / 2.0);
+        let style = "text-anchor=\"middle\" font-size=\"20\" fill=\"#555\"";
+        let _ = writeln!(out, "<text x=\"{x}\" y=\"{y}\" {style}>the program makes no move</text>");
+    } else {
+        let flat = path.flat();
+        let drawings = [flat, Drawing { axes: None, project: ISOMETRIC }];
+        for (column, drawing) in drawings.into_iter().enumerate() {
+            let left = MARGIN + column as f64 * (SIZE + MARGIN);
+            draw(&path, &drawing, (left, 1.6 * MARGIN), ending.is_some(), &mut out);
+        }
+        legend(&path, height - 46.0, &mut out);
+        notes(&path, height - 8.0, &mut out);
+    }
     out.push_str("</svg>\n");
     out
 }
 
-fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), out: &mut String) {
+/// What the picture counts from.
+fn about(path: &Path) -> &'static str {
+    match (path.from_work, path.many_zeros) {
+        (true, false) => "work coordinates, at the tip of the tool",
+        (true, true) => {
+            "work coordinates, at the tip of the tool; places of several work zeros lie over each other"
+        }
+        (false, _) => "machine coordinates",
+    }
+}
+
+/// Why the run did not come to its end.
+fn ending(end: &End) -> Option<String> {
+    match end {
+        End::Ended => None,
+        End::Alarm { stop, .. } => {
+            let parts = [stop.number.as_str(), stop.text.as_str()];
+            let text: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+            Some(format!("alarm: {}", text.join(": ")))
+        }
+        End::StepBudget | End::TimeBudget => Some("the program was still running here".into()),
+        End::Error { text, .. } => Some(format!("the run stopped here: {text}")),
+    }
+}
+
+/// A text in the picture: short, and of letters that XML has.
+fn told(text: &str) -> String {
+    let plain = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
+    let short: String = text.chars().take(LETTERS).map(|c| if plain(c) { c } else { '\u{fffd}' }).collect();
+    let more = if text.chars().nth(LETTERS).is_some() { ".." } else { "" };
+    format!("{}{more}", escaped(&short))
+}
+
+fn notes(path: &Path, y: f64, out: &mut String) {
+    let mut notes: Vec<Cow<'_, str>> = Vec::new();
+    if path.no_radius {
+        notes.push("cutter compensation is on with a radius of 0".into());
+    }
+    let count = path.points().count();
+    if count > POINTS {
+        notes.push(format!("of {count} points some are left out").into());
+    }
+    if path.holes.len() > MARKS || path.touches.len() > MARKS {
+        notes.push(format!("the first {MARKS} holes and touches are marked").into());
+    }
+    if !notes.is_empty() {
+        let _ = writeln!(out, "<text x=\"{MARGIN}\" y=\"{y:.0}\" fill=\"#555\">{}</text>", notes.join("; "));
+    }
+}
+
+fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), broken: bool, out: &mut String) {
     let project = drawing.project;
     let bounds = Bounds::of(path.framed().into_iter().map(project));
-    let view = View::new(bounds, corner, SIZE);
+    let unit = path.unit();
+    let view = View::new(bounds, corner, SIZE).in_unit(unit);
     let name = match drawing.axes {
-        Some((across, up)) => format!("{across}{up}, mm"),
-        None => "isometric, mm".to_owned(),
+        Some((across, up)) => format!("{across}{up}, {unit}"),
+        None => format!("isometric, {unit}"),
     };
     let _ = writeln!(
         out,
@@ -91,14 +165,7 @@ fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), out: &mut String) {
         writeln!(out, "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#555\">{name}</text>", corner.0, corner.1 - 6.0);
     match drawing.axes {
         Some(names) => view.axes(names, out),
-        None => {
-            let zero = [0.0; 3];
-            let arm = view.span() * 0.1;
-            let foot = view.free_corner(path.points().map(project));
-            for (label, end) in [("X", [arm, 0.0, 0.0]), ("Y", [0.0, arm, 0.0]), ("Z", [0.0, 0.0, arm])] {
-                view.arrow(foot, project(zero), project(end), label, out);
-            }
-        }
+        None => view.cross(path.points(), project, out),
     }
     let _ = writeln!(
         out,
@@ -109,29 +176,32 @@ fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), out: &mut String) {
     );
     // Cuts lie over the rapids that go the same way.
     let (rapids, cuts): (Vec<_>, Vec<_>) = path.strokes.iter().partition(|stroke| stroke.kind == Kind::Rapid);
-    for stroke in rapids.into_iter().chain(cuts) {
+    let count = path.points().count();
+    // Many short strokes are as long as one long one.
+    let every = count.div_ceil(POINTS).max(1);
+    let thinned = path.strokes.len().div_ceil(POINTS).max(1);
+    for stroke in rapids.into_iter().step_by(thinned).chain(cuts.into_iter().step_by(thinned)) {
         let style = match stroke.kind {
-            Kind::Rapid => "stroke=\"#c60\" stroke-width=\"0.8\" stroke-dasharray=\"5 3\"",
-            Kind::Cut => "stroke=\"#036\" stroke-width=\"1.4\"",
+            Kind::Rapid => "stroke=\"#c60\" stroke-width=\"0.8\" stroke-dasharray=\"5 3\"".to_owned(),
+            Kind::Cut => format!("stroke=\"{}\" stroke-width=\"1.4\"", colour(stroke.tool)),
         };
-        let points: Vec<String> = stroke
-            .points
-            .iter()
-            .map(|point| {
-                let (x, y) = view.place(project(*point));
-                format!("{x:.2},{y:.2}")
-            })
-            .collect();
-        let _ = writeln!(out, "<polyline fill=\"none\" {style} points=\"{}\"/>", points.join(" "));
+        let last = stroke.points.len().saturating_sub(1);
+        let kept = stroke.points.iter().enumerate().filter(|(at, _)| at % every == 0 || *at == last);
+        let kept: Vec<Point> = kept.map(|(_, point)| *point).collect();
+        polyline(&kept, &style, &view, drawing, out);
+        if stroke.aside != 0.0 {
+            let style = format!("stroke=\"{}\" stroke-width=\"0.6\"", colour(stroke.tool));
+            polyline(&beside(&kept, stroke), &style, &view, drawing, out);
+        }
     }
-    for hole in &path.holes {
+    for hole in path.holes.iter().take(MARKS) {
         let (x, y) = view.place(project(*hole));
         let _ = writeln!(
             out,
             "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" fill=\"none\" stroke=\"#080\" stroke-width=\"1.5\"/>"
         );
     }
-    for touch in &path.touches {
+    for touch in path.touches.iter().take(MARKS) {
         let (x, y) = view.place(project(*touch));
         let _ = writeln!(
             out,
@@ -139,145 +209,54 @@ fn draw(path: &Path, drawing: &Drawing, corner: (f64, f64), out: &mut String) {
             x - 4.0
         );
     }
+    out.push_str("</g>\n");
+    // Start and end may lie outside: then they stand at the edge.
+    let inside =
+        |(x, y): (f64, f64)| (x.clamp(corner.0, corner.0 + SIZE), y.clamp(corner.1, corner.1 + SIZE));
     if let Some(start) = path.points().next() {
-        let (x, y) = view.place(project(start));
+        let (x, y) = inside(view.place(project(start)));
         let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" fill=\"#c60\"/>");
     }
-    out.push_str("</g>\n");
+    if let Some(end) = path.points().last() {
+        let (x, y) = inside(view.place(project(end)));
+        let mark = match broken {
+            true => format!(
+                "d=\"M{:.2} {:.2}l12 12m0 -12l-12 12\" stroke=\"#b00\" stroke-width=\"3\"",
+                x - 6.0,
+                y - 6.0
+            ),
+            false => format!("d=\"M{:.2} {:.2}h6v6h-6z\" fill=\"#000\"", x - 3.0, y - 3.0),
+        };
+        let _ = writeln!(out, "<path {mark}/>");
+    }
     view.scale(out);
 }
 
-fn legend(height: f64, out: &mut String) {
-    let y = height - 14.0;
-    let entries = [
-        ("stroke=\"#c60\" stroke-dasharray=\"5 3\"", "rapid"),
-        ("stroke=\"#036\" stroke-width=\"1.4\"", "feed"),
-    ];
-    for (at, (style, name)) in entries.into_iter().enumerate() {
-        let x = MARGIN + 110.0 * at as f64;
-        let _ = writeln!(
-            out,
-            "<line x1=\"{x}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" {style}/><text x=\"{:.1}\" y=\"{y}\">{name}</text>",
-            y - 4.0,
-            x + 40.0,
-            y - 4.0,
-            x + 46.0
-        );
-    }
-    let middle = y - 4.0;
-    let marks = [
-        (
-            format!("<circle r=\"4\" cy=\"{middle}\" fill=\"none\" stroke=\"#080\" stroke-width=\"1.5\""),
-            "hole",
-        ),
-        (format!("<path d=\"M-4 {middle}h8m-4 -4v8\" stroke=\"#b00\" stroke-width=\"1.5\""), "touch"),
-        (format!("<circle r=\"3\" cy=\"{middle}\" fill=\"#c60\""), "start"),
-    ];
-    for (at, (mark, name)) in marks.into_iter().enumerate() {
-        let x = MARGIN + 230.0 + 70.0 * at as f64;
-        let _ = writeln!(
-            out,
-            "{mark} transform=\"translate({x})\"/><text x=\"{}\" y=\"{y}\">{name}</text>",
-            x + 10.0
-        );
-    }
+fn polyline(points: &[Point], style: &str, view: &View, drawing: &Drawing, out: &mut String) {
+    let places: Vec<String> = points
+        .iter()
+        .map(|point| {
+            let (x, y) = view.place((drawing.project)(*point));
+            format!("{x:.2},{y:.2}")
+        })
+        .collect();
+    let _ = writeln!(out, "<polyline fill=\"none\" {style} points=\"{}\"/>", places.join(" "));
 }
 
-impl Path {
-    fn of(events: &[Event]) -> Self {
-        let mut path = Path::default();
-        for event in events {
-            match &event.what {
-                EventKind::Rapid { from, to } => path.line(Kind::Rapid, point(&from.0), point(&to.0)),
-                EventKind::Feed { from, to, .. } | EventKind::Thread { from, to, .. } => {
-                    path.line(Kind::Cut, point(&from.0), point(&to.0));
-                }
-                EventKind::Probe { from, to, hit, .. } => {
-                    path.line(Kind::Cut, point(&from.0), point(&to.0));
-                    path.touches.extend(hit.then(|| point(&to.0)));
-                }
-                EventKind::Arc { from, to, centre, plane, sweep, .. } => {
-                    let axes = match plane {
-                        crate::control::trace::Plane::Xy => (0, 1, 2),
-                        crate::control::trace::Plane::Zx => (2, 0, 1),
-                        crate::control::trace::Plane::Yz => (1, 2, 0),
-                    };
-                    path.arc((point(&from.0), point(&to.0)), point(&centre.0), axes, *sweep);
-                }
-                EventKind::Hole { at, .. } => path.holes.push(point(&at.0)),
-                _ => {}
+/// The middle of the cutter, about: each piece of the way is shifted to its side, and corners are not worked out.
+fn beside(points: &[Point], stroke: &Stroke) -> Vec<Point> {
+    let (first, second, _) = stroke.plane.axes();
+    let mut out = Vec::new();
+    for (from, to) in points.iter().zip(points.iter().skip(1)) {
+        let (ahead, left) = (to[first] - from[first], to[second] - from[second]);
+        let length = ahead.hypot(left);
+        if length > 0.0 {
+            for mut point in [*from, *to] {
+                point[first] -= left / length * stroke.aside;
+                point[second] += ahead / length * stroke.aside;
+                out.push(point);
             }
         }
-        path
     }
-
-    /// The drawing from above; of a path that has depth and no Y, over Z and X.
-    fn flat(&self) -> Drawing {
-        let moves = |axis: usize| {
-            let mut values = self.points().map(|point| point[axis]);
-            values.next().is_some_and(|first| values.any(|value| value != first))
-        };
-        if moves(2) && !moves(1) {
-            Drawing { axes: Some(('Z', 'X')), project: |point| (point[2], point[0]) }
-        } else {
-            Drawing { axes: Some(('X', 'Y')), project: |point| (point[0], point[1]) }
-        }
-    }
-
-    /// The points that a drawing must hold: all but the way to the first cut and the way from the last.
-    fn framed(&self) -> Vec<Point> {
-        if self.strokes.iter().all(|stroke| stroke.kind == Kind::Rapid) {
-            return self.points().collect();
-        }
-        let mut strokes: Vec<&[Point]> = self.strokes.iter().map(|stroke| &stroke.points[..]).collect();
-        if let Some((stroke, points)) = self.strokes.first().zip(strokes.first_mut())
-            && stroke.kind == Kind::Rapid
-        {
-            *points = &points[points.len().saturating_sub(1)..];
-        }
-        if let Some((stroke, points)) = self.strokes.last().zip(strokes.last_mut())
-            && stroke.kind == Kind::Rapid
-        {
-            *points = &points[..points.len().min(1)];
-        }
-        strokes.concat()
-    }
-
-    fn points(&self) -> impl Iterator<Item = Point> + '_ {
-        self.strokes.iter().flat_map(|stroke| stroke.points.iter().copied())
-    }
-
-    fn line(&mut self, kind: Kind, from: Point, to: Point) {
-        match self
-            .strokes
-            .last_mut()
-            .filter(|stroke| stroke.kind == kind && stroke.points.last() == Some(&from))
-        {
-            Some(stroke) => stroke.points.push(to),
-            None => self.strokes.push(Stroke { kind, points: vec![from, to] }),
-        }
-    }
-
-    /// An arc in pieces of at most three degrees.
-    fn arc(&mut self, (from, to): (Point, Point), centre: Point, axes: (usize, usize, usize), sweep: f64) {
-        let (first, second, along) = axes;
-        let (a, b) = (from[first] - centre[first], from[second] - centre[second]);
-        let pieces = ((sweep.abs() / 3.0).ceil() as usize).clamp(1, 400);
-        let mut before = from;
-        for piece in 1..=pieces {
-            let part = piece as f64 / pieces as f64;
-            let (sin, cos) = (sweep * part).to_radians().sin_cos();
-            let mut next = from;
-            next[first] = centre[first] + a * cos - b * sin;
-            next[second] = centre[second] + a * sin + b * cos;
-            next[along] = from[along] + (to[along] - from[along]) * part;
-            let next = if piece == pieces { to } else { next };
-            self.line(Kind::Cut, before, next);
-            before = next;
-        }
-    }
-}
-
-fn point(axes: &crate::control::scenario::Axes) -> Point {
-    [axes[0], axes[1], axes[2]]
+    out
 }

@@ -97,7 +97,7 @@ impl<'a> Questions<'a> {
         for (number, part) in parts.iter().enumerate() {
             // The lines of a file are counted when the first place in it is named.
             let mut lines: Option<(usize, LineIndex)> = None;
-            for (index, program) in part.conversion.programs.iter().enumerate() {
+            for (index, program) in part.programs() {
                 for finding in &program.diagnostics {
                     if finding.severity() == Severity::Note {
                         notes += 1;

@@ -65,7 +65,7 @@ pub(super) fn rules() -> Vec<Value> {
 fn results<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S::Error> {
     let mut out = serializer.serialize_seq(None)?;
     for part in parts {
-        let any = part.conversion.programs.iter().any(|program| !program.diagnostics.is_empty());
+        let any = part.programs().any(|(_, program)| !program.diagnostics.is_empty());
         let controls = (part.controls[0], part.controls[1]);
         let read = any.then(|| {
             with_pairs(part.inputs, part.conversion, controls, |pairs| of_part(part, Some(pairs), &mut out))
@@ -93,7 +93,7 @@ fn of_part<S: SerializeSeq>(part: &Part<'_>, pairs: Option<&Pairs<'_>>, out: &mu
         })
     };
     let step = |(file, span, text): &(usize, Span, &str)| json!({ "location": { "physicalLocation": region(*file, *span), "message": { "text": text } } });
-    for (at, program) in part.conversion.programs.iter().enumerate() {
+    for (at, program) in part.programs() {
         let file = program.file;
         let ways = Ways::of(part, pairs, at, links.get(&at).map_or(&[], Vec::as_slice));
         for d in &program.diagnostics {

@@ -230,8 +230,9 @@ fn told(parts: &[Part<'_>], asks: bool) -> String {
 }
 
 fn list(out: &mut String, part: &Part<'_>) {
-    let width = part.inputs.iter().map(|input| input.name.len()).max().unwrap_or(0).min(48);
-    for program in &part.conversion.programs {
+    let width =
+        part.programs().map(|(_, program)| part.inputs[program.file].name.len()).max().unwrap_or(0).min(48);
+    for (_, program) in part.programs() {
         let outcome = match program.outcome {
             Outcome::Converted => "converted",
             Outcome::Review => "review",

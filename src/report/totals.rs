@@ -34,8 +34,8 @@ impl Totals {
     pub fn of(parts: &[Part<'_>]) -> Self {
         let mut totals = Self::default();
         for part in parts {
-            totals.files += part.inputs.len();
-            for program in &part.conversion.programs {
+            totals.files += part.files();
+            for (_, program) in part.programs() {
                 totals.programs += 1;
                 *match program.outcome {
                     Outcome::Converted => &mut totals.converted,

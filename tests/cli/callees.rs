@@ -145,3 +145,76 @@ fn the_manifest_grows_with_the_library() {
     assert!(more - few < 30 * 2_000, "{few} {more}");
     assert!(more < 6 * few, "{few} {more}");
 }
+
+const CALLER: &str = "O1\nG21 G90 G17 G54\n#101=20.\nG0 Z50.\nM98 P2\nG0 X#102\nM30\n";
+const SUM: &str = "O2\n#102=#101*2\nG1 X#102 F100.\nM99\n";
+
+/// One program of a library goes where it goes with the whole, and the rest stays as it is.
+#[test]
+fn a_program_is_converted_with_its_library() {
+    let shop = Shop::with(&[("lib/main.nc", CALLER), ("lib/sub/o2.nc", SUM), ("lib/other.nc", "O7\nM30\n")]);
+    let whole = shop.run("convert lib --from fanuc --to haas --out whole --quiet");
+    assert_eq!(whole.code, 0, "{}", whole.out);
+    let one = shop.run("convert lib/main.nc --library lib --from fanuc --to haas --out one --quiet");
+    assert_eq!(one.code, 0, "{}", one.err);
+    assert_eq!(shop.read("one/main.nc"), shop.read("whole/main.nc"));
+    assert!(!shop.path("one/sub").exists() && !shop.path("one/other.nc").exists());
+    // What it calls must stand there too; what it does not call need not.
+    assert!(one.err.contains("one/sub/o2.nc is not there yet: convert lib/sub/o2.nc"), "{}", one.err);
+    assert!(!one.err.contains("other.nc"), "{}", one.err);
+    assert!(one.out.contains("1 program in 1 file") && one.out.contains("1 verified"), "{}", one.out);
+    let both = shop.run("convert lib/sub/o2.nc --library lib --from fanuc --to haas --out one --quiet");
+    assert_eq!((both.code, both.err.as_str()), (0, ""));
+    assert_eq!(shop.read("one/sub/o2.nc"), shop.read("whole/sub/o2.nc"));
+    assert_eq!(shop.read("one/macroglot.lock"), shop.read("whole/macroglot.lock"));
+    // Its certificate rests on what it was verified with, and goes when that changes.
+    assert!(shop.path("one/main.nc.certificate.json").exists());
+    // The source of the callee changes: its conversion is the old one.
+    shop.write("lib/sub/o2.nc", SUM.replace("*2", "*3").as_bytes());
+    let again = shop.run("convert lib/main.nc --library lib --from fanuc --to haas --out one --quiet");
+    let what =
+        "one/sub/o2.nc is not what this conversion goes with: convert lib/sub/o2.nc into the same folder too";
+    assert!(again.err.contains(what), "{}", again.err);
+    shop.write("lib/sub/o2.nc", SUM.replace("*2", "*4").as_bytes());
+    let other = shop.run("convert lib/sub/o2.nc --library lib --from fanuc --to haas --out one --quiet");
+    assert!(other.out.contains("unverified main.nc: "), "{}", other.out);
+    assert!(!shop.path("one/main.nc.certificate.json").exists());
+}
+
+/// The library is read and never written, whatever is named.
+#[test]
+fn a_library_is_never_written() {
+    let shop = Shop::with(&[("main.nc", CALLER), ("lib/o2.nc", SUM)]);
+    // A file that does not stand in the library goes with it all the same; alone it goes to standard output.
+    let run = shop.run("convert main.nc --library lib --from fanuc --to haas --quiet");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("M98 P2") && !run.out.contains("O0002"), "{}", run.out);
+    // Without the library nothing is known of what it calls.
+    let alone = shop.run("convert main.nc --from fanuc --to haas --quiet");
+    assert!(alone.err.contains("0 verified"), "{}", alone.err);
+    shop.fails(
+        "convert main.nc --library lib --from fanuc --to haas --out lib",
+        &["lib/o2.nc", "overwritten"],
+    );
+    assert_eq!(shop.read("lib/o2.nc"), SUM);
+    shop.fails("convert main.nc --library lib --from fanuc --to haas --out .", &["main.nc", "overwritten"]);
+    shop.fails("convert --library lib", &["--library goes with files"]);
+    shop.write("lib/main.nc", b"O9\nM30\n");
+    let twice = ["main.nc and lib/main.nc would both be written to main.nc"];
+    shop.fails("convert main.nc --library lib --from fanuc --to haas --out out", &twice);
+}
+
+/// Reports tell of the named programs, and show them with what they call.
+#[test]
+fn a_report_tells_of_the_named_programs() {
+    let shop = Shop::with(&[("lib/main.nc", CALLER), ("lib/o2.nc", SUM)]);
+    let line = "convert lib/main.nc --library lib --from fanuc --to haas --out out --report r.html --report r.json --report r.md";
+    assert_eq!(shop.run(line).code, 0);
+    let json: serde_json::Value = serde_json::from_str(&shop.read("r.json")).unwrap();
+    assert_eq!(json["programs"].as_array().map(Vec::len), Some(1));
+    assert_eq!(json["programs"][0]["verdict"], "same");
+    let (html, markdown) = (shop.read("r.html"), shop.read("r.md"));
+    assert!(!markdown.contains("o2.nc"), "{markdown}");
+    // The path goes to X40 in the callee: the run of the picture had it. The hash of its source is in the report.
+    assert!(html.contains("In this run no move, feed, wait or stop differs") && html.contains("lib/o2.nc"));
+}

@@ -431,3 +431,52 @@ fn a_program_that_reads_its_sequence_number() {
         );
     }
 }
+
+/// Both paths lie between X-10 and X10, Y0 and Y10: 24.08 pixels a millimetre, X0 at 340 and Y0 at 496.4. The old move ends
+/// at X10, 240.8 to the right, and the new one at X-10.
+#[test]
+fn both_paths_in_one_picture() {
+    let new = OLD.replace("G1 X10. F100", "G1 X-10. F100");
+    let shop = Shop::with(&[("old.nc", OLD), ("new.nc", &new)]);
+    shop.run("diff old.nc new.nc --from fanuc --plot both.svg --motion");
+    let svg = shop.read("both.svg");
+    for ring in ["cx=\"580.8\" cy=\"496.4\" r=\"7\"", "cx=\"99.2\" cy=\"496.4\" r=\"7\""] {
+        assert!(svg.contains(ring), "{ring}: {svg}");
+    }
+    // The line of the new program stands beside its ring.
+    assert!(svg.contains("<text class=\"ap\" x=\"108.2\" y=\"491.4\">6</text>"), "{svg}");
+    assert!(svg.contains(">old.nc and new.nc<") && svg.contains(">XY, mm<"), "{svg}");
+    // As PNG, twice as large; its size stands in big-endian numbers after the name of the first part.
+    shop.run("diff old.nc new.nc --from fanuc --plot both.PNG");
+    let png = std::fs::read(shop.path("both.PNG")).unwrap();
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!((&png[16..20], &png[20..24]), (&2600_u32.to_be_bytes()[..], &1552_u32.to_be_bytes()[..]));
+    let same = shop.run("diff old.nc old.nc --from fanuc --plot same.svg");
+    assert_eq!(same.code, 0);
+    assert!(shop.read("same.svg").contains("no move, feed, wait or stop differs"));
+}
+
+/// A difference that only the size of a tool makes is drawn with sizes.
+#[test]
+fn what_only_a_tools_length_shows_is_drawn_with_it() {
+    let old = "O1\nG21 G17 G90 G54\nT1 M6\nG43 H1 Z50.\nG1 Z0. F100\nG49 G0 Z100.\nM30\n";
+    let shop = Shop::with(&[("old.nc", old), ("new.nc", &old.replace("H1", "H2"))]);
+    shop.run("diff old.nc new.nc --from fanuc --plot both.svg");
+    let svg = shop.read("both.svg");
+    assert!(svg.contains("class=\"ap\"") && !svg.contains("no move"), "{svg}");
+}
+
+#[test]
+fn a_picture_of_what_has_no_counterpart_says_so() {
+    let shop = Shop::with(&[("old.nc", OLD), ("still.nc", "O5\nM30\n")]);
+    shop.run("diff /dev/null old.nc --from fanuc --plot none.svg");
+    assert!(shop.read("none.svg").contains("no program stands on both sides"));
+    shop.run("diff still.nc still.nc --from fanuc --plot still.svg");
+    assert!(shop.read("still.svg").contains("neither program makes a move"));
+    // What is compared is never drawn over.
+    for input in ["old.nc", "still.nc"] {
+        let run = shop.run(&format!("diff old.nc still.nc --from fanuc --plot {input} --force"));
+        assert!(run.err.contains("would be overwritten"), "{}", run.err);
+    }
+    assert_eq!(shop.read("old.nc"), OLD);
+}

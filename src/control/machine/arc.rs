@@ -1,7 +1,6 @@
 //! Arcs.
 
 use super::rules::NoCentre;
-use super::state::axes_of;
 use super::{Command, Machine};
 use crate::canon::{Op, Role};
 use crate::control::outcome::Stop;
@@ -20,7 +19,7 @@ struct Flat {
 }
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
-    let (first, second, _) = axes_of(machine.plane);
+    let (first, second, _) = machine.plane.axes();
     let from = machine.frame.program(&machine.position);
     let end = machine.target(command);
     let to = machine.frame.program(&end);
@@ -55,7 +54,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
 }
 
 fn record(machine: &mut Machine, flat: &Flat, centre: (f64, f64), ends: (Axes, Axes), trace: &mut Trace) {
-    let (first, second, _) = axes_of(machine.plane);
+    let (first, second, _) = machine.plane.axes();
     let (from, end) = ends;
     let mut middle = from;
     (middle[first], middle[second]) = centre;

@@ -27,6 +27,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
     if places_length(machine, command) {
         machine.place_by_length(trace);
     }
+    trace.zero(machine.zero());
     motion::run(machine, command, trace)?;
     auxiliary::behind(machine, command, &before, trace);
     for &op in &command.ops {

@@ -1,7 +1,6 @@
 //! Drilling cycles: their planes, their repeats, where they run.
 
 use super::command::axis;
-use super::state::axes_of;
 use super::{Command, Machine, expand};
 use crate::canon::{Op, Role};
 use crate::control::entry::Drilling;
@@ -39,7 +38,7 @@ pub(super) struct Planes {
 }
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
-    let (first, second, along) = axes_of(machine.plane);
+    let (first, second, along) = machine.plane.axes();
     let begins = command.ops.iter().rev().copied().find(|op| op.is_cycle());
     if let Some(op) = begins {
         let height = machine.frame.program(&machine.position)[along];
@@ -99,7 +98,7 @@ fn place_only(
     (runs, count): (bool, u32),
     trace: &mut Trace,
 ) -> Result<(), Stop> {
-    let (_, _, along) = axes_of(machine.plane);
+    let (_, _, along) = machine.plane.axes();
     if !runs && count != 0 {
         let mut to = machine.target(&across(command, along));
         to[along] = machine.position[along];
@@ -150,7 +149,7 @@ fn hole(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
 /// The cycle at the place that a rotation puts the last programmed one to: rotations by 36 and
 /// then by 72 degrees drill at 36 and at 72, not at 108.
 pub(super) fn at_turned_place(machine: &mut Machine, trace: &mut Trace) -> Result<(), Stop> {
-    let (first, second, along) = axes_of(machine.plane);
+    let (first, second, along) = machine.plane.axes();
     let mut to = machine.frame.machine(&machine.unturned);
     to[along] = machine.position[along];
     if to[first] != machine.position[first] || to[second] != machine.position[second] {

@@ -2,7 +2,6 @@
 
 use super::Machine;
 use super::cycle::{Cycle, Planes};
-use super::state::axes_of;
 use crate::canon::Op;
 use crate::control::scenario::Axes;
 use crate::control::trace::{EventKind, FeedMode, Position, Spindle, Told, Trace};
@@ -29,7 +28,7 @@ struct Driver<'a> {
 
 impl<'a> Driver<'a> {
     fn new(machine: &'a mut Machine, planes: Planes, trace: &'a mut Trace) -> Self {
-        let along = axes_of(machine.plane).2;
+        let along = machine.plane.axes().2;
         Self { machine, trace, planes, along }
     }
 
@@ -162,7 +161,7 @@ impl<'a> Driver<'a> {
 
     /// Moves the tool off the wall by the cycle's shift, or back.
     fn shift(&mut self, cycle: &Cycle, sign: f64) {
-        let (first, second, _) = axes_of(self.machine.plane);
+        let (first, second, _) = self.machine.plane.axes();
         let (mut dx, mut dy) = cycle.shift;
         if let Some(by) = cycle.peck {
             // Which way Q shifts is a parameter of the machine, and its sign is ignored.

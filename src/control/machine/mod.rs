@@ -33,7 +33,7 @@ pub(super) use rules::Rules;
 use super::outcome::Stop;
 use super::scenario::{Axes, Probe, Scenario, Tool};
 use super::table::Table;
-use super::trace::{FeedMode, Plane, Side, Spindle, Trace};
+use super::trace::{FeedMode, Plane, Side, Spindle, Trace, Zero};
 use crate::canon::{Group, Op, Pause, Sys};
 use crate::dialect::{Control, Units};
 use cycle::Cycle;
@@ -211,6 +211,12 @@ impl Machine {
     /// Simulated time, milliseconds.
     pub fn clock(&self) -> f64 {
         self.clock
+    }
+
+    /// Where the program counts from.
+    fn zero(&self) -> Zero {
+        let at = std::array::from_fn(|axis| self.frame.shift(axis) - self.frame.local[axis]);
+        Zero { at, inch: self.inch, plane: self.plane }
     }
 
     /// Millimetres of one unit of length of the program.

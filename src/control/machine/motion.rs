@@ -1,7 +1,6 @@
 //! Moves.
 
 use super::command::is_rotary;
-use super::state::axes_of;
 use super::tooling::LostBy;
 use super::{Command, Machine, arc, cycle};
 use crate::canon::{Group, Op, Role};
@@ -268,7 +267,7 @@ impl Machine {
 
     /// Under polar words the first axis of the plane is a distance, the second an angle.
     fn polar_target(&self, command: &Command) -> Axes {
-        let (first, second, _) = axes_of(self.plane);
+        let (first, second, _) = self.plane.axes();
         let mut work = self.frame.program(&self.position);
         let mut distance = work[first].hypot(work[second]);
         let mut angle = work[second].atan2(work[first]).to_degrees();

@@ -98,17 +98,8 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
     }
 }
 
-/// The axes of a plane, the one that counts as X first, and the axis that drilling goes along.
-pub(super) fn axes_of(plane: Plane) -> (usize, usize, usize) {
-    match plane {
-        Plane::Xy => (0, 1, 2),
-        Plane::Zx => (2, 0, 1),
-        Plane::Yz => (1, 2, 0),
-    }
-}
-
 fn rotate(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    let (first, second, _) = axes_of(machine.plane);
+    let (first, second, _) = machine.plane.axes();
     machine.unturned = machine.frame.program(&machine.position);
     machine.frame.rotation = None;
     let mut centre = machine.frame.program(&machine.position);

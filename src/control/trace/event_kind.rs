@@ -36,6 +36,17 @@ pub enum Plane {
     Yz,
 }
 
+impl Plane {
+    /// Its two axes, the one that counts as X first, and the axis that drilling goes along.
+    pub fn axes(self) -> (usize, usize, usize) {
+        match self {
+            Plane::Xy => (0, 1, 2),
+            Plane::Zx => (2, 0, 1),
+            Plane::Yz => (1, 2, 0),
+        }
+    }
+}
+
 /// What a feed number counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -27,8 +27,9 @@ pub struct Wanted<'b> {
     pub source: &'b str,
     /// What is to stand there.
     pub bytes: Cow<'b, [u8]>,
-    /// Of a certificate: the names of the other conversions that it rests on.
-    pub rests_on: Vec<String>,
+    /// Of a certificate: the names of the other conversions that it rests on, and the hashes of their texts. They may be of
+    /// another run.
+    pub rests_on: Vec<(String, String)>,
 }
 
 /// What a person is told of a folder.
@@ -125,9 +126,8 @@ pub fn changes<'b>(
             at,
             sha256: hashes.get(&wanted.name).cloned().unwrap_or_default(),
             rests_on: (!wanted.rests_on.is_empty()).then(|| {
-                let all = wanted.rests_on.iter().map(String::as_str).chain([wanted.source]);
-                let all = all.filter_map(|name| Some((name.to_owned(), hashes.get(name)?.clone())));
-                next.together(&mut sets, all.collect())
+                let own = hashes.get(wanted.source).map(|hash| (wanted.source.to_owned(), hash.clone()));
+                next.together(&mut sets, wanted.rests_on.iter().cloned().chain(own).collect())
             }),
         };
         next.files.insert(wanted.name.clone(), entry);

@@ -65,7 +65,7 @@ fn library<'a>(part: &Part<'a>) -> Library<'a> {
         profile: control.profile().file.as_ref().map(|path| path.display().to_string()),
         sha256: Identity::of(control).sha256,
     });
-    let programs = part.conversion.programs.iter().map(|program| Program {
+    let programs = part.programs().map(|(_, program)| Program {
         file: program.file,
         program: program.name.as_deref(),
         outcome: program.outcome,

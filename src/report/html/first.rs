@@ -145,7 +145,7 @@ fn undecided(out: &mut String, parts: &[Part<'_>], numbers: &Numbers) {
     let mut all: BTreeMap<String, Vec<(usize, String)>> = BTreeMap::new();
     for (at, part) in parts.iter().enumerate() {
         let is_copied = part.controls[0].is_same_machine(part.controls[1]);
-        for (index, program) in part.conversion.programs.iter().enumerate() {
+        for (index, program) in part.programs() {
             if program.outcome == Outcome::Refused || program.verdict == Some(verify::Outcome::Same) {
                 continue;
             }
@@ -221,7 +221,7 @@ pub fn index(out: &mut String, parts: &[Part<'_>], numbers: &Numbers) {
         if parts.len() > 1 {
             let _ = writeln!(out, "<tr><th colspan=\"4\">{} to {}", escaped(part.from), escaped(part.to));
         }
-        for (index, program) in part.conversion.programs.iter().enumerate() {
+        for (index, program) in part.programs() {
             let name = id(numbers.number(at, index));
             let _ = writeln!(
                 out,

@@ -36,7 +36,7 @@ pub fn conversion(parts: &[Part<'_>], date: Date) -> String {
     asked::questions(&mut out, parts, &numbers);
     first::index(&mut out, parts, &numbers);
     out.push_str("<h2 id=\"programs\">Programs</h2>\n");
-    if parts.iter().all(|part| part.conversion.programs.is_empty()) {
+    if parts.iter().all(|part| part.programs().next().is_none()) {
         out.push_str("<p>There is no program.</p>\n");
     }
     for (at, part) in parts.iter().enumerate() {
@@ -49,8 +49,8 @@ pub fn conversion(parts: &[Part<'_>], date: Date) -> String {
     first::files(&mut out, parts);
     let codes: BTreeSet<Code> = parts
         .iter()
-        .flat_map(|part| &part.conversion.programs)
-        .flat_map(|program| program.diagnostics.iter().map(|finding| finding.code))
+        .flat_map(Part::programs)
+        .flat_map(|(_, program)| program.diagnostics.iter().map(|finding| finding.code))
         .collect();
     pages::pages(&mut out, &codes);
     let _ = writeln!(
@@ -79,7 +79,7 @@ fn head(out: &mut String) {
 /// The programs of a library.
 fn programs(part: &Part<'_>, at: usize, numbers: &Numbers, pairs: Option<&Pairs<'_>>) -> String {
     let mut out = String::new();
-    let all: Vec<usize> = (0..part.conversion.programs.len()).collect();
+    let all: Vec<usize> = part.programs().map(|(index, _)| index).collect();
     let lines = part.indexes();
     for some in all.chunks(AT_ONCE) {
         let made = some.par_iter().map(|index| {

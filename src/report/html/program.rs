@@ -102,8 +102,7 @@ fn path(out: &mut String, picture: &Picture, at: usize) {
     let Picture { scenario, source, target, apart } = picture;
     let name =
         if target.is_some() { "the path of the source and of the target" } else { "the path of the source" };
-    let theirs = target.as_ref().map(|run| run.events.as_slice());
-    let drawn = overlay(&source.events, theirs, at, name);
+    let drawn = overlay(picture, at, name);
     out.push_str("<h4>Path</h4>\n");
     let variables: Vec<String> = scenario
         .variables
@@ -120,7 +119,7 @@ fn path(out: &mut String, picture: &Picture, at: usize) {
     let _ = writeln!(
         out,
         "<p class=\"small\">One run{}: the part's zero is the machine's, and tools have no size. The source {}{}. \
-         Wide and pale is the source, thin and dark the target; rapid moves are brown.</p>",
+         Wide and pale is the source, thin and dark the target; rapid moves are brown. A red ring is where a move differs, with its line.</p>",
         escaped(&with),
         escaped(&end(source)),
         target.as_ref().map(|run| format!("; the target {}", escaped(&end(run)))).unwrap_or_default()

@@ -1,107 +1,162 @@
-//! The paths of a program and of its conversion in one picture: the source's wide and pale, the target's thin over it.
+//! The paths of a program and of its counterpart over each other: the source's wide and pale, the target's thin over it.
 
 use super::super::html::escaped;
+use super::path::Name;
 use super::view::{Bounds, View};
-use super::{Drawing, Kind, Path, Point};
-use crate::control::trace::Event;
+use super::{Coordinates, Drawing, Kind, Path, Point};
+use crate::verify::{Picture, Seen};
 use std::fmt::Write;
 
-/// Side of a drawing, in pixels.
-const SIZE: f64 = 330.0;
-/// Room round a drawing.
-const MARGIN: f64 = 46.0;
+/// How large two drawings side by side are, and how much of a path they show.
+#[derive(Clone, Copy)]
+pub(super) struct Sheet {
+    /// Side of a drawing, in pixels.
+    pub size: f64,
+    /// Room round a drawing.
+    pub margin: f64,
+    /// Points that are drawn of a side, about; of a longer path some are left out.
+    pub points: usize,
+    /// Holes and touches that are drawn of a side.
+    pub marks: usize,
+}
 
-/// Points that are drawn of a side, about; of a longer path some are left out.
-const POINTS: usize = 1200;
-
-/// Holes and touches that are drawn of a side.
-const MARKS: usize = 300;
-
-/// Both paths as an SVG; none where nothing moves. `id` tells its parts from those of other pictures in the page.
-pub fn overlay(source: &[Event], target: Option<&[Event]>, id: usize, title: &str) -> Option<String> {
-    let source = Path::of(source);
-    let target = target.map(Path::of);
-    let mut both = Path::default();
-    for path in [Some(&source), target.as_ref()].into_iter().flatten() {
-        both.strokes.extend(path.strokes.iter().cloned());
+impl Sheet {
+    /// The width of both drawings with the room round them.
+    pub fn width(&self) -> f64 {
+        2.0 * self.size + 3.0 * self.margin
     }
-    if both.strokes.is_empty() {
-        return None;
+}
+
+/// In a page of many pictures.
+const IN_A_PAGE: Sheet = Sheet { size: 330.0, margin: 46.0, points: 1200, marks: 300 };
+
+/// Places that are marked at which the two differ.
+const NAMED: usize = 40;
+
+/// Both paths.
+pub(super) struct Both {
+    pub source: Path,
+    pub target: Option<Path>,
+    /// What a drawing must hold, and what it avoids.
+    all: Path,
+}
+
+impl Both {
+    /// Both runs of a picture, with the places at which they differ; none where nothing moves.
+    pub fn of(picture: &Picture, coordinates: Coordinates) -> Option<Self> {
+        let changes = || picture.apart.changes.iter().take(NAMED);
+        let name = |seen: &'_ Seen, told: bool| {
+            if told { seen.moment.line.to_string() } else { String::new() }
+        };
+        // The new line stands beside both rings of a move that goes elsewhere; the old one where nothing else stands.
+        let ours: Vec<Name<'_>> = changes()
+            .filter_map(|change| Some((change.old.as_ref()?, change.new.is_none())))
+            .map(|(old, alone)| Name { at: old.at, what: &old.what, name: name(old, alone) })
+            .collect();
+        let theirs: Vec<Name<'_>> = changes()
+            .filter_map(|change| change.new.as_ref())
+            .map(|new| Name { at: new.at, what: &new.what, name: name(new, true) })
+            .collect();
+        let target = picture.target.as_ref().map(|run| (run, theirs.as_slice()));
+        Self::new(Path::of_both((&picture.source, &ours), target, coordinates))
     }
-    let (width, height) = (2.0 * SIZE + 3.0 * MARGIN, SIZE + 1.7 * MARGIN);
+
+    /// None where nothing moves.
+    fn new((source, target): (Path, Option<Path>)) -> Option<Self> {
+        let mut all = Path::default();
+        for path in [Some(&source), target.as_ref()].into_iter().flatten() {
+            all.strokes.extend(path.strokes.iter().cloned());
+        }
+        (!all.strokes.is_empty()).then_some(Self { source, target, all })
+    }
+
+    /// The points that a drawing must hold.
+    fn framed(&self) -> Vec<Point> {
+        let mut points = self.source.framed();
+        points.extend(self.target.as_ref().map(Path::framed).unwrap_or_default());
+        points
+    }
+}
+
+/// Both paths as an SVG, in the unit of the source and in work coordinates; none where nothing moves. `id` tells its parts from
+/// those of other pictures in the page.
+pub fn overlay(picture: &Picture, id: usize, title: &str) -> Option<String> {
+    Some(in_a_page(&Both::of(picture, Coordinates::Work)?, id, title))
+}
+
+fn in_a_page(both: &Both, id: usize, title: &str) -> String {
+    let sheet = IN_A_PAGE;
+    let (width, height) = (sheet.width(), sheet.size + 1.7 * sheet.margin);
     let mut out = format!(
         "<svg role=\"img\" width=\"{width}\" height=\"{height:.0}\" viewBox=\"0 0 {width} {height:.0}\"><title>{}</title>\n",
         escaped(title)
     );
+    drawings(both, &sheet, id, 0.6 * sheet.margin, &mut out);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// From above and askew, below `top`.
+pub(super) fn drawings(both: &Both, sheet: &Sheet, id: usize, top: f64, out: &mut String) {
     let askew = Drawing { axes: None, project: super::ISOMETRIC };
-    for (column, drawing) in [both.flat(), askew].into_iter().enumerate() {
-        let corner = (MARGIN + column as f64 * (SIZE + MARGIN), 0.6 * MARGIN);
-        let framed = both_framed(&source, target.as_ref());
-        let view = View::new(Bounds::of(framed.into_iter().map(drawing.project)), corner, SIZE);
-        frame(&both, &view, &drawing, (id, column), corner, &mut out);
-        side(&source, &view, &drawing, ["sr", "sc"], &mut out);
-        if let Some(target) = &target {
-            side(target, &view, &drawing, ["tr", "tc"], &mut out);
+    for (column, drawing) in [both.all.flat(), askew].into_iter().enumerate() {
+        let corner = (sheet.margin + column as f64 * (sheet.size + sheet.margin), top);
+        let bounds = Bounds::of(both.framed().into_iter().map(drawing.project));
+        let view = View::new(bounds, corner, sheet.size).in_unit(both.source.unit());
+        frame(both, sheet, &view, &drawing, (id, column), corner, out);
+        side(&both.source, sheet, &view, &drawing, ["sr", "sc"], out);
+        if let Some(target) = &both.target {
+            side(target, sheet, &view, &drawing, ["tr", "tc"], out);
         }
         out.push_str("</g>\n");
-        view.scale(&mut out);
+        for path in [Some(&both.source), both.target.as_ref()].into_iter().flatten() {
+            marks(path, sheet, &view, &drawing, corner, out);
+        }
+        view.scale(out);
     }
-    out.push_str("</svg>\n");
-    Some(out)
 }
 
-/// The points that a drawing must hold.
-fn both_framed(source: &Path, target: Option<&Path>) -> Vec<Point> {
-    let mut points = source.framed();
-    points.extend(target.map(Path::framed).unwrap_or_default());
-    points
-}
-
-/// The square, its axes, and the clipping of what goes on behind its edge.
+/// The square, its axes, and the clipping of what goes on beyond its edge.
 fn frame(
-    both: &Path,
+    both: &Both,
+    sheet: &Sheet,
     view: &View,
     drawing: &Drawing,
     (id, column): (usize, usize),
     (left, top): (f64, f64),
     out: &mut String,
 ) {
+    let (size, unit) = (sheet.size, both.source.unit());
     let name = match drawing.axes {
-        Some((across, up)) => format!("{across}{up}, mm"),
-        None => "isometric, mm".to_owned(),
+        Some((across, up)) => format!("{across}{up}, {unit}"),
+        None => format!("isometric, {unit}"),
     };
     let _ = writeln!(
         out,
-        "<text x=\"{left}\" y=\"{:.0}\">{name}</text><rect x=\"{left}\" y=\"{top:.1}\" width=\"{SIZE}\" height=\"{SIZE}\" class=\"fr\"/>",
+        "<text x=\"{left}\" y=\"{:.0}\">{name}</text><rect x=\"{left}\" y=\"{top:.1}\" width=\"{size}\" height=\"{size}\" class=\"fr\"/>",
         top - 6.0
     );
     match drawing.axes {
         Some(names) => view.axes(names, out),
-        None => {
-            let arm = view.span() * 0.1;
-            let foot = view.free_corner(both.points().map(drawing.project));
-            let zero = (drawing.project)([0.0; 3]);
-            for (label, end) in [("X", [arm, 0.0, 0.0]), ("Y", [0.0, arm, 0.0]), ("Z", [0.0, 0.0, arm])] {
-                view.arrow(foot, zero, (drawing.project)(end), label, out);
-            }
-        }
+        None => view.cross(both.all.points(), drawing.project, out),
     }
     let _ = writeln!(
         out,
-        "<clipPath id=\"k{id}-{column}\"><rect x=\"{left}\" y=\"{top:.1}\" width=\"{SIZE}\" height=\"{SIZE}\"/></clipPath><g clip-path=\"url(#k{id}-{column})\">"
+        "<clipPath id=\"k{id}-{column}\"><rect x=\"{left}\" y=\"{top:.1}\" width=\"{size}\" height=\"{size}\"/></clipPath><g clip-path=\"url(#k{id}-{column})\">"
     );
 }
 
 /// The path of a side: cuts over rapids.
-fn side(path: &Path, view: &View, drawing: &Drawing, [rapid, cut]: [&str; 2], out: &mut String) {
+fn side(path: &Path, sheet: &Sheet, view: &View, drawing: &Drawing, names: [&str; 2], out: &mut String) {
+    let [rapid, cut] = names;
     let place = |point: &Point| view.place((drawing.project)(*point));
     let all = path.points().count();
-    let every = all.div_ceil(POINTS).max(1);
+    let every = all.div_ceil(sheet.points).max(1);
     for (kind, class) in [(Kind::Rapid, rapid), (Kind::Cut, cut)] {
         let mut way = String::new();
         let strokes = path.strokes.iter().filter(|stroke| stroke.kind == kind);
         // Many short strokes are as long as one long one.
-        let thinned = path.strokes.len().div_ceil(POINTS).max(1);
+        let thinned = path.strokes.len().div_ceil(sheet.points).max(1);
         for stroke in strokes.step_by(thinned) {
             let last = stroke.points.len().saturating_sub(1);
             let kept = stroke.points.iter().enumerate().filter(|(at, _)| at % every == 0 || *at == last);
@@ -114,41 +169,70 @@ fn side(path: &Path, view: &View, drawing: &Drawing, [rapid, cut]: [&str; 2], ou
             let _ = writeln!(out, "<path class=\"{class}\" d=\"{way}\"/>");
         }
     }
-    for hole in path.holes.iter().take(MARKS) {
+    let finite = |point: &&Point| point.iter().all(|value| value.is_finite());
+    for hole in path.holes.iter().filter(finite).take(sheet.marks) {
         let (x, y) = place(hole);
         let _ = writeln!(out, "<circle class=\"{cut}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>");
     }
-    for touch in path.touches.iter().take(MARKS) {
+    for touch in path.touches.iter().filter(finite).take(sheet.marks) {
         let (x, y) = place(touch);
         let _ = writeln!(out, "<path class=\"{cut}\" d=\"M{:.1} {y:.1}h8m-4 -4v8\"/>", x - 4.0);
+    }
+}
+
+/// Where a path starts and ends, and where something differs. What lies outside stands at the edge.
+fn marks(
+    path: &Path,
+    sheet: &Sheet,
+    view: &View,
+    drawing: &Drawing,
+    (left, top): (f64, f64),
+    out: &mut String,
+) {
+    let place = |point: Point| {
+        let (x, y) = view.place((drawing.project)(point));
+        let inside = (x.clamp(left, left + sheet.size), y.clamp(top, top + sheet.size));
+        (x.is_finite() && y.is_finite()).then_some(inside)
+    };
+    if let Some((x, y)) = path.points().next().and_then(place) {
+        let _ = writeln!(out, "<circle class=\"en\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.5\"/>");
+    }
+    if let Some((x, y)) = path.points().last().and_then(place) {
+        let _ = writeln!(
+            out,
+            "<rect class=\"en\" x=\"{:.1}\" y=\"{:.1}\" width=\"5\" height=\"5\"/>",
+            x - 2.5,
+            y - 2.5
+        );
+    }
+    for mark in &path.marks {
+        let Some((x, y)) = place(mark.at) else { continue };
+        let _ = writeln!(
+            out,
+            "<circle class=\"ap\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7\"/><text class=\"ap\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+            x + 9.0,
+            y - 5.0,
+            escaped(&mark.name)
+        );
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::trace::{EventKind, Place, Position, Told};
 
-    fn feeds(points: &[[f64; 2]]) -> Vec<Event> {
-        let at = |[x, y]: [f64; 2]| {
-            let mut position = Position::default();
-            (position.0[0], position.0[1]) = (x, y);
-            position
-        };
-        let event = |pair: &[[f64; 2]]| Event {
-            at: Place::default(),
-            what: EventKind::Rapid { from: at(pair[0]), to: at(pair[1]) },
-            rounded: 0.0,
-            told: Told::Plain,
-            open: [false; 2],
-        };
-        points.windows(2).map(event).collect()
+    fn rapids(points: &[[f64; 2]]) -> Path {
+        let mut path = Path::default();
+        for pair in points.windows(2) {
+            path.line(Kind::Rapid, [pair[0][0], pair[0][1], 0.0], [pair[1][0], pair[1][1], 0.0]);
+        }
+        path
     }
 
     #[test]
     fn a_picture_is_bounded_and_has_both_sides() {
         let long: Vec<[f64; 2]> = (0..50_000).map(|at| [f64::from(at % 100), f64::from(at)]).collect();
-        let drawn = overlay(&feeds(&long), Some(&feeds(&long)), 7, "<a>").unwrap();
+        let drawn = in_a_page(&Both::new((rapids(&long), Some(rapids(&long)))).unwrap(), 7, "<a>");
         assert!(drawn.len() < 120_000, "{}", drawn.len());
         assert_eq!((drawn.matches("class=\"sr\"").count(), drawn.matches("class=\"tr\"").count()), (2, 2));
         assert!(drawn.contains("<title>&lt;a&gt;</title>") && drawn.contains("id=\"k7-0\""));
@@ -156,9 +240,9 @@ mod tests {
 
     #[test]
     fn numbers_without_a_place_are_not_drawn() {
-        let odd = feeds(&[[0.0, 0.0], [f64::NAN, 1.0], [f64::INFINITY, 2.0], [3.0, 4.0]]);
-        let drawn = overlay(&odd, None, 1, "").unwrap();
+        let odd = rapids(&[[0.0, 0.0], [f64::NAN, 1.0], [f64::INFINITY, 2.0], [3.0, 4.0]]);
+        let drawn = in_a_page(&Both::new((odd, None)).unwrap(), 1, "");
         assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
-        assert_eq!(overlay(&[], Some(&[]), 1, ""), None);
+        assert!(Both::new((Path::default(), Some(Path::default()))).is_none());
     }
 }

@@ -1,5 +1,6 @@
-//! From millimetres to pixels.
+//! From lengths to pixels.
 
+use super::Point;
 use std::fmt::Write;
 
 /// The extent of a drawing, millimetres.
@@ -32,6 +33,7 @@ pub struct View {
     size: f64,
     scale: f64,
     shift: (f64, f64),
+    unit: &'static str,
 }
 
 impl View {
@@ -42,7 +44,12 @@ impl View {
         let span = if span > 0.0 { span } else { 1.0 };
         let scale = size * 0.86 / span;
         let shift = (corner.0 + (size - wide * scale) / 2.0, corner.1 + (size + high * scale) / 2.0);
-        Self { bounds, corner, size, scale, shift }
+        Self { bounds, corner, size, scale, shift, unit: "mm" }
+    }
+
+    /// The same with another unit of length than millimetres.
+    pub fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
     }
 
     /// The larger side of the extent, millimetres.
@@ -125,8 +132,22 @@ impl View {
         }
     }
 
+    /// The three axes askew, small, where the drawing is free.
+    pub fn cross(
+        &self,
+        points: impl Iterator<Item = Point>,
+        project: fn(Point) -> (f64, f64),
+        out: &mut String,
+    ) {
+        let foot = self.free_corner(points.map(project));
+        let arm = self.span() * 0.1;
+        for (label, end) in [("X", [arm, 0.0, 0.0]), ("Y", [0.0, arm, 0.0]), ("Z", [0.0, 0.0, arm])] {
+            self.arrow(foot, project([0.0; 3]), project(end), label, out);
+        }
+    }
+
     /// Where the small axes stand: in the corner of the drawing that the fewest points come near.
-    pub fn free_corner(&self, points: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
+    fn free_corner(&self, points: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
         let (low, high) = (self.corner.1 + 100.0, self.corner.1 + self.size - 30.0);
         let (left, right) = (self.corner.0 + 75.0, self.corner.0 + self.size - 75.0);
         let corners = [(left, high), (right, high), (left, low)];
@@ -142,7 +163,7 @@ impl View {
     }
 
     /// A labelled line, for an axis.
-    pub fn arrow(&self, corner: (f64, f64), from: (f64, f64), to: (f64, f64), label: &str, out: &mut String) {
+    fn arrow(&self, corner: (f64, f64), from: (f64, f64), to: (f64, f64), label: &str, out: &mut String) {
         let (dx, dy) = ((to.0 - from.0) * self.scale, (to.1 - from.1) * self.scale);
         let (x, y) = (corner.0 + dx, corner.1 - dy);
         let _ = writeln!(
@@ -159,11 +180,12 @@ impl View {
         let from = x - step * self.scale;
         let _ = writeln!(
             out,
-            "<path d=\"M{from:.1} {:.1}v4h{:.1}v-4\" fill=\"none\" stroke=\"#333\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{} mm</text>",
+            "<path d=\"M{from:.1} {:.1}v4h{:.1}v-4\" fill=\"none\" stroke=\"#333\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"10\">{} {}</text>",
             y - 4.0,
             x - from,
             y + 14.0,
-            digits(step)
+            digits(step),
+            self.unit
         );
     }
 }

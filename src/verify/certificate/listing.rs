@@ -1,7 +1,7 @@
 //! All the places at which two programs differ.
 
 use super::moment::Moment;
-use crate::control::trace::EventKind;
+use crate::control::trace::{EventKind, Place};
 use serde::Serialize;
 
 /// Where two programs differ, in all scenarios that were tried.
@@ -50,6 +50,9 @@ pub struct Seen {
     /// What happened.
     #[serde(skip)]
     pub what: EventKind,
+    /// The block, as the run counts it.
+    #[serde(skip)]
+    pub at: Place,
     /// The work offset in force.
     pub work: u32,
     /// The number of the tool length in force.

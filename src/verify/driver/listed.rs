@@ -198,7 +198,7 @@ impl Places {
             let (work, length) = frames.get(&std::ptr::from_ref(*event)).copied().unwrap_or((1, 0));
             let moment = Moment::of(side, run, event);
             let moment = Moment { event: serde_json::to_value(&**what).unwrap_or_default(), ..moment };
-            Some(Seen { moment, what: (**what).clone(), work, length })
+            Some(Seen { moment, what: (**what).clone(), at: event.at, work, length })
         };
         let (old, new, what) = (seen(0), seen(1), apart.what.clone());
         self.listing.changes.push(Change { old, new, what, times: 1, run: self.run, alike: 0, plain });
