@@ -1,7 +1,7 @@
 //! NC lines: words, R set by sign, and the codes of flow.
 
 use super::calls::Local;
-use super::registers::Register;
+use super::registers::{PLANE, Register};
 use super::{Interpreter, Next};
 use crate::canon::{Op, Pause, Role};
 use crate::control::outcome::Stop;
@@ -12,9 +12,6 @@ use crate::dialect::Question;
 use crate::syntax::{Block, Expr, ExprKind, Index, ItemKind};
 use crate::text::{Span, decode};
 use smallvec::SmallVec;
-
-/// The variable that cycles take their retract plane from, and arcs their radius.
-const PLANE: Register = Register::R(0);
 
 /// The words of a block, and which R it set before they were read.
 #[derive(Default)]
@@ -175,15 +172,22 @@ impl<'r> Interpreter<'r, '_> {
         if read.command.word(role).is_some() {
             if role == Role::CycleR {
                 self.session.act_as(Question::CycleRWord, "true");
+                self.plane_moved = false;
             }
             return;
         }
         let kept = !line.set.contains(&PLANE);
         let begins = read.codes.iter().any(|row| row.op.is_cycle());
+        let places = read.command.has_axes() && !read.command.ops.iter().any(|op| takes_axes(*op));
+        let drills = places || read.command.has(Op::CycleHere);
         match role {
             _ if !kept => {}
             // A cycle that is begun without R0 takes what R0 holds.
             Role::CycleR if begins => self.session.act_as(Question::CycleR0Kept, "true"),
+            // So does a hole after R0 got another value.
+            Role::CycleR if self.plane_moved && drills && control.is(Question::CycleR0Kept) => {
+                self.session.act_as(Question::CycleR0Kept, "true");
+            }
             Role::OffsetValue => self.session.trace.doubt("machine:offset.value.kept"),
             _ => return,
         }
@@ -191,6 +195,7 @@ impl<'r> Interpreter<'r, '_> {
         let otherwise = (role == Role::CycleR).then_some(0.0);
         let Some(value) = self.registers.get(PLANE).or(otherwise) else { return };
         read.command.words.push((role, value));
+        self.plane_moved &= role != Role::CycleR;
     }
 
     /// What must be in force before the block's words act.

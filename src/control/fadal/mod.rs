@@ -53,6 +53,7 @@ fn run<'r>(
         in_modal: false,
         line: String::new(),
         moving: false,
+        plane_moved: false,
     };
     let halt = interpreter.main(main);
     interpreter.flush();
@@ -107,6 +108,8 @@ struct Interpreter<'r, 'f> {
     line: String,
     /// True while moves may still be under way: nothing waited for them.
     moving: bool,
+    /// True once R0 has another value than the retract plane of the drilling cycle in force was told.
+    plane_moved: bool,
 }
 
 impl<'r> Interpreter<'r, '_> {

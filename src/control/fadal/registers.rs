@@ -17,6 +17,9 @@ pub(super) enum Register {
     R(usize),
 }
 
+/// The variable that cycles take their retract plane from, and arcs their radius.
+pub(super) const PLANE: Register = Register::R(0);
+
 impl Register {
     /// The variable of a name and a number; none if there is no such.
     pub fn new(name: &str, number: u32) -> Option<Self> {

@@ -1,7 +1,7 @@
 //! Variables and arrays: V and R, and the state of the machine by its names.
 
 use super::Interpreter;
-use super::registers::Register;
+use super::registers::{PLANE, Register};
 use crate::canon::{Group, Op, Sys};
 use crate::control::outcome::Stop;
 use crate::control::session::{Flow, Halt};
@@ -91,6 +91,7 @@ impl Interpreter<'_, '_> {
 
     /// Gives a V or R its value.
     pub(super) fn keep(&mut self, register: Register, value: f64) {
+        self.plane_moved |= register == PLANE;
         self.registers.set(register, value);
         self.session.wrote(|| register.to_string(), Some(value));
     }

@@ -5,7 +5,8 @@
 //! before is what is given, where the target has that: the present position may be read ahead of the moves. In the
 //! block that defines the cycle nothing need be added where that block runs the cycle anyway. A block that defines a
 //! cycle without a position runs it where the tool stands or only stores it: the target is told by a place, or by a
-//! repeat of none, where the two controls do not agree.
+//! repeat of none, where the two controls do not agree. So is a block that names a new depth or plane alone for the cycle
+//! in force.
 //! Under a rotation the present place would be turned once more; there the block gets the words that
 //! last named the place, where they still have their values.
 //! Side condition: absolute or incremental is known; the cycle's planes stay what they are.
@@ -50,12 +51,19 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 named.iter_mut().for_each(|named| named.step(stmt, &state, &summaries));
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
                 let (defines, here) = (nc.ops().any(Op::is_cycle), nc.has(Op::CycleHere) && !native);
+                // New words of the cycle in force: where the state is known, it is that of the block's end.
+                let tells = !defines
+                    && state.op(Group::Cycle).is_some_and(Op::is_cycle)
+                    && tells_depth(nc, state.op(Group::Plane));
                 nc.items.retain(|item| native || *item != NcItem::Op(Op::CycleHere));
                 let across = across(state.op(Group::Plane));
                 let placed = across.iter().any(|(role, _)| nc.word(*role).is_some());
                 let span = stmt.site.span;
-                let bare =
-                    defines && !nc.has(Op::CycleHere) && !here && !placed && nc.word(Role::Repeat).is_none();
+                let bare = (defines || tells)
+                    && !nc.has(Op::CycleHere)
+                    && !here
+                    && !placed
+                    && nc.word(Role::Repeat).is_none();
                 let asked = here || bare && !agree;
                 if asked && !placed && other_planes && state.op(Group::Plane).is_none() {
                     let what = "the plane is not known here, so neither is the axis that the cycle drills along: \
@@ -115,6 +123,17 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
     }
+}
+
+/// True where a block names the depth or the retract plane of a cycle. Codes that take the word for themselves are none.
+fn tells_depth(nc: &Nc, plane: Option<Op>) -> bool {
+    let along = match plane {
+        Some(Op::PlaneZx) => Role::Y,
+        Some(Op::PlaneYz) => Role::X,
+        _ => Role::Z,
+    };
+    let aside = nc.ops().any(|op| op.takes_axes() || op == Op::MachineOnce);
+    !aside && (nc.word(Role::CycleR).is_some() || nc.word(along).is_some())
 }
 
 /// The axes of a plane and their numbers: a cycle's position is in them, its depth along the third one.

@@ -222,3 +222,21 @@ fn a_modal_call_in_a_modal_subroutine_runs_for_its_moves() {
     assert_eq!((run.variables["V1"], run.variables["V2"]), (2.0, 4.0));
     assert!(doubts(&run).contains(&"behaviour:call.modal.nested"));
 }
+
+/// R0 is the retract plane of each hole: what gives it another value moves the plane, whichever way it is written.
+#[test]
+fn a_hole_begins_at_the_plane_that_r0_holds() {
+    let planes = |between: &str| {
+        let run = lines(&format!("G90 G81 G99 X1. Y1. R0+.2 Z-.5 F5.\n{between}X2.\nG80\nM2\n"));
+        let holes = run.events.iter().filter_map(|event| match &event.what {
+            EventKind::Hole { at, .. } => Some(at.0[2]),
+            _ => None,
+        });
+        holes.map(|z| (z * 1e6).round() / 1e6).collect::<Vec<_>>()
+    };
+    assert_eq!(planes(""), [0.2, 0.2]);
+    assert_eq!(planes("#R0=.1\n"), [0.2, 0.1]);
+    assert_eq!(planes("R0+.15\n"), [0.2, 0.15]);
+    assert_eq!(planes("G10 L100 P.3\n"), [0.2, 0.3]);
+    assert_eq!(planes("#R1=.1\n"), [0.2, 0.2]);
+}

@@ -1,5 +1,6 @@
 //! A program while it is lowered: what is built, what was found, what holds before the present block.
 
+use super::planes::Planes;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Class, Comment, Place, SourceInfo, StmtKind, TermKind, Var};
@@ -39,8 +40,8 @@ pub struct Lowering<'b> {
     pub spelled_out: bool,
     /// Where the program reads the motion mode.
     pub reads_motion: Option<Span>,
-    /// True once a word R, and not R0, gave a drilling cycle its retract plane.
-    pub plane_by_word: bool,
+    /// What is known of the retract planes of its cycles.
+    pub planes: Planes,
 }
 
 impl<'b> Lowering<'b> {
@@ -62,7 +63,7 @@ impl<'b> Lowering<'b> {
             temps: 0,
             spelled_out: false,
             reads_motion: None,
-            plane_by_word: false,
+            planes: Planes::default(),
         }
     }
 

@@ -1,6 +1,5 @@
 //! Statements of macro lines.
 
-use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{BlockId, Class, Expr, Place, PrintPart, StmtKind, TermKind, Var};
@@ -120,20 +119,6 @@ impl<'b> Lowering<'b> {
             return self.refuse(var.span, format!("{} cannot be written", var.name));
         }
         Some(place)
-    }
-
-    /// R0 is the retract plane too: setting it while a cycle is active moves the plane.
-    pub fn scratches_plane(&mut self, place: &Place, span: Span) {
-        let plane = Var { class: Class::Parametric, number: 0 };
-        let hit = match place {
-            Place::Var(var) => *var == plane,
-            Place::Indirect(bank, _) => *bank == crate::ir::Bank::Parametric,
-            Place::System(Sys::Other, _) => false,
-            Place::System(..) => false,
-        };
-        if hit && self.in_cycle() {
-            self.suppose(Question::CycleR0Kept, "true", span);
-        }
     }
 
     fn clear(&mut self, ranges: &[(VarRef, Option<VarRef>)], span: Span) -> Option<()> {

@@ -7,6 +7,7 @@ use crate::lower::common::{ProgramText, says_something, site_of};
 use crate::lower::fadal::build::Lowering;
 use crate::lower::fadal::codes::{Codes, steps};
 use crate::lower::fadal::flow::{Flow, Others, Shape};
+use crate::lower::fadal::words::name_planes;
 use crate::syntax::{Block, Item, ItemKind, Label, for_each_item};
 
 /// Lowers a program's text; `others` is what is known of the programs of its file, and which of them this is.
@@ -32,7 +33,9 @@ pub fn lower(
     }
     drop(flow);
     lowering.finish();
-    let program = lowering.builder.finish(text.name.cloned(), file, head);
+    lowering.check_planes();
+    let mut program = lowering.builder.finish(text.name.cloned(), file, head);
+    name_planes(&mut program, &lowering.planes);
     (program, lowering.findings.take_list())
 }
 

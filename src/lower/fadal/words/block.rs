@@ -8,7 +8,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Argument, Class, Expr, Nc, NcItem, Place, StmtKind, Var};
 use crate::lower::common::{constant, says_something};
-use crate::lower::fadal::build::Lowering;
+use crate::lower::fadal::build::{Lowering, PLANE};
 use crate::lower::fadal::codes::{Codes, FIRST_FIXED, LWord, Step, is_code, l_word, steps, word};
 use crate::syntax::{self, Index, Item, ItemKind, VarRef, Word};
 use crate::text::Span;
@@ -273,6 +273,9 @@ impl<'b> Lowering<'b> {
             self.assign(place, lowered);
             return Some(());
         };
+        if var == PLANE {
+            self.takes_plane(role, target.span)?;
+        }
         note_reads(&lowered, &mut reading.read);
         reading.items.push(NcItem::Word(role, lowered.clone()));
         reading.assigned.push((var, target.span));

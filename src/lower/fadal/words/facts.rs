@@ -3,8 +3,8 @@
 use super::reading::Reading;
 use crate::canon::{Op, Role};
 use crate::dialect::Question;
-use crate::ir::{Class, Expr, NcItem, Var};
-use crate::lower::fadal::build::Lowering;
+use crate::ir::{Expr, NcItem};
+use crate::lower::fadal::build::{Lowering, PLANE};
 
 impl<'b> Lowering<'b> {
     /// Reports the unconfirmed facts that the block as a whole rests on.
@@ -53,7 +53,7 @@ impl<'b> Lowering<'b> {
             && reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some())
         {
             self.suppose(Question::CycleRWord, "true", span);
-            self.plane_by_word = true;
+            self.planes.by_word = true;
         }
         match codes.motion() {
             Some(row) if row.op.is_cycle() => {
@@ -62,14 +62,13 @@ impl<'b> Lowering<'b> {
                 }
                 let has_plane = reading.items.iter().any(|item| word_in(item, Role::CycleR).is_some());
                 if !has_plane && self.control.parametric_role('R', 0, Some(row)) == Some(Role::CycleR) {
-                    if self.plane_by_word {
+                    if self.planes.by_word {
                         let what = "after a word R it is not known which retract plane this cycle takes: \
                                     write R0 with its sign";
                         self.findings.not_understood(span, what);
                     }
                     self.suppose(Question::CycleR0Kept, "true", span);
-                    let r0 = Expr::Var(Var { class: Class::Parametric, number: 0 });
-                    reading.items.push(NcItem::Word(Role::CycleR, r0));
+                    reading.items.push(NcItem::Word(Role::CycleR, Expr::Var(PLANE)));
                 }
                 if incremental {
                     self.suppose(Question::CyclePlanesFrozen, "true", span);
@@ -79,6 +78,9 @@ impl<'b> Lowering<'b> {
                 self.suppose(Question::CyclePlanesFrozen, "true", span);
             }
             _ => {}
+        }
+        if codes.motion().is_none() {
+            self.notes_hole(reading, axes, incremental);
         }
     }
 }

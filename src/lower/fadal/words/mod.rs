@@ -4,6 +4,9 @@ mod block;
 mod calls;
 mod facts;
 mod motion;
+mod plane;
 mod reading;
 mod tidy;
 mod value;
+
+pub use plane::name_planes;
