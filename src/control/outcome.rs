@@ -1,7 +1,7 @@
 //! What a run amounts to.
 
 use super::machine::ExitState;
-use super::trace::{Computed, Event, Place, Program, Zero};
+use super::trace::{Computed, Event, Nearest, Place, Program, Zero};
 use crate::canon::{Func, Op};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,6 +46,9 @@ pub struct Run {
     /// [`super::trace::MOST_ZEROS`].
     #[serde(skip)]
     pub zeros: Vec<(usize, Zero)>,
+    /// How near its branches came to their other ways; empty unless the scenario asks for it.
+    #[serde(skip)]
+    pub nearest: Nearest,
 }
 
 /// How a run ended.

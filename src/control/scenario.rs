@@ -73,6 +73,9 @@ pub struct Scenario {
     /// True where a control of which no source says whether it rounds computed words to the least increment is to
     /// do so; else it leaves them as they are.
     pub rounds_words: bool,
+    /// True where the run is to tell how near its branches came to their other ways.
+    #[serde(skip)]
+    pub nearness: bool,
     /// Most blocks that are executed.
     pub steps: u64,
     /// Most events that are recorded.
@@ -147,6 +150,7 @@ impl Default for Scenario {
             digits: None,
             last_digits: None,
             rounds_words: false,
+            nearness: false,
             steps: 1_000_000,
             events: 1_000_000,
             milliseconds: Some(10_000),

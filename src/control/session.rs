@@ -80,6 +80,7 @@ impl<'r, 'f> Session<'r, 'f> {
         let machine = Machine::new(library.rules(control), control, scenario);
         let mut trace = Trace::new(scenario.events, &control.profile().confirm);
         machine.tell_entry(&scenario.entry, &mut trace);
+        trace.nearness = scenario.nearness.then(Box::default);
         Self {
             control,
             scenario,
@@ -287,6 +288,7 @@ impl<'r, 'f> Session<'r, 'f> {
     /// The way that a branching block takes.
     pub fn branch(&mut self, way: i64) {
         self.branches.took(self.trace.at, way);
+        self.trace.branched(self.trace.at, way != 0);
     }
 
     /// The words that an earlier program left in force, in the units of the program: the letters that all controls have.
@@ -320,6 +322,7 @@ impl<'r, 'f> Session<'r, 'f> {
             computed_numbers: self.trace.computed_numbers(),
             arguments: self.trace.arguments(),
             zeros: self.trace.zeros,
+            nearest: self.trace.nearness.map(|nearness| nearness.end()).unwrap_or_default(),
             events: self.trace.events,
             programs: self.programs,
             variables,

@@ -5,8 +5,10 @@
 //! describes the JSON form.
 
 mod event_kind;
+mod nearness;
 
 pub use event_kind::*;
+pub use nearness::{Nearest, Nearness};
 
 use super::entry::Entry;
 use super::outcome::Stop;
@@ -150,6 +152,8 @@ pub struct Trace {
     arguments: BTreeMap<(Func, u64, u64, Place), usize>,
     /// Zero points, and how many events came before each was in force.
     pub zeros: Vec<(usize, Zero)>,
+    /// How near branches came to their other ways, if the scenario asks for it.
+    pub nearness: Option<Box<Nearness>>,
     /// Matters that the machine's profile confirms.
     confirmed: Vec<String>,
 }
@@ -171,7 +175,22 @@ impl Trace {
             computed_numbers: BTreeMap::new(),
             arguments: BTreeMap::new(),
             zeros: Vec::new(),
+            nearness: None,
             confirmed: confirmed.to_vec(),
+        }
+    }
+
+    /// Notes a comparison of two numbers, for [`Nearness`].
+    pub fn compared(&mut self, a: f64, b: f64, holds: bool) {
+        if let Some(nearness) = &mut self.nearness {
+            nearness.compared(a, b, holds);
+        }
+    }
+
+    /// Notes which way the branch at a place went, for [`Nearness`].
+    pub fn branched(&mut self, at: Place, holds: bool) {
+        if let Some(nearness) = &mut self.nearness {
+            nearness.branched(at, holds);
         }
     }
 

@@ -12,6 +12,7 @@ mod random;
 mod running;
 mod skips;
 mod started;
+mod steered;
 
 use super::{Assumptions, Effort, Job, Outcome, ProgramCertificate, Side, Spent, SymbolMap, Why, verify};
 use crate::assume::Assumption;

@@ -30,6 +30,7 @@ impl Condition {
             0.0
         });
         let holds = stands(result, relation);
+        trace.compared(result, 0.0, holds);
         if self.loaded.is_some_and(|loaded| stands(loaded, relation) != holds) {
             trace.doubt(Question::LoadSetsCondition.fact());
         }

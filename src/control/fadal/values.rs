@@ -71,7 +71,6 @@ impl Interpreter<'_, '_> {
     fn binary(&mut self, op: BinaryOp, left: &Expr, right: &Expr, depth: u32) -> Flow<f64> {
         let a = self.nested(left, depth)?;
         let b = self.nested(right, depth)?;
-        let truth = |held: bool| f64::from(u8::from(held));
         if matches!(op, BinaryOp::Equal | BinaryOp::NotEqual)
             && a != b
             && (a - b).abs() <= NEAR * a.abs().max(1.0)
@@ -92,16 +91,21 @@ impl Interpreter<'_, '_> {
                 }
                 a / b
             }
-            BinaryOp::Equal => truth(a == b),
-            BinaryOp::NotEqual => truth(a != b),
-            BinaryOp::Less => truth(a < b),
-            BinaryOp::LessEqual => truth(a <= b),
-            BinaryOp::Greater => truth(a > b),
-            BinaryOp::GreaterEqual => truth(a >= b),
+            BinaryOp::Equal => self.compared((a, b), a == b),
+            BinaryOp::NotEqual => self.compared((a, b), a != b),
+            BinaryOp::Less => self.compared((a, b), a < b),
+            BinaryOp::LessEqual => self.compared((a, b), a <= b),
+            BinaryOp::Greater => self.compared((a, b), a > b),
+            BinaryOp::GreaterEqual => self.compared((a, b), a >= b),
             BinaryOp::Modulo | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => {
                 return Err(Halt::Error("the control has no such operator".into()));
             }
         })
+    }
+
+    fn compared(&mut self, (a, b): (f64, f64), holds: bool) -> f64 {
+        self.session.trace.compared(a, b, holds);
+        f64::from(u8::from(holds))
     }
 
     fn function(&mut self, function: Func, x: f64) -> Flow<f64> {

@@ -162,19 +162,24 @@ impl<'c> Numeric<'c> {
         use BinaryOp::*;
         let truth = |yes: bool| Ok(f64::from(u8::from(yes)));
         match op {
-            Equal => return truth(self.equal(a, b, trace)),
-            NotEqual => return truth(!self.equal(a, b, trace)),
+            Equal | NotEqual => {
+                let holds = self.equal(a, b, trace) == (op == Equal);
+                trace.compared(a.unwrap_or(0.0), b.unwrap_or(0.0), holds);
+                return truth(holds);
+            }
             Less | LessEqual | Greater | GreaterEqual => {
                 if a.is_none() || b.is_none() {
                     self.answers.vacant_orders_as_zero.ask(trace);
                 }
                 let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
-                return truth(match op {
+                let holds = match op {
                     Less => a < b,
                     LessEqual => a <= b,
                     Greater => a > b,
                     _ => a >= b,
-                });
+                };
+                trace.compared(a, b, holds);
+                return truth(holds);
             }
             _ => {}
         }

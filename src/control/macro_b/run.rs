@@ -283,6 +283,9 @@ impl<'c> Runner<'c> {
         if let Some(ways) = self.ways.get_mut(branch) {
             *ways |= if holds { 2 } else { 1 };
         }
+        if let Some(place) = self.branches.get(branch) {
+            self.session.trace.branched(*place, holds);
+        }
         Ok(holds)
     }
 

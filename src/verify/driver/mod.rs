@@ -10,6 +10,7 @@ mod otherwise;
 mod pictured;
 mod run;
 mod search;
+mod steered;
 mod summary;
 mod trial;
 mod unit_check;

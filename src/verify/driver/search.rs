@@ -6,7 +6,7 @@ use crate::canon::Role;
 use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::certificate::Why;
 use crate::verify::compare::{is_cut, returns};
-use crate::verify::explore::{Proposals, inputs_of_both, unit};
+use crate::verify::explore::{Circumstances, Proposals, inputs_of_both, unit};
 use crate::verify::sides::{Effort, Job, Side};
 use crate::verify::triage::telling_numbers;
 
@@ -27,6 +27,9 @@ const ENDLESS: usize = 4;
 
 /// Runs of both sides for ways that the target alone has left, after the source has gone all of its own.
 const FOR_THE_TARGET: usize = 48;
+
+/// Scenarios from which others are steered, about.
+const STARTS: usize = 8;
 
 /// Telling scenarios that are kept, at the most, and those that are, whether they go new ways or not.
 const TELLING: usize = 4;
@@ -51,6 +54,7 @@ impl Verifier<'_, '_> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
+        let mut starts = Vec::new();
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
                 break;
@@ -70,6 +74,9 @@ impl Verifier<'_, '_> {
                 endless += 1;
             }
             let telling = proposals.are_telling();
+            if starts.len() < STARTS || new && starts.len() < 2 * STARTS {
+                starts.push(Circumstances { scenario: scenario.clone(), theirs: self.theirs.clone() });
+            }
             let spare = self.compared < FEWEST && self.tried.is_multiple_of(2);
             let wanted = !self.target_coverage.is_complete() && for_target < FOR_THE_TARGET;
             if new || telling || spare || wanted {
@@ -89,6 +96,9 @@ impl Verifier<'_, '_> {
                 break;
             }
         }
+        if endless < ENDLESS && !self.went_every_way() {
+            self.steer(there, &found, starts);
+        }
         self.theirs.clear();
         if self.compared == 0 {
             for text in std::mem::take(&mut self.endless) {
@@ -99,7 +109,7 @@ impl Verifier<'_, '_> {
     }
 
     /// Keeps a scenario that tells much of the program: one that went a new way, and the first ones of all.
-    fn tell(&mut self, scenario: Scenario, run: &Run, new: bool) {
+    pub(super) fn tell(&mut self, scenario: Scenario, run: &Run, new: bool) {
         let ended = match &run.end {
             End::Ended => true,
             End::Alarm { stop, .. } => stop.program_number.is_some(),

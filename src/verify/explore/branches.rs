@@ -129,6 +129,16 @@ impl Coverage {
         })
     }
 
+    /// The ways that conditions have left, by file and place, and 0 for false or 1 for true.
+    pub fn left(&self) -> Vec<((usize, Span), i64)> {
+        let way = |(place, way): (Place, &'static str)| match way {
+            "false" => Some((place, 0)),
+            "true" => Some((place, 1)),
+            _ => None,
+        };
+        self.missing().filter_map(way).collect()
+    }
+
     /// The ways that were never gone.
     pub fn not_reached(&self, side: &Side<'_>) -> Vec<NotReached> {
         let report = |((file, span), way): (Place, &'static str)| {

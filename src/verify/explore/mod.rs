@@ -6,9 +6,9 @@ mod constants;
 mod inputs;
 mod random;
 mod scenarios;
+mod steer;
 
 pub use branches::{Coverage, NotReached};
-#[cfg(test)]
-pub use inputs::Inputs;
-pub use inputs::{inputs, inputs_of_both};
+pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use scenarios::{Proposals, asked, on_target, set_by_hand, unit};
+pub use steer::{Attempt, Circumstances, Steer, inputs_of};

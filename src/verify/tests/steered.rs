@@ -1,0 +1,55 @@
+//! Branches whose conditions are solved for what the program takes from outside.
+
+use super::{Outcome, within};
+
+/// What is hidden in each of these programs shows only in circumstances that nothing in the text names.
+#[track_caller]
+fn hides(dialect: &str, source: &str, (here, there): (&str, &str)) {
+    let same = within(dialect, source, source);
+    assert_eq!(same.branches_covered, same.branches_total, "{:#?}", same.not_reached);
+    assert_ne!(same.outcome, Outcome::Different);
+    let changed = source.replace(here, there);
+    assert_ne!(changed, source);
+    assert_eq!(within(dialect, source, &changed).outcome, Outcome::Different, "{source}");
+}
+
+#[test]
+fn a_product_that_must_be_met_exactly() {
+    let text = "O1\nG21G90G54G17G94\n#100=#500*#501+#502\nIF[#100EQ7331.5]GOTO9\nG0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("fanuc", text, ("N9G0X2.", "N9G0X3."));
+    hides("haas", text, ("N9G0X2.", "N9G0X3."));
+}
+
+#[test]
+fn conditions_behind_conditions() {
+    let text = "O1\nG21G90G54G17G94\n#1=#500*#500-#501\nIF[#1LT7000]GOTO8\n#2=#501*3+#502\nIF[#2GT-7777]GOTO8\n\
+                IF[[#1GT9000]AND[#502LT-8123.25]]GOTO9\nN8G0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("haas", text, ("N9G0X2.", "N9G0X3."));
+}
+
+#[test]
+fn of_a_fadal_and_a_cc100() {
+    let fadal = "#V3=V1*V1+V2\n#IF V3 > 4321.5 THEN GOTO :A\nG0 X1.\nM2\n#:A\nG0 X2.\nM2\n";
+    hides("fadal", fadal, ("G0 X2.", "G0 X3."));
+    let cc100 =
+        "N1 V3=V1*V1\nN2 V3=V3-4321\nN3 V3=V3+V2\nN4 BGT P1\nN5 G0 X1.\nN6 M30\nN7 $1\nN8 G0 X2.\nN9 M30\n";
+    hides("cc100", cc100, ("G0 X2.", "G0 X3."));
+}
+
+/// Where a probe touches, and how far offsets lie apart.
+#[test]
+fn what_is_measured() {
+    let probe = "O1\nG21G90G54G17G94\nG0Z0.\nG31Z-50.F100.\nIF[#5063LT-49.9]GOTO8\nIF[#5063GT-49.5]GOTO8\nG0X2.\nM30\nN8G0X1.\nM30\n";
+    hides("fanuc", probe, ("G0X2.", "G0X3."));
+    let offsets = "O1\nG21G90G54G17G94\n#1=#5221*2-#5241\nIF[#1GT9876.5]GOTO9\nG0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("fanuc", offsets, ("N9G0X2.", "N9G0X3."));
+}
+
+/// A way that nothing goes costs a bounded number of runs, and is told.
+#[test]
+fn what_cannot_be_is_left() {
+    let text = "O1\nG21G90G54G17G94\n#1=#500*#500\nIF[#1LT-1]GOTO9\nG0X1.\nM30\nN9G0X2.\nM30\n";
+    let found = within("fanuc", text, text);
+    assert_eq!((found.branches_covered, found.branches_total), (1, 2));
+    assert!(found.scenarios_tried < 800, "{}", found.scenarios_tried);
+}
