@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     ignore: Vec<String>,
     /// Print how often each code was found, in place of the findings
-    #[arg(long)]
+    #[arg(long, conflicts_with = "format")]
     statistics: bool,
     /// Findings that were there before, as --write-baseline wrote them: only new ones count
     #[arg(long, value_name = "FILE")]

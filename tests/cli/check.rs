@@ -215,6 +215,9 @@ fn codes_are_chosen_counted_and_allowed() {
     assert_eq!(found(&json(&shop, &format!("{line} --select MG01,MG0310"))), []);
     assert_eq!(found(&json(&shop, &format!("{line} --select MG0301"))).len(), 2);
     assert_eq!(check(&shop, &format!("{line} --statistics")).out, "     2 MG0301 unknown meaning\n");
+    assert_eq!(check(&shop, &format!("{line} --statistics --format sarif")).code, 2, "one or the other");
+    let none = check(&shop, &format!("{line} --statistics --ignore MG0301"));
+    assert!(none.out.contains("nothing found"), "{}", none.out);
     assert_eq!(check(&shop, &format!("{line} --exit-zero")).code, 0);
     shop.fails("check --cache cache --select MG77", &["'MG77' is no code"]);
     let allow =
@@ -257,8 +260,7 @@ fn every_format_says_the_same() {
     let github = check(&shop, &format!("{line} --format github")).out;
     assert!(github.starts_with("::error file=programs/alone.nc,line=4,col=1,"), "{github}");
     assert_eq!(github.lines().count(), 1, "{github}");
-    let sarif: serde_sarif::sarif::Sarif =
-        serde_json::from_str(&check(&shop, &format!("{line} --format sarif")).out).unwrap();
+    let sarif = crate::sarif::valid(&check(&shop, &format!("{line} --format sarif")).out);
     let result = &sarif.runs[0].results.as_ref().unwrap()[0];
     assert_eq!(result.rule_id.as_deref(), Some("MG0301"));
     assert!(result.partial_fingerprints.as_ref().unwrap().contains_key("macroglot/v1"));

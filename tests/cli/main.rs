@@ -16,6 +16,7 @@ mod outputs;
 mod profiles;
 mod project;
 mod reports;
+mod sarif;
 mod shown;
 mod stale;
 

@@ -53,6 +53,9 @@ fn draw(out: &mut String, finding: &Finding) {
 
 /// How often each code was found, the most frequent first.
 pub fn statistics(checked: &Checked) -> String {
+    if checked.findings.is_empty() {
+        return check(checked);
+    }
     let mut counts: BTreeMap<Code, usize> = BTreeMap::new();
     checked.findings.iter().for_each(|finding| *counts.entry(finding.code).or_default() += 1);
     let mut counts: Vec<(Code, usize)> = counts.into_iter().collect();

@@ -1,0 +1,40 @@
+//! Codes of 04: legalization.
+
+macro_rules! legalization_codes {
+    ($($rows:tt)*) => {
+        emission_codes! { $($rows)*
+    "0401" NoEquivalent Error "the target control has no such function"
+"The target control does not have the function, and no emulation gives it exactly. The message names the function and the reason."
+
+    "0402" NearlyEqual Review "equivalent within a bound"
+"The target does not have the function, or has it with another range. The conversion emulates it, within the domain or the error bound that the message names.
+
+Check that the program stays in the domain, and that the part tolerates the error."
+
+    "0403" OutOfRegisters Error "no register left"
+"Every variable that programs share needs a register of its own on the target; values in between and locals share theirs as far as they are not needed at once. The target, as the machine profile describes it, has too few, too few of the kind that words take, or too few in a row for variables with computed numbers. The message says what has them. Of a library that needs too many, the program that alone uses the most is set aside, and refused, until the others have theirs. A program that calls itself is told here too, if a value must outlive the call and has one register for all levels.
+
+Shorten the profile's `reserved` list, get the option for more variables, or convert a smaller library."
+
+    "0404" OtherRetention Review "a variable lives longer or shorter"
+"A variable keeps its value over power-off on one control and loses it on the other, and the program reads it before it writes it.
+
+If nobody relies on the value from before power-off, nothing needs to be done. Otherwise move it by hand to a register that lasts as long as on the source."
+
+    "0405" Conditional Review "equivalent only if this holds on your machine"
+"The target does the same only if something is true that the programs do not say: what the operator does at a stop, how inputs are wired, which unit the control is set to. The message names it.
+
+Check it on the machine. If a machine profile can state it, state it there."
+
+    "0406" MessageCut Note "message is cut"
+"The target shows fewer characters of a message than the source. The message is cut, and a comment beside it has the whole text."
+
+    "0407" LettersReplaced Note "letters are replaced"
+"A message, a line of output or a comment has letters or signs that the target is not known to show, such as accented ones. Similar ones take their place: UE for Ü, C for Ç, EUR for €. Round brackets inside a message become square ones, and a per cent sign becomes PCT. This is reported once per program, at the first of them.
+
+Nothing needs to be done. If a letter of a message has no substitute, MG0507 says so."
+        }
+    };
+}
+
+pub(super) use legalization_codes;

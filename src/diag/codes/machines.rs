@@ -1,0 +1,24 @@
+//! Codes of 02: dialects and machine profiles.
+
+macro_rules! machines_codes {
+    ($($rows:tt)*) => {
+        lowering_codes! { $($rows)*
+    "0201" UnconfirmedFact Review "no manual confirms this"
+"The conversion depends on how a control behaves here, and no maker's text confirms it. The message names the fact and the control; `macroglot dialects` with the control's name prints the fact, and where it is from.
+
+Check it on the machine or in its manual, then put it into the machine profile: a fact by its name in `confirm`, the answer to a question under `[behaviours]`, such as `divide.by.zero = \"alarm\"`."
+
+    "0202" DialectTable Error "a table of `dialects/` is wrong"
+"A table of facts about a control contradicts itself, names something that does not exist, or has a key that nothing reads. Nothing is converted with a table that is wrong.
+
+Correct the row shown. `dialects/README.md` says what the columns mean."
+
+    "0203" MachineProfile Error "the machine profile is wrong"
+"The profile of a machine has a key that nothing reads, a value that its control cannot have, or names a fact that its table does not hold. A setting that is not understood would make every conversion for that machine doubtful, so nothing is converted.
+
+Correct the line shown. `macroglot dialects` lists what a control can be set to."
+        }
+    };
+}
+
+pub(super) use machines_codes;
