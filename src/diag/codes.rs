@@ -462,6 +462,11 @@ Leave the point out."
 
 Put them into a block of their own."
 
+    "0356" LeftOut Note "text that is never run is left out"
+"A test asks for what the machine's profile settles, such as the unit. Its jump always goes, or never, and nothing else comes to the text at this place. The conversion leaves that text out, with its comments.
+
+Look at it once: if it must stay, take the line that settles the test out of the profile."
+
     // ---- 04: legalization ----
     "0401" NoEquivalent Error "the target control has no such function"
 "The target control does not have the function, and no emulation gives it exactly. The message names the function and the reason."

@@ -13,6 +13,7 @@ mod dead_stores;
 mod fold;
 mod list;
 mod pass;
+mod raised;
 #[cfg(test)]
 mod random;
 mod retarget;
@@ -26,6 +27,7 @@ pub use fold::Fold;
 pub use fold::fold;
 pub use list::{PASSES, find};
 pub use pass::{Level, Library, Pass, run};
+pub use raised::Raised;
 pub use retarget::Retarget;
 pub use unreachable::Unreachable;
 pub use word_values::WordValues;

@@ -34,22 +34,33 @@ impl Pass for WordValues {
         if program.temporaries().next().is_none() {
             return;
         }
-        let found = places(program, &Liveness::of(program, library.ways));
-        for Found { block, from, to } in &found {
-            let Some(block) = program.blocks.get_mut(block.index()) else { continue };
-            let Some(StmtKind::Assign { target: Place::Var(temp), value }) =
-                block.stmts.get(*from).map(|stmt| &stmt.kind)
-            else {
-                continue;
-            };
-            let (temp, value) = (*temp, value.clone());
-            if let Some(stmt) = block.stmts.get_mut(*to) {
-                put(&mut stmt.kind, temp, &value);
+        // A value may have been one of another temporary, which then goes into the word too.
+        for _ in 0..MOST_PARTS {
+            if !put_all(program, library) {
+                break;
             }
         }
-        let from: Vec<(BlockId, usize)> = found.iter().map(|found| (found.block, found.from)).collect();
-        drop_statements(program, &from);
     }
+}
+
+/// Puts those values into words of which each word takes one; true if there were any.
+fn put_all(program: &mut Program, library: &Library) -> bool {
+    let found = places(program, &Liveness::of(program, library.ways));
+    for Found { block, from, to } in &found {
+        let Some(block) = program.blocks.get_mut(block.index()) else { continue };
+        let Some(StmtKind::Assign { target: Place::Var(temp), value }) =
+            block.stmts.get(*from).map(|stmt| &stmt.kind)
+        else {
+            continue;
+        };
+        let (temp, value) = (*temp, value.clone());
+        if let Some(stmt) = block.stmts.get_mut(*to) {
+            put(&mut stmt.kind, temp, &value);
+        }
+    }
+    let from: Vec<(BlockId, usize)> = found.iter().map(|found| (found.block, found.from)).collect();
+    drop_statements(program, &from);
+    !found.is_empty()
 }
 
 /// An assignment whose value goes into a word.

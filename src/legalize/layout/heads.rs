@@ -12,7 +12,7 @@ use super::head_text::Head;
 use crate::dialect::Control;
 use crate::ir::{Block, Callee, Module, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::{Context, calls_of};
-use crate::syntax::ProgramName;
+use crate::syntax::{Label, ProgramName};
 use std::collections::BTreeSet;
 
 /// Leaves such comments out; true if there were any.
@@ -21,13 +21,31 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
     let mut earlier = Earlier::of(module.programs.len());
     for (index, program) in module.programs.iter_mut().enumerate() {
-        changed |= drop_head(program, source, &mut |head| earlier.add(index, head));
+        let had_head = drop_head(program, source, &mut |head| earlier.add(index, head));
+        changed |= had_head;
         for block in program.blocks.iter_mut().filter(|block| !block.labels.is_empty()) {
             changed |= drop_name(block);
+            if had_head {
+                changed |= number_as_label(block);
+            }
         }
     }
     changed |= take_numbers(module, &mut earlier, context);
     context.earlier = earlier;
+    changed
+}
+
+/// Numbers a block as its label is, `$24`: the label was given by that number, and the numbers of lines were counted anew.
+fn number_as_label(block: &mut Block) -> bool {
+    let number = block.labels.iter().find_map(|label| match label {
+        Label::Name(name) => {
+            name.strip_prefix(|sign: char| sign.is_ascii_punctuation())?.parse().ok().filter(|n: &u32| *n > 0)
+        }
+        Label::Number(_) => None,
+    });
+    let site = block.stmts.first_mut().map_or(&mut block.term.site, |stmt| &mut stmt.site);
+    let changed = number.is_some() && site.sequence != number;
+    site.sequence = number.or(site.sequence);
     changed
 }
 

@@ -28,7 +28,7 @@ use crate::legalize::variables::{
     banks, computed_numbers, modal_reads, output_codes, probe_points, signals, state, subscript_chains,
     timers, touch_points, vacancy_flags, vacant_writes,
 };
-use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable, WordValues};
+use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Raised, Retarget, Unreachable, WordValues};
 
 /// The passes from lowering to emission.
 pub const GROUPS: &[Group] = &[
@@ -73,6 +73,8 @@ const EARLIER: &[Pass] = &[
     Pass::edits("scratch", "registers that an earlier conversion took are temporaries again", scratch::run)
         .when(scratch::concerns)
         .needs(&["heads"]),
+    Pass::tidies(&Raised, "raised", "what stands for a function in temporaries becomes the function again")
+        .when(scratch::concerns),
     Pass::tidies(
         &WordValues,
         "word-values",

@@ -8,7 +8,7 @@
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{own_call, reachable};
-use crate::ir::{Block, BlockId, Callee, Program, TermKind};
+use crate::ir::{Block, BlockId, Callee, Program, StmtKind, TermKind};
 use crate::lower::common::Findings;
 use crate::text::Span;
 use std::collections::BTreeSet;
@@ -18,13 +18,39 @@ pub fn leaves(block: &Block) -> bool {
     matches!(&block.term.kind, TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)))
 }
 
+/// What holds for a part in a file of its own.
+const ALONE: &str = "the text begins with a label and ends with a return: it is taken for a part that stands after the end of the \
+                     program that calls it, and never run by itself";
+
+/// True for a part that stands alone: its label comes first, and every way from there returns.
+fn is_part(program: &Program, main: &BTreeSet<BlockId>) -> bool {
+    let begins = |block: &Block| {
+        let quiet = block.stmts.iter().all(|stmt| stmt.kind == StmtKind::Comment);
+        !block.labels.is_empty() || quiet && matches!(block.term.kind, TermKind::Jump(_))
+    };
+    let label = program.ids().zip(&program.blocks).find(|(_, block)| !block.labels.is_empty());
+    let Some((first, _)) = label else { return false };
+    let before = program.blocks.get(..first.index()).unwrap_or_default();
+    let blocks = main.iter().filter_map(|id| program.block(*id));
+    let ends = |block: &Block| {
+        matches!(block.term.kind, TermKind::End { .. } | TermKind::Stray | TermKind::Chain(_))
+    };
+    main.contains(&first) && before.iter().all(begins) && !blocks.into_iter().any(ends)
+}
+
 /// Reports the jumps out of called parts. `ends` are the places of a cycle's own ends.
 pub fn check(program: &Program, ends: &BTreeSet<Span>, findings: &mut Findings<'_>) {
     let main = reachable(program, BlockId(0));
     let returns = |block: &&Block| matches!(block.term.kind, TermKind::Return { .. });
+    let alone = is_part(program, &main);
     for block in main.iter().filter_map(|id| program.block(*id)).filter(returns) {
         let span = block.term.site.span;
-        if !ends.contains(&span) {
+        if ends.contains(&span) {
+            continue;
+        }
+        if alone {
+            findings.add(Diagnostic::new(Code::Conditional, span, ALONE));
+        } else {
             findings.not_understood(span, "no source says what a return does when no part was called");
         }
     }

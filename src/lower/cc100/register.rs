@@ -8,7 +8,7 @@
 //! register itself is assigned, in those places that a jump can see. A test of the
 //! machine's state directly before its jump is the jump's condition; where the
 //! profile says its outcome, the jump goes or not, and what only it came to is
-//! left out. All other markers go.
+//! left out, with a note at its place. All other markers go.
 //!
 //! Whether a plain load sets the register no source says. A jump that sees one
 //! after the last arithmetic is therefore left to a reviewer.
@@ -22,6 +22,7 @@ use crate::ir::{
     Block, BlockId, Class, Cond, Expr, Place, Program, Relation, SourceInfo, Stmt, StmtKind, TermKind, Var,
 };
 use crate::lower::common::Findings;
+use crate::text::Span;
 use std::borrow::Cow;
 
 /// The condition register.
@@ -164,7 +165,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
         }
     }
     if passed {
-        leave_out(program, &cfg);
+        leave_out(program, &cfg, findings);
     }
     let live = if seen { solve(&Seen { program }, program, &cfg) } else { Default::default() };
     for (at, block) in (0..).map(BlockId).zip(&mut program.blocks) {
@@ -193,7 +194,7 @@ fn settled(block: &Block, relation: Relation) -> Option<bool> {
 }
 
 /// Takes the text out of blocks that only such a jump came to, as the stop of a machine that is set to the other unit.
-fn leave_out(program: &mut Program, before: &Cfg) {
+fn leave_out(program: &mut Program, before: &Cfg, findings: &mut Findings<'_>) {
     let reached = |program: &Program, cfg: &Cfg| {
         let roots = cfg.roots().iter().map(|root| root.index());
         reached_among(program.blocks.len(), roots, |at, go| {
@@ -201,13 +202,30 @@ fn leave_out(program: &mut Program, before: &Cfg) {
         })
     };
     let (was, is) = (reached(program, before), reached(program, &Cfg::parts(program)));
+    let mut told = false;
     for (block, (was, is)) in program.blocks.iter_mut().zip(was.into_iter().zip(is)) {
-        if was && !is {
+        let gone = was && !is;
+        // Blocks that follow one another are told once.
+        if gone && !told {
+            findings.add(Diagnostic::new(Code::LeftOut, first_span(block), LEFT_OUT));
+        }
+        told = gone;
+        if gone {
             block.labels.clear();
             block.stmts.clear();
             block.term.site = SourceInfo::default();
         }
     }
+}
+
+/// What is said of text that is left out.
+const LEFT_OUT: &str =
+    "only a test that the machine's profile settles leads here, so that this is never run: it is left out";
+
+/// The first place that a block has in the text.
+fn first_span(block: &Block) -> Span {
+    let sites = block.stmts.iter().map(|stmt| &stmt.site).chain([&block.term.site]);
+    sites.map(|site| site.span).find(|span| !span.is_empty()).unwrap_or_default()
 }
 
 fn report(state: &State, relation: Relation, block: &Block, findings: &mut Findings<'_>) {

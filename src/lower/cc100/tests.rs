@@ -88,6 +88,22 @@ fn a_builders_code_counts_where_the_profile_gives_its_meaning() {
 }
 
 #[test]
+fn what_a_settled_test_leaves_out_is_told_at_its_place() {
+    let parser = registry::find("cc100").unwrap().parse;
+    let source = b"TST QM\nBNE P9\nX1\nM30\n$9\nM0\n(SET TO METRIC)\nG24 P9\n";
+    let told = |units: &str| {
+        let control = Control::from_profile(&format!("dialect = \"cc100\"\n{units}")).unwrap();
+        let lowered = lower(&parse_file(source, parser), 0, "program.nc", &control);
+        let found = lowered.programs.iter().flat_map(|(_, findings)| findings);
+        found.filter(|found| found.code == Code::LeftOut).map(|found| found.span.start).collect::<Vec<_>>()
+    };
+    let place = |text: &[u8]| source.windows(2).position(|two| two == text).unwrap() as u32;
+    assert_eq!(told("units = \"metric\"\n"), [place(b"M0")]);
+    assert_eq!(told("units = \"inch\"\n"), [place(b"X1")], "the stop is what is run there");
+    assert!(told("").is_empty(), "nobody says the unit");
+}
+
+#[test]
 fn long_lines_and_many_jumps_take_no_time() {
     let line = "X=V1 ".repeat(20_000);
     let jumps: String = (0..3_000).map(|n| format!("TST V1\nBEQ V2\nG22 P{n}\n${n}\nG99\n")).collect();

@@ -59,7 +59,8 @@ impl Counting {
             // What returns without a selection counts: its `return` does.
             TermKind::Call { call, .. } => match &call.callee {
                 Callee::Program(name) => self.names.get(name).is_none_or(|callee| at(*callee, BlockId(0))),
-                _ => true,
+                Callee::Block(entry) => at(index, *entry),
+                Callee::Computed(_) | Callee::Cycle(_) => true,
             },
             _ => true,
         }
