@@ -33,6 +33,11 @@ Check it on the machine. If a machine profile can state it, state it there."
 "A message, a line of output or a comment has letters or signs that the target is not known to show, such as accented ones. Similar ones take their place: UE for Ü, C for Ç, EUR for €. Round brackets inside a message become square ones, and a per cent sign becomes PCT. This is reported once per program, at the first of them.
 
 Nothing needs to be done. If a letter of a message has no substitute, MG0507 says so."
+
+    "0409" QualityDropped Note "a mode of quality is dropped"
+"The block sets how smoothly or how fast the control follows a path: advanced preview, AI contour control, accuracy. Such a mode moves the tool to no other place, beyond the tolerance that the control is set to, and no code of the target means the same. It is left out, and told once a program.
+
+Nothing needs to be done for the shape of the part. Where surface or speed matter, choose the mode of the target by its own codes or settings."
         }
     };
 }
