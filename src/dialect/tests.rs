@@ -2,6 +2,7 @@
 
 mod extends;
 mod profiles;
+mod site;
 
 use super::{faults_as_text, load};
 
