@@ -20,6 +20,8 @@ pub struct Base<'t> {
     pub file: &'t str,
     /// Its text.
     pub text: &'t str,
+    /// What its text says, where that is kept for all tables that extend it.
+    pub document: Option<fn() -> Option<&'static DeTable<'static>>>,
 }
 
 /// What a table has in all.
@@ -105,7 +107,8 @@ fn extended(
     }
     seen.push(name.clone());
     let outer = reader.enter(base.name, start);
-    let mut document = reader.document(base.text);
+    let kept = base.document.and_then(|document| document());
+    let mut document = kept.cloned().unwrap_or_else(|| reader.document(base.text));
     reader.known_keys(&document, &load::base_keys());
     for key in ["name", "title"] {
         let _: Option<String> = reader.require(&mut document, key);

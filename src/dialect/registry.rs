@@ -9,6 +9,8 @@ use crate::emit::{self, Emit};
 use crate::lower::{self, Cuts, Lower};
 use crate::syntax::{self, Parser};
 use std::sync::OnceLock;
+use toml::Spanned;
+use toml::de::DeTable;
 
 /// A dialect: its table, and the modules that know it by name.
 pub struct Entry {
@@ -110,11 +112,16 @@ static ENTRIES: [Entry; 4] = [
 ];
 
 /// The tables that others extend.
-pub static BASES: [Base<'static>; 1] = [Base {
-    name: "macro_b",
-    file: "dialects/macro_b.toml",
-    text: include_str!("../../dialects/macro_b.toml"),
-}];
+pub static BASES: [Base<'static>; 1] =
+    [Base { name: "macro_b", file: "dialects/macro_b.toml", text: MACRO_B, document: Some(macro_b) }];
+
+const MACRO_B: &str = include_str!("../../dialects/macro_b.toml");
+
+/// The document of the base, read once for all tables; none if it is no TOML, which whoever reads it by itself is told.
+fn macro_b() -> Option<&'static DeTable<'static>> {
+    static DOCUMENT: OnceLock<Option<DeTable<'static>>> = OnceLock::new();
+    DOCUMENT.get_or_init(|| DeTable::parse(MACRO_B).ok().map(Spanned::into_inner)).as_ref()
+}
 
 /// Every dialect.
 pub fn all() -> &'static [Entry] {

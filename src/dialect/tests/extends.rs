@@ -23,7 +23,7 @@ fn loaded(rows: &str, bases: &[Base<'_>]) -> Result<Dialect, String> {
 }
 
 fn base(text: &str) -> Base<'_> {
-    Base { name: "family", file: "family.toml", text }
+    Base { name: "family", file: "family.toml", text, document: None }
 }
 
 /// With a row of `limits` in the base's place of BASE.
@@ -89,7 +89,7 @@ fn refuses_what_cannot_be_extended() {
     refused("extends = 7", BASE, "t.toml:1:11");
     let itself = format!("extends = \"family\"\n{BASE}");
     refused(EXTENDS, &itself, "family.toml:1:11: MG0202: 'family' extends itself");
-    let other = Base { name: "other", file: "other.toml", text: &itself };
+    let other = Base { name: "other", file: "other.toml", text: &itself, document: None };
     let round = format!("extends = \"other\"\n{BASE}");
     let faults = loaded(EXTENDS, &[base(&round), other]).map(|_| ()).unwrap_err();
     assert!(faults.contains("other.toml:1:11: MG0202: 'family' extends itself"), "{faults}");
