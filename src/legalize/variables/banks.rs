@@ -8,7 +8,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::{Constant, Numbers, Ranges, values_at};
 use crate::ir::eval::whole;
-use crate::ir::{Bank, BlockId, Expr, Module, Program};
+use crate::ir::{Bank, BlockId, Expr, Module, Place, Program};
 use crate::legalize::Context;
 use crate::text::Span;
 use std::cell::LazyCell;
@@ -81,19 +81,29 @@ pub(in crate::legalize) fn each_index(
     f: &mut dyn FnMut(Bank, &Expr, Span, BlockId, usize),
 ) {
     for (id, block) in program.ids().zip(&program.blocks) {
-        let mut look = |e: &Expr, span: Span, at: usize| {
-            e.walk(&mut |e| {
-                if let Expr::Indirect(bank, number) = e {
-                    f(*bank, number, span, id, at);
-                }
-            });
-        };
         for (at, stmt) in block.stmts.iter().enumerate() {
-            stmt.kind.exprs(&mut |e| look(e, stmt.site.span, at));
-            if let Some(place) = stmt.kind.target() {
-                look(&place.read(), stmt.site.span, at);
+            let mut found = |bank, number: &Expr| f(bank, number, stmt.site.span, id, at);
+            stmt.kind.exprs(&mut |e| each_within(e, &mut found));
+            match stmt.kind.target() {
+                Some(Place::Indirect(bank, number)) => {
+                    found(*bank, number);
+                    each_within(number, &mut found);
+                }
+                Some(Place::System(_, subscripts)) => {
+                    subscripts.iter().for_each(|e| each_within(e, &mut found));
+                }
+                _ => {}
             }
         }
-        block.term.kind.exprs(&mut |e| look(e, block.term.site.span, block.stmts.len()));
+        let mut found = |bank, number: &Expr| f(bank, number, block.term.site.span, id, block.stmts.len());
+        block.term.kind.exprs(&mut |e| each_within(e, &mut found));
     }
+}
+
+fn each_within(e: &Expr, found: &mut dyn FnMut(Bank, &Expr)) {
+    e.walk(&mut |e| {
+        if let Expr::Indirect(bank, number) = e {
+            found(*bank, number);
+        }
+    });
 }
