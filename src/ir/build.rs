@@ -1,8 +1,8 @@
 //! Builds a program's blocks from a run of statements with labels and jumps.
 
-use super::{Block, BlockId, Callee, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator};
+use super::{Block, BlockId, Callee, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Terminator};
 use crate::syntax::{Label, ProgramName};
-use smallvec::SmallVec;
+use thin_vec::ThinVec;
 
 /// Builds a program block by block, in source order.
 ///
@@ -59,8 +59,8 @@ impl Builder {
         self.open = true;
         let Some(slot @ None) = self.blocks.get_mut(id.index()) else { return };
         *slot = Some(Block {
-            labels: SmallVec::new(),
-            stmts: Vec::new(),
+            labels: ThinVec::new(),
+            stmts: Stmts::new(),
             term: Terminator { kind: TermKind::Stray, site: SourceInfo::default() },
         });
         self.order.push(id);

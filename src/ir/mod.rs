@@ -74,8 +74,8 @@ pub use validate::{Valid, validate};
 pub use var::{Class, FLAGS, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of};
 
 use crate::syntax::{Label, ProgramName};
-use smallvec::SmallVec;
 use std::collections::BTreeMap;
+use thin_vec::ThinVec;
 
 /// A library of programs.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -113,14 +113,17 @@ impl BlockId {
     }
 }
 
+/// The statements of a block: most blocks have few, and many have none.
+pub type Stmts = ThinVec<Stmt>;
+
 /// A basic block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     /// The labels it has in the source: sequence numbers and names. Targets of computed
     /// jumps and of returns to a sequence number find the block by them.
-    pub labels: SmallVec<[Label; 1]>,
+    pub labels: ThinVec<Label>,
     /// Its statements.
-    pub stmts: Vec<Stmt>,
+    pub stmts: Stmts,
     /// How it ends.
     pub term: Terminator,
 }

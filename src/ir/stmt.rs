@@ -104,16 +104,16 @@ pub enum StmtKind {
     /// Stops the machine for good with a number and a message.
     Alarm {
         /// The number, as the source writes it.
-        number: Expr,
+        number: Box<Expr>,
         /// The message.
-        text: String,
+        text: Box<str>,
     },
     /// Stops until cycle start and shows a message.
     StopMessage {
         /// The number, as the source writes it.
-        number: Expr,
+        number: Box<Expr>,
         /// The message.
-        text: String,
+        text: Box<str>,
     },
     /// Formatted output to a port, one line.
     Output(Vec<OutputPart>),
@@ -126,7 +126,7 @@ pub enum StmtKind {
         /// True for the port.
         serial: bool,
         /// What is printed.
-        parts: Vec<PrintPart>,
+        parts: ThinVec<PrintPart>,
         /// True where the next print goes on in the same line.
         stay: bool,
     },
@@ -148,7 +148,7 @@ pub enum StmtKind {
         /// The first.
         first: Var,
         /// The names.
-        names: Vec<String>,
+        names: ThinVec<String>,
     },
 }
 

@@ -30,7 +30,10 @@ fn fill_one(program: &mut Program, hole: Span, code: &str) {
     let touches =
         |span: Span| !span.is_empty() && span.start < hole.end.max(hole.start + 1) && hole.start < span.end;
     let alarm = |span: Span| Stmt {
-        kind: StmtKind::Alarm { number: Expr::Number(99.0), text: format!("NOT CONVERTED {code}") },
+        kind: StmtKind::Alarm {
+            number: Expr::Number(99.0).into(),
+            text: format!("NOT CONVERTED {code}").into(),
+        },
         site: SourceInfo { span, ..SourceInfo::default() },
     };
     let mut filled = false;

@@ -57,7 +57,7 @@ impl<'p> Emitter<'p> {
             }
             None => parts.push(PrintPart::Text(text.to_owned())),
         }
-        for kind in [StmtKind::Sync, StmtKind::Print { serial: false, parts, stay: false }] {
+        for kind in [StmtKind::Sync, StmtKind::Print { serial: false, parts: parts.into(), stay: false }] {
             self.begin(&stmt.site, Kind::Macro);
             self.macro_statement(&kind);
             self.finish();

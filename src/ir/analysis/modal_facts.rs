@@ -10,7 +10,7 @@ use super::cfg::reachable;
 use super::computed_calls::{Callees, computed_calls};
 use super::modal::{Modal, calls_of};
 use crate::ir::analysis::dataflow::{Lattice, Routines};
-use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Call, Callee, Expr, Module, Program, Stmt, StmtKind, Stmts, TermKind};
 use crate::syntax::{Label, ProgramName};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -264,10 +264,10 @@ fn comes_back(program: &Program) -> bool {
 pub fn replace_statements(
     module: &mut Module,
     facts: &ModalFacts,
-    mut change: impl FnMut(usize, &mut Modal, Stmt, &mut Vec<Stmt>),
+    mut change: impl FnMut(usize, &mut Modal, Stmt, &mut Stmts),
 ) {
     // Most blocks get as many statements as they had, so that each stays where it is in memory.
-    let mut out = Vec::new();
+    let mut out = Stmts::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));

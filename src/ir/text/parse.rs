@@ -77,7 +77,7 @@ impl<'t> Parser<'t> {
         }
         self.mark(":")?;
         self.line()?;
-        let mut stmts = Vec::new();
+        let mut stmts = crate::ir::Stmts::new();
         loop {
             self.height = 0;
             if let Some(kind) = self.term_kind()? {

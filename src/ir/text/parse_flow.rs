@@ -38,8 +38,8 @@ impl Parser<'_> {
         Ok(match word {
             "nc" => StmtKind::Nc(self.nc()?),
             "modal" => StmtKind::ModalCall(Box::new(self.call()?)),
-            "alarm" => StmtKind::Alarm { number: self.expr()?, text: self.string()? },
-            "stop" => StmtKind::StopMessage { number: self.expr()?, text: self.string()? },
+            "alarm" => StmtKind::Alarm { number: self.expr()?.into(), text: self.string()?.into() },
+            "stop" => StmtKind::StopMessage { number: self.expr()?.into(), text: self.string()?.into() },
             "output" => StmtKind::Output(self.list("[", "]", Self::output_part)?),
             "print" => {
                 let serial = self.eat_word("serial");
@@ -47,7 +47,7 @@ impl Parser<'_> {
                     Tok::Text(_) => Ok(PrintPart::Text(p.string()?)),
                     _ => Ok(PrintPart::Value(p.expr()?)),
                 })?;
-                StmtKind::Print { serial, parts, stay: self.eat_word("stay") }
+                StmtKind::Print { serial, parts: parts.into(), stay: self.eat_word("stay") }
             }
             "input" => {
                 let serial = self.eat_word("serial");
@@ -60,7 +60,7 @@ impl Parser<'_> {
                 StmtKind::ClearAll(class.ok_or_else(|| self.unexpected_before("a class"))?.0)
             }
             "lookahead" => StmtKind::LimitLookahead(self.expr()?),
-            _ => StmtKind::SetNames { first: self.var()?, names: self.list("[", "]", Self::string)? },
+            _ => StmtKind::SetNames { first: self.var()?, names: self.list("[", "]", Self::string)?.into() },
         })
     }
 

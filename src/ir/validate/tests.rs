@@ -90,7 +90,8 @@ fn deep_expressions_are_refused() {
     let deep = (1..eval_depth()).fold(Expr::Number(1.0), |e, _| Expr::Negate(Box::new(e)));
     for (value, valid) in [(deep.clone(), true), (Expr::Negate(Box::new(deep)), false)] {
         let kind = StmtKind::LimitLookahead(value);
-        module.programs[0].blocks[0].stmts = vec![Stmt { kind, site: crate::ir::SourceInfo::default() }];
+        module.programs[0].blocks[0].stmts =
+            thin_vec::thin_vec![Stmt { kind, site: crate::ir::SourceInfo::default() }];
         assert_eq!(validate(&module).is_ok(), valid);
     }
 }

@@ -114,7 +114,7 @@ fn chain(builder: &mut Builder, jump: Jump, temp: Var, site: SourceInfo) {
     match last {
         Some((_, to)) => builder.end(TermKind::Jump(to), next_site()),
         None => {
-            let alarm = StmtKind::Alarm { number: Expr::Number(1.0), text: "NO SUCH BLOCK".into() };
+            let alarm = StmtKind::Alarm { number: Expr::Number(1.0).into(), text: "NO SUCH BLOCK".into() };
             builder.push(alarm, next_site());
             builder.end(TermKind::End { rewind: false }, place.clone());
         }

@@ -11,11 +11,10 @@
 
 use crate::dialect::Question;
 use crate::ir::{
-    Block, BlockId, Callee, Comment, Module, Program, SourceInfo, StmtKind, TermKind, Terminator,
+    Block, BlockId, Callee, Comment, Module, Program, SourceInfo, StmtKind, Stmts, TermKind, Terminator,
 };
 use crate::legalize::{Context, calls_of, reachable};
 use crate::syntax::{Label, ProgramName};
-use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use thin_vec::ThinVec;
 
@@ -145,7 +144,7 @@ fn extract(
     if !leads {
         let jump = TermKind::Jump(place.get(&entry).copied().unwrap_or(BlockId(0)));
         let term = Terminator { kind: jump, site: SourceInfo::default() };
-        blocks.push(Block { labels: SmallVec::new(), stmts: Vec::new(), term });
+        blocks.push(Block { labels: ThinVec::new(), stmts: Stmts::new(), term });
     }
     for block in body.iter().filter_map(|&id| program.block(id)) {
         let mut block = block.clone();

@@ -9,7 +9,7 @@
 use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{self, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::ir::{self, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::codes::pauses::{AFTER_CALL, pause_of};
 use crate::legalize::features::Features;
 use crate::legalize::{Context, Modal};
@@ -27,7 +27,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     }
     let facts = context.modal_facts(module);
     let pauses = blocks().flat_map(|block| &block.stmts).any(|stmt| pause_of(&stmt.kind).is_some());
-    let (mut out, mut changed) = (Vec::new(), false);
+    let (mut out, mut changed) = (Stmts::new(), false);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate().filter(|(_, block)| acts_beside(block)) {
             let mut state = facts.at(index, BlockId(at as u32));
@@ -80,7 +80,7 @@ fn split(
     before: &Modal,
     pauses: bool,
     context: &mut Context<'_>,
-    out: &mut Vec<Stmt>,
+    out: &mut Stmts,
 ) -> bool {
     let StmtKind::Nc(nc) = &mut stmt.kind else {
         out.push(stmt);

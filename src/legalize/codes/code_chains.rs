@@ -271,7 +271,7 @@ fn lay(builder: &mut Builder, chain: Chain, nc: &Nc, site: SourceInfo) {
     match last {
         Some(choice) => block(builder, Some(choice)),
         None => {
-            let alarm = StmtKind::Alarm { number: Expr::Number(1.0), text: "NO SUCH CODE".into() };
+            let alarm = StmtKind::Alarm { number: Expr::Number(1.0).into(), text: "NO SUCH CODE".into() };
             builder.push(alarm, place.clone());
             builder.end(TermKind::End { rewind: false }, place.clone());
         }

@@ -10,7 +10,7 @@ use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
 use crate::ir::analysis::modal_facts::replace_statements;
-use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::{Context, Modal, ModalFacts};
 use crate::text::Span;
@@ -63,7 +63,7 @@ fn compensates(stmt: &Stmt) -> bool {
 }
 
 /// A limit of one block and the empty ones; taken off again where it must not stay.
-fn limit(site: SourceInfo, taken_off: bool, out: &mut Vec<Stmt>) {
+fn limit(site: SourceInfo, taken_off: bool, out: &mut Stmts) {
     let span = site.span;
     let empty = || Stmt { kind: StmtKind::Comment, site: SourceInfo { span, ..SourceInfo::default() } };
     let to = |count: f64| StmtKind::LimitLookahead(Expr::Number(count));

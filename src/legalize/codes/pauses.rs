@@ -15,7 +15,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::dataflow::Lattice;
-use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{Block, BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::{Context, Modal};
 use crate::text::Span;
@@ -129,7 +129,7 @@ fn stops_in(block: &Block) -> bool {
 /// Puts what ends something before the stops of a block, and after them what is started again.
 fn lay(block: &mut Block, mut before: BTreeMap<usize, Vec<Op>>, again: &[(usize, Op)]) {
     let more = before.values().map(Vec::len).sum::<usize>() + before.len() + again.len();
-    let mut out = Vec::with_capacity(block.stmts.len() + more);
+    let mut out = Stmts::with_capacity(block.stmts.len() + more);
     for (at, stmt) in std::mem::take(&mut block.stmts).into_iter().enumerate() {
         let (span, skip) = (stmt.site.span, stmt.site.skip);
         match before.remove(&at) {
@@ -170,7 +170,7 @@ fn started(module: &Module, context: &Context<'_>) -> Vec<[bool; 2]> {
 }
 
 /// Lays down a stop, and before it what ends what is running; the words beside the stop come first.
-fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Vec<Stmt>) {
+fn ended(before: Vec<Op>, mut stmt: Stmt, out: &mut Stmts) {
     let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
     let nc = |items: Vec<NcItem>| StmtKind::Nc(Nc { items });
     if let StmtKind::Nc(block) = &mut stmt.kind

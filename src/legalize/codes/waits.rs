@@ -7,7 +7,7 @@
 
 use crate::canon::Sys;
 use crate::dialect::{Control, Question};
-use crate::ir::{Expr, Module, Place, SourceInfo, Stmt, StmtKind};
+use crate::ir::{Expr, Module, Place, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 
@@ -26,7 +26,7 @@ fn reads_early(target: &Control) -> bool {
 pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
     let mut changed = false;
     for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
-        let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
+        let mut out = Stmts::with_capacity(block.stmts.len());
         // Statements after a wait are at their place until the next move.
         let mut waited = false;
         for stmt in std::mem::take(&mut block.stmts) {

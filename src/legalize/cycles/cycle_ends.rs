@@ -9,7 +9,7 @@
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
-use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{BlockId, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 
@@ -32,7 +32,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut state = facts.at(index, BlockId(at as u32));
-            let mut out = Vec::with_capacity(block.stmts.len());
+            let mut out = Stmts::with_capacity(block.stmts.len());
             for stmt in std::mem::take(&mut block.stmts) {
                 let drills = state.op(Group::Cycle) != Some(Op::CycleOff);
                 let known = state.op(Group::Cycle).is_some();

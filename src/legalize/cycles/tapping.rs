@@ -11,7 +11,7 @@ mod kept;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind};
+use crate::ir::{BinOp, BlockId, Expr, Module, Nc, NcItem, StmtKind, Stmts};
 use crate::legalize::Context;
 use kept::{Does, Kept};
 
@@ -34,7 +34,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let id = BlockId(at as u32);
             let (mut state, mut in_force) = (facts.at(index, id), kept.at(index, id));
-            let stmts = Vec::with_capacity(block.stmts.len());
+            let stmts = Stmts::with_capacity(block.stmts.len());
             for mut stmt in std::mem::replace(&mut block.stmts, stmts) {
                 let does = kept.step(&stmt, &mut state, &mut in_force);
                 let span = stmt.site.span;

@@ -9,7 +9,7 @@
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Operand, OperandPlace};
-use crate::ir::{Class, Expr, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Var};
+use crate::ir::{Class, Expr, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, Var};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::legalize::rewrite::highest_temp;
@@ -30,7 +30,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     let mut changed = false;
     let mut beside: Option<Span> = None;
     for block in &mut program.blocks {
-        let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
+        let mut out = Stmts::with_capacity(block.stmts.len());
         for mut stmt in std::mem::take(&mut block.stmts) {
             let twice = stmt.kind.nc().is_some_and(|nc| nc.ops().any(Op::acts_with_words) && has_code(nc));
             beside = beside.or(twice.then_some(stmt.site.span));

@@ -13,7 +13,7 @@
 use crate::canon::Role;
 use crate::dialect::{Compares, Control, Form, Operand, OperandPlace, Question};
 use crate::ir::{
-    BinOp, Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
+    BinOp, Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var,
 };
 use crate::legalize::context::Context;
 use crate::legalize::expressions::split::{is_free_all, is_leaf, place_of};
@@ -100,7 +100,7 @@ impl Taker<'_> {
     }
 
     /// Puts what was taken out before the statement; how many statements that is.
-    fn lay(&mut self, stmts: &mut Vec<Stmt>, at: usize, skip: Option<u8>) -> usize {
+    fn lay(&mut self, stmts: &mut Stmts, at: usize, skip: Option<u8>) -> usize {
         let assigns: Vec<Stmt> = self.before.drain(..).map(|(var, value)| assign(var, value, skip)).collect();
         let count = assigns.len();
         self.changed |= count > 0;

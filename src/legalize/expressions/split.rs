@@ -8,7 +8,7 @@
 use crate::canon::{Func, Sys};
 use crate::dialect::{Control, OperandPlace};
 use crate::ir::{
-    Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind, Var,
+    Block, Class, Cond, Expr, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind, Var,
 };
 use crate::legalize::context::Context;
 use crate::legalize::expressions::cost::{Measure, REGISTER, Size};
@@ -122,7 +122,7 @@ impl Cutter<'_> {
     }
 
     /// Puts what was taken out before the statement; how many statements that is.
-    fn lay(&mut self, stmts: &mut Vec<Stmt>, at: usize, skip: Option<u8>) -> usize {
+    fn lay(&mut self, stmts: &mut Stmts, at: usize, skip: Option<u8>) -> usize {
         if self.before.is_empty() {
             return 0;
         }

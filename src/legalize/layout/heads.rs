@@ -10,7 +10,7 @@
 use super::earlier::Earlier;
 use super::head_text::Head;
 use crate::dialect::Control;
-use crate::ir::{Block, Callee, Module, Program, SourceInfo, Stmt, StmtKind};
+use crate::ir::{Block, Callee, Module, Program, SourceInfo, StmtKind, Stmts};
 use crate::legalize::{Context, calls_of};
 use crate::syntax::ProgramName;
 use std::collections::BTreeSet;
@@ -117,7 +117,7 @@ fn drop_head(program: &mut Program, source: &Control, f: &mut dyn FnMut(&Head)) 
     let (mut changed, mut scratch) = (false, false);
     // A block with a number is a block of the IR too, where something may jump to it.
     'head: for block in &mut program.blocks {
-        let mut kept: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
+        let mut kept = Stmts::with_capacity(block.stmts.len());
         let mut rest = std::mem::take(&mut block.stmts).into_iter();
         let mut ended = false;
         for mut stmt in rest.by_ref() {

@@ -14,7 +14,7 @@ mod counting;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::{Context, Modal, Setting};
 use counting::Counting;
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
             let mut state = facts.at(index, id);
             let old = std::mem::take(&mut block.stmts);
-            let mut out = Vec::with_capacity(old.len() + 2);
+            let mut out = Stmts::with_capacity(old.len() + 2);
             for (at, stmt) in old.iter().enumerate() {
                 let before = state.clone();
                 state.step(stmt);

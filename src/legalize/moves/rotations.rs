@@ -21,8 +21,8 @@ use crate::ir::analysis::over_calls::{Follow, OverCalls};
 use crate::ir::analysis::programmed::Programmed;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    Block, BlockId, Class, Expr, Module, NcItem, OF_NO_LEVEL, Place, SourceInfo, Stmt, StmtKind, TermKind,
-    Var,
+    Block, BlockId, Class, Expr, Module, NcItem, OF_NO_LEVEL, Place, SourceInfo, Stmt, StmtKind, Stmts,
+    TermKind, Var,
 };
 use crate::legalize::Context;
 use crate::legalize::rewrite::highest_temp;
@@ -154,7 +154,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let id = BlockId(at as u32);
             let Some(mut here) = known.at(index, id).copied() else { continue };
             let (mut state, mut place) = (facts.at(index, id), named.at(id).cloned());
-            let mut out = Vec::with_capacity(block.stmts.len());
+            let mut out = Stmts::with_capacity(block.stmts.len());
             for (stmt, vacant) in std::mem::take(&mut block.stmts).into_iter().zip(&vacant[at]) {
                 let words = place.as_ref().and_then(Programmed::words);
                 let before = here;
@@ -263,7 +263,7 @@ fn set(
     stmt: Stmt,
     vacant: &Vacant,
     (ccw, registers): (bool, &[Var]),
-    out: &mut Vec<Stmt>,
+    out: &mut Stmts,
 ) -> Result<(), &'static str> {
     let Stmt { kind: StmtKind::Nc(mut nc), site } = stmt else { return Ok(()) };
     let on = nc.has(Op::RotateOn);

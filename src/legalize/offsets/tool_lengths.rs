@@ -24,11 +24,12 @@ use crate::ir::analysis::over_calls::{Follow, OverCalls, called};
 use crate::ir::analysis::reachable;
 use crate::ir::analysis::{Modal, ModalFacts};
 use crate::ir::{
-    Block, BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind, Terminator,
+    Block, BlockId, Expr, Module, Nc, NcItem, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
+    Terminator,
 };
 use crate::legalize::Context;
 use crate::legalize::rewrite::put_first;
-use smallvec::SmallVec;
+use thin_vec::{ThinVec, thin_vec};
 
 /// True if a tool word brings the length of its tool.
 pub fn concerns(target: &Control) -> bool {
@@ -249,7 +250,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         for (id, block) in program.ids().zip(&mut program.blocks) {
             let Some(mut state) = states.at(index, id).copied() else { continue };
             let mut modal = facts.at(index, id);
-            let mut out = Vec::with_capacity(block.stmts.len() + 1);
+            let mut out = Stmts::with_capacity(block.stmts.len() + 1);
             for mut stmt in std::mem::take(&mut block.stmts) {
                 modal.step(&stmt);
                 let before = state;
@@ -326,7 +327,7 @@ fn begin(program: &mut Program, tool: u32) {
     let items = vec![NcItem::Op(Op::ToolChange), NcItem::Word(Role::Tool, Expr::Number(f64::from(tool)))];
     let stmt = Stmt { kind: StmtKind::Nc(Nc { items }), site: SourceInfo::default() };
     let term = Terminator { kind: TermKind::Jump(BlockId(1)), site: SourceInfo::default() };
-    put_first(program, vec![Block { labels: SmallVec::new(), stmts: vec![stmt], term }]);
+    put_first(program, vec![Block { labels: ThinVec::new(), stmts: thin_vec![stmt], term }]);
 }
 
 const NUMBERED: &str = "the number of this tool is taken to be a whole number, 1 or more: on the target tool 0 ends the length and changes to none";

@@ -8,7 +8,7 @@
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BinOp, Expr, Module, OutputPart, PrintPart, SourceInfo, Stmt, StmtKind};
+use crate::ir::{BinOp, Expr, Module, OutputPart, PrintPart, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::text::Span;
@@ -27,7 +27,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let mut found: Vec<(usize, Span)> = Vec::new();
     for (index, program) in module.programs.iter_mut().enumerate() {
         for block in &mut program.blocks {
-            let mut stmts = Vec::with_capacity(block.stmts.len());
+            let mut stmts = Stmts::with_capacity(block.stmts.len());
             for stmt in std::mem::take(&mut block.stmts) {
                 match stmt.kind {
                     StmtKind::Output(parts) => {

@@ -30,7 +30,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 writer.comments(&mut stmt.site.comments, here);
                 match &mut stmt.kind {
                     StmtKind::Alarm { text, .. } | StmtKind::StopMessage { text, .. } => {
-                        writer.take(text, shown)
+                        if let Some(new) = writer.written(text, shown) {
+                            *text = new.into();
+                        }
                     }
                     StmtKind::Output(parts) => parts.iter_mut().for_each(|part| {
                         if let OutputPart::Text(text) = part {
@@ -77,11 +79,18 @@ impl Writer<'_, '_> {
         comments.iter_mut().for_each(|comment| self.take(&mut comment.text, place));
     }
 
-    /// Writes a text as the target can show it, and says so where letters were replaced.
+    /// Writes a text as the target can show it.
     fn take(&mut self, text: &mut String, place: Place) {
+        if let Some(new) = self.written(text, place) {
+            *text = new;
+        }
+    }
+
+    /// The text as the target can show it, told where letters were replaced; none where it stays as it is.
+    fn written(&mut self, text: &str, place: Place) -> Option<String> {
         let written = Written::of(text, place);
         if written.text == *text {
-            return;
+            return None;
         }
         let (before, after) = (text.trim(), written.text.trim());
         if written.lost && !matches!(place, Place::Comment { .. }) {
@@ -94,7 +103,7 @@ impl Writer<'_, '_> {
             let finding = Diagnostic::new(Code::LettersReplaced, self.span, what);
             self.context.add_once(self.index, "letters", finding);
         }
-        *text = written.text;
+        Some(written.text)
     }
 }
 

@@ -21,8 +21,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             if text.chars().count() <= most {
                 continue;
             }
-            let whole = std::mem::take(text);
-            *text = whole.chars().take(most).collect::<String>().trim_end().to_owned();
+            let whole = std::mem::take(text).into_string();
+            *text = whole.chars().take(most).collect::<String>().trim_end().into();
             let what = format!(
                 "the target shows {most} characters of a message: '{text}'; a comment has the whole text"
             );

@@ -7,7 +7,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
-use crate::ir::{Module, Program, SourceInfo, Stmt, StmtKind};
+use crate::ir::{Module, Program, SourceInfo, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use crate::text::Span;
 
@@ -55,7 +55,7 @@ fn shut(program: &Program) -> Option<Span> {
 /// Opens the port before each run of output, and closes it after.
 fn open(program: &mut Program) {
     for block in &mut program.blocks {
-        let mut out = Vec::with_capacity(block.stmts.len());
+        let mut out = Stmts::with_capacity(block.stmts.len());
         let port = |kind, span| Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } };
         let mut open = None;
         for stmt in std::mem::take(&mut block.stmts) {

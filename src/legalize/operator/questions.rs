@@ -9,7 +9,7 @@
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{
-    Class, Expr, Module, OutputPart, Place, PrintPart, Program, SourceInfo, Stmt, StmtKind, Var,
+    Class, Expr, Module, OutputPart, Place, PrintPart, Program, SourceInfo, Stmt, StmtKind, Stmts, Var,
 };
 use crate::legalize::{Context, Registers};
 
@@ -29,7 +29,7 @@ pub fn questions(module: &mut Module, context: &mut Context<'_>) {
 fn ask_all(module: &mut Module, registers: &Registers, context: &mut Context<'_>) {
     for (index, program) in module.programs.iter_mut().enumerate() {
         for block in &mut program.blocks {
-            let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
+            let mut out = Stmts::with_capacity(block.stmts.len());
             for stmt in std::mem::take(&mut block.stmts) {
                 match stmt.kind {
                     StmtKind::Input { target, serial } => {
@@ -45,7 +45,7 @@ fn ask_all(module: &mut Module, registers: &Registers, context: &mut Context<'_>
 }
 
 /// The text printed right before, to which the cursor was left.
-fn take_question(out: &mut Vec<Stmt>, serial: bool) -> Option<String> {
+fn take_question(out: &mut Stmts, serial: bool) -> Option<String> {
     let at = out.iter().rposition(|stmt| stmt.kind != StmtKind::Comment)?;
     // What was printed on the same line before it would be lost.
     let before = out[..at].iter().rfind(|stmt| stmt.kind != StmtKind::Comment);
@@ -82,7 +82,7 @@ fn ask(
     site: SourceInfo,
     index: usize,
     registers: &Registers,
-    out: &mut Vec<Stmt>,
+    out: &mut Stmts,
     context: &mut Context<'_>,
 ) {
     let span = site.span;
@@ -117,7 +117,10 @@ fn ask(
         kind: StmtKind::Assign { target, value: Expr::Number(0.0) },
         site: SourceInfo { span, skip, ..SourceInfo::default() },
     });
-    out.push(Stmt { kind: StmtKind::StopMessage { number: Expr::Number(1.0), text }, site });
+    out.push(Stmt {
+        kind: StmtKind::StopMessage { number: Expr::Number(1.0).into(), text: text.into() },
+        site,
+    });
 }
 
 /// Replaces prints by formatted output.
@@ -128,7 +131,7 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
     let opens = context.target.statement("output.open").is_some();
     for (index, program) in module.programs.iter_mut().enumerate() {
         for block in &mut program.blocks {
-            let mut out: Vec<Stmt> = Vec::with_capacity(block.stmts.len());
+            let mut out = Stmts::with_capacity(block.stmts.len());
             let mut pending: Vec<OutputPart> = Vec::new();
             let mut open = false;
             // What ends a run of prints belongs to the last of them.
@@ -183,7 +186,7 @@ pub fn hold_values(program: &mut Program, _: usize, context: &mut Context<'_>) -
     }
     let mut temp = crate::legalize::rewrite::highest_temp(program);
     for block in &mut program.blocks {
-        let mut out = Vec::with_capacity(block.stmts.len());
+        let mut out = Stmts::with_capacity(block.stmts.len());
         for mut stmt in std::mem::take(&mut block.stmts) {
             if let StmtKind::Print { parts, .. } = &mut stmt.kind {
                 let site =
@@ -209,7 +212,7 @@ pub fn hold_values(program: &mut Program, _: usize, context: &mut Context<'_>) -
     true
 }
 
-fn finish(out: &mut Vec<Stmt>, pending: &mut Vec<OutputPart>, open: &mut bool, site: &SourceInfo) {
+fn finish(out: &mut Stmts, pending: &mut Vec<OutputPart>, open: &mut bool, site: &SourceInfo) {
     if !pending.is_empty() {
         out.push(Stmt { kind: StmtKind::Output(std::mem::take(pending)), site: site.clone() });
     }

@@ -28,8 +28,8 @@ use crate::legalize::registers::needs::has_locals;
 use crate::legalize::rewrite::put_first;
 use crate::legalize::{Context, Position, Rewriter, calls_of, rewrite_program};
 use levels::Levels;
-use smallvec::SmallVec;
 use std::collections::BTreeSet;
+use thin_vec::ThinVec;
 
 /// True if programs have variables, and the target no locals.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -165,7 +165,7 @@ fn begin(index: usize, program: &mut Program, vars: &[Var], levels: &Levels, con
         site: SourceInfo::default(),
     };
     let term = Terminator { kind: TermKind::Jump(BlockId(1)), site: SourceInfo::default() };
-    let block = Block { labels: SmallVec::new(), stmts: vars.iter().map(zero).collect(), term };
+    let block = Block { labels: ThinVec::new(), stmts: vars.iter().map(zero).collect(), term };
     put_first(program, vec![block]);
 }
 

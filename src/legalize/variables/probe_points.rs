@@ -11,7 +11,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::analysis::{Constant, Summaries, values_at};
 use crate::ir::{
-    BlockId, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo, Stmt, StmtKind, Var,
+    BlockId, Class, Cond, Expr, Module, Nc, NcItem, Place, Program, Relation, SourceInfo, Stmt, StmtKind,
+    Stmts, Var,
 };
 use crate::legalize::rewrite::{PreStatement, rewrite_program};
 use crate::legalize::{Context, Rewriter};
@@ -140,7 +141,7 @@ fn keep(program: &mut Program, cells: &BTreeSet<Cell>, summaries: &Summaries) ->
         points.push(block.stmts.iter().enumerate().map(point).collect());
     }
     for (block, points) in program.blocks.iter_mut().zip(points) {
-        let mut out = Vec::with_capacity(block.stmts.len());
+        let mut out = Stmts::with_capacity(block.stmts.len());
         for (mut stmt, point) in std::mem::take(&mut block.stmts).into_iter().zip(points) {
             let site = SourceInfo { skip: stmt.site.skip, ..SourceInfo::default() };
             let span = stmt.site.span;

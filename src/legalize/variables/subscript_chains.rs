@@ -295,7 +295,7 @@ fn branches(
     match last {
         Some((_, vars)) => lay(builder, Named { of: &chain.of, vars }),
         None => {
-            let alarm = StmtKind::Alarm { number: Expr::Number(1.0), text: "NO SUCH VARIABLE".into() };
+            let alarm = StmtKind::Alarm { number: Expr::Number(1.0).into(), text: "NO SUCH VARIABLE".into() };
             builder.push(alarm, place.clone());
             builder.end(TermKind::End { rewind: false }, place.clone());
         }

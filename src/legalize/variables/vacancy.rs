@@ -9,13 +9,13 @@
 use crate::dialect::Question;
 use crate::ir::analysis::upward_exposed::{UpwardExposed, roots};
 use crate::ir::{
-    Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, SourceInfo, Stmt, StmtKind,
+    Block, BlockId, Class, Cond, Expr, Module, Place, Program, Relation, SourceInfo, Stmt, StmtKind, Stmts,
     TermKind, Terminator, Var,
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::put_first;
-use smallvec::SmallVec;
+use thin_vec::{ThinVec, thin_vec};
 
 /// True where there are variables, and only the target's may be vacant.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -48,12 +48,12 @@ fn guard(program: &mut Program, vars: &[Var]) {
         let (set, next) = (BlockId(2 * at + 1), BlockId(2 * at + 2));
         let cond = Cond::Compare(Relation::Equal, Expr::Var(*var), Expr::Vacant);
         let zero = StmtKind::Assign { target: Place::Var(*var), value: Expr::Number(0.0) };
-        blocks.push(block(Vec::new(), TermKind::Branch { cond, then: set, otherwise: next }));
-        blocks.push(block(vec![Stmt { kind: zero, site: SourceInfo::default() }], TermKind::Jump(next)));
+        blocks.push(block(Stmts::new(), TermKind::Branch { cond, then: set, otherwise: next }));
+        blocks.push(block(thin_vec![Stmt { kind: zero, site: SourceInfo::default() }], TermKind::Jump(next)));
     }
     put_first(program, blocks);
 }
 
-fn block(stmts: Vec<Stmt>, kind: TermKind) -> Block {
-    Block { labels: SmallVec::new(), stmts, term: Terminator { kind, site: SourceInfo::default() } }
+fn block(stmts: Stmts, kind: TermKind) -> Block {
+    Block { labels: ThinVec::new(), stmts, term: Terminator { kind, site: SourceInfo::default() } }
 }

@@ -12,7 +12,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::analysis::Cfg;
 use crate::ir::analysis::dataflow::{Analysis, Direction, Lattice, OneOf, solve_everywhere};
-use crate::ir::{Block, BlockId, Nc, NcItem, Program, Stmt, StmtKind};
+use crate::ir::{Block, BlockId, Nc, NcItem, Program, Stmt, StmtKind, Stmts};
 use crate::lower::common::Findings;
 use crate::text::Span;
 
@@ -106,7 +106,7 @@ pub fn resolve(program: &mut Program, findings: &mut Findings<'_>) {
     let starts = solve_everywhere(&Cycles, program, &Cfg::parts(program), &State::one(NONE));
     for (at, block) in (0..).zip(&mut program.blocks) {
         let mut state = starts.at(BlockId(at)).cloned().unwrap_or_default();
-        let mut stmts = Vec::with_capacity(block.stmts.len());
+        let mut stmts = Stmts::with_capacity(block.stmts.len());
         for mut stmt in std::mem::take(&mut block.stmts) {
             let mut ended = None;
             if let StmtKind::Nc(nc) = &mut stmt.kind {

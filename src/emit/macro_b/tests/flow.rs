@@ -44,7 +44,7 @@ fn one_macro_statement_stands_behind_then() {
         blocks([(&[], vec![], branch(gt(1, 5.0), 1, 2)), (&[], vec![stmt], jump(2)), (&[], vec![], END)])
     };
     fanuc(&program(set(2, n(1.0))), &["IF [#1 GT 5] THEN #2=1", "M30"]);
-    let alarm = StmtKind::Alarm { number: n(1.0), text: "TOO DEEP".into() };
+    let alarm = StmtKind::Alarm { number: n(1.0).into(), text: "TOO DEEP".into() };
     fanuc(&program(alarm), &["IF [#1 GT 5] THEN #3000=1 (TOO DEEP)", "M30"]);
     fanuc(&program(StmtKind::OpenPort), &["IF [#1 LE 5] GOTO 10", "POPEN", "N10 M30"]);
     // Another way into the statement, or two statements.

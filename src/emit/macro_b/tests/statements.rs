@@ -1,8 +1,9 @@
 use super::*;
 use crate::canon::Sys;
+use thin_vec::thin_vec;
 
 fn alarm(number: f64, text: &str) -> StmtKind {
-    StmtKind::Alarm { number: n(number), text: text.into() }
+    StmtKind::Alarm { number: n(number).into(), text: text.into() }
 }
 
 #[test]
@@ -21,11 +22,11 @@ fn statements_have_the_syntax_of_the_manuals() {
         (write(Sys::WorkOffset, &[v(1), n(1.0)], v(2)), "#[5201+20*#1]=#2"),
         (alarm(101.0, "HOLE SPACING TOO SMALL"), "#3000=101 (HOLE SPACING TOO SMALL)"),
         (alarm(1.0, ""), "#3000=1"),
-        (StmtKind::StopMessage { number: v(1), text: "CHECK TOOL".into() }, "#3006=#1 (CHECK TOOL)"),
+        (StmtKind::StopMessage { number: v(1).into(), text: "CHECK TOOL".into() }, "#3006=#1 (CHECK TOOL)"),
         (StmtKind::OpenPort, "POPEN"),
         (StmtKind::ClosePort, "PCLOS"),
         (
-            StmtKind::SetNames { first: local(510), names: vec!["TOOL".into(), "LIFE".into()] },
+            StmtKind::SetNames { first: local(510), names: thin_vec!["TOOL".into(), "LIFE".into()] },
             "SETVN 510[TOOL,LIFE]",
         ),
         (
@@ -50,7 +51,7 @@ fn what_the_target_cannot_do_is_refused() {
         StmtKind::Sync,
         StmtKind::LimitLookahead(n(1.0)),
         StmtKind::Input { serial: false, target: Place::Var(local(1)) },
-        StmtKind::Print { serial: false, parts: vec![PrintPart::Value(v(1))], stay: false },
+        StmtKind::Print { serial: false, parts: thin_vec![PrintPart::Value(v(1))], stay: false },
         StmtKind::ClearAll(Class::Global),
         StmtKind::Assign { target: read_only, value: n(0.0) },
         StmtKind::Output(vec![OutputPart::Value { value: add(v(1), v(2)), whole: 5, fraction: 3 }]),
@@ -61,7 +62,7 @@ fn what_the_target_cannot_do_is_refused() {
     }
     let text = StmtKind::Output(vec![OutputPart::Text("50%".into())]);
     assert_eq!(refused("fanuc", &one([text])), [Code::TextUnwritable]);
-    let names = StmtKind::SetNames { first: local(510), names: vec!["9X".into()] };
+    let names = StmtKind::SetNames { first: local(510), names: thin_vec!["9X".into()] };
     assert_eq!(refused("fanuc", &one([names])), [Code::TextUnwritable]);
     assert_eq!(refused("haas", &one([StmtKind::ModalCallOff])), [Code::Unmapped]);
 }
@@ -225,7 +226,7 @@ fn comments_and_names_stay_with_their_blocks() {
     builder.push(StmtKind::Comment, site(5));
     builder.push(mv(2.0), SourceInfo { skip: Some(1), ..numbered(6, 30) });
     builder.push(mv(3.0), SourceInfo { skip: Some(2), ..site(7) });
-    let text_of_alarm = StmtKind::Alarm { number: n(1.0), text: "STOP".into() };
+    let text_of_alarm = StmtKind::Alarm { number: n(1.0).into(), text: "STOP".into() };
     let comments = [comment("STOP", false), comment("OR ELSE", false)].into();
     builder.push(text_of_alarm, SourceInfo { comments, ..numbered(8, 40) });
     let head = SourceInfo { comments: [comment("BOLT CIRCLE", false)].into(), ..numbered(1, 1) };

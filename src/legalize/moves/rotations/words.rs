@@ -2,7 +2,7 @@
 
 use super::Vacant;
 use crate::canon::{Op, Role};
-use crate::ir::{BinOp, Class, Expr, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind, Var};
+use crate::ir::{BinOp, Class, Expr, Nc, NcItem, Place, SourceInfo, Stmt, StmtKind, Stmts, Var};
 
 const ALONE: &str = "a move of one axis under a rotation moves both on the target, and where the other one stands is not known: write X and Y";
 const DISTANCE: &str =
@@ -27,14 +27,14 @@ pub(super) fn turn(
     distance: Option<Op>,
     vacant: &Vacant,
     temps: &mut u32,
-    out: &mut Vec<Stmt>,
+    out: &mut Stmts,
 ) -> Result<(), (Stmt, &'static str)> {
     let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
     let StmtKind::Nc(nc) = &stmt.kind else { return Err((stmt, DISTANCE)) };
     if vacant.contains(&true) {
         return Err((stmt, VACANT));
     }
-    let mut first = Vec::new();
+    let mut first = Stmts::new();
     let mut held = |value: &Expr| match value {
         Expr::Number(_) | Expr::Var(_) => value.clone(),
         value => {

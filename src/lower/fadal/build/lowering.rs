@@ -148,7 +148,7 @@ impl<'b> Lowering<'b> {
     /// Stands where the source has something that is not understood; its finding says what.
     pub fn hole(&mut self) {
         let text = "NOT CONVERTED".to_owned();
-        self.push(StmtKind::Alarm { number: crate::ir::Expr::Number(1.0), text });
+        self.push(StmtKind::Alarm { number: crate::ir::Expr::Number(1.0).into(), text: text.into() });
     }
 
     /// Reports something once for each `key`.

@@ -39,7 +39,7 @@ impl<'b> Lowering<'b> {
                         }
                     });
                 }
-                self.push(StmtKind::Print { serial: *serial, parts: out, stay: *stay });
+                self.push(StmtKind::Print { serial: *serial, parts: out.into(), stay: *stay });
             }
             ItemKind::Input { serial, targets } => {
                 for target in targets {

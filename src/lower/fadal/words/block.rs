@@ -63,7 +63,7 @@ impl<'b> Lowering<'b> {
             self.push(StmtKind::Nc(Nc { items: words }));
         }
         if waits {
-            self.push(StmtKind::StopMessage { number: Expr::Number(1.0), text: String::new() });
+            self.push(StmtKind::StopMessage { number: Expr::Number(1.0).into(), text: "".into() });
         }
         if codes.has(Op::RotateOn) && self.in_cycle() && self.control.is(Question::RotationRunsCycle) {
             // The cycle runs at the turned place.

@@ -225,7 +225,7 @@ impl<'b> Lowering<'b> {
         }
         if others {
             let text = "NO SUCH SUBROUTINE".to_owned();
-            self.push(StmtKind::Alarm { number: Expr::Number(1.0), text });
+            self.push(StmtKind::Alarm { number: Expr::Number(1.0).into(), text: text.into() });
             self.builder.end(TermKind::End { rewind: false }, SourceInfo::default());
         }
         self.builder.start(after);

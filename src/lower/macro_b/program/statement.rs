@@ -74,8 +74,8 @@ impl<'a> Lowering<'a> {
             None => String::new(),
         };
         let kind = match state {
-            Sys::Alarm => StmtKind::Alarm { number: value, text },
-            _ => StmtKind::StopMessage { number: value, text },
+            Sys::Alarm => StmtKind::Alarm { number: value.into(), text: text.into() },
+            _ => StmtKind::StopMessage { number: value.into(), text: text.into() },
         };
         self.builder.push(kind, site);
     }
@@ -91,7 +91,8 @@ impl<'a> Lowering<'a> {
     fn set_names(&mut self, first: u32, names: &[String], span: Span, site: &SourceInfo) {
         match self.numbered(first, span) {
             Some(Expr::Var(first)) => {
-                self.builder.push(StmtKind::SetNames { first, names: names.to_vec() }, site.clone());
+                self.builder
+                    .push(StmtKind::SetNames { first, names: names.iter().cloned().collect() }, site.clone());
             }
             _ => self.findings.not_understood(span, format!("#{first} cannot be given a name")),
         }
