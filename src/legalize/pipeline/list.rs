@@ -25,8 +25,8 @@ use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, questions};
 use crate::legalize::variables::{
-    banks, computed_numbers, modal_reads, output_codes, probe_points, signals, state, subscript_chains,
-    timers, touch_points, vacancy_flags, vacant_writes,
+    banks, computed_numbers, counted_clears, modal_reads, output_codes, probe_points, signals, state,
+    subscript_chains, timers, touch_points, vacancy_flags, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable, WordValues};
 
@@ -70,6 +70,14 @@ const DEAD_STORES: Pass =
 
 const EARLIER: &[Pass] = &[
     Pass::edits("heads", "heads of an earlier conversion go, as this one writes its own", heads::run),
+    Pass::edits(
+        "counted-clears",
+        "loops by which an earlier conversion set registers in a row are written out",
+        counted_clears::run,
+    )
+    .when(counted_clears::concerns)
+    .needs(&["heads"])
+    .changes_flow(),
     Pass::edits("scratch", "registers that an earlier conversion took are temporaries again", scratch::run)
         .when(scratch::concerns)
         .needs(&["heads"]),

@@ -2,6 +2,7 @@
 
 pub(in crate::legalize) mod banks;
 pub(in crate::legalize) mod computed_numbers;
+pub(in crate::legalize) mod counted_clears;
 mod cycle_seconds;
 pub(in crate::legalize) mod modal_reads;
 pub(in crate::legalize) mod output_codes;

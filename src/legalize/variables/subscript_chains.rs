@@ -141,7 +141,7 @@ fn variables(of: &[Computed], on: &Expr, value: u32, source: &Control) -> Option
 }
 
 /// The variable of a number.
-fn variable(bank: Bank, number: u32, source: &Control) -> Option<Var> {
+pub(super) fn variable(bank: Bank, number: u32, source: &Control) -> Option<Var> {
     let class = match bank {
         Bank::Global => Class::Global,
         Bank::Parametric => Class::Parametric,
