@@ -12,7 +12,8 @@ use super::head_text::Head;
 use crate::dialect::Control;
 use crate::ir::{Block, Callee, Module, Program, SourceInfo, StmtKind, Stmts};
 use crate::legalize::{Context, calls_of};
-use crate::syntax::ProgramName;
+use crate::syntax::{Label, ProgramName};
+use smallvec::SmallVec;
 use std::collections::BTreeSet;
 
 /// Leaves such comments out; true if there were any.
@@ -31,19 +32,27 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     changed
 }
 
-/// Takes the old name of a label out of the comments of the block's first statement.
+/// Takes the old name of a label out of the comments of the block's first statement: it is one of its labels again.
 fn drop_name(block: &mut Block) -> bool {
-    let Some(first) = block.stmts.first_mut() else { return drop_from(&mut block.term.site) };
-    let changed = drop_from(&mut first.site);
+    let Block { labels, stmts, term } = block;
+    let Some(first) = stmts.first_mut() else { return drop_from(&mut term.site, labels) };
+    let changed = drop_from(&mut first.site, labels);
     if changed && first.kind == StmtKind::Comment && first.site.comments.is_empty() {
         block.stmts.remove(0);
     }
     changed
 }
 
-fn drop_from(site: &mut SourceInfo) -> bool {
+fn drop_from(site: &mut SourceInfo, labels: &mut SmallVec<[Label; 1]>) -> bool {
     let all = site.comments.len();
-    site.comments.retain(|comment| !counts(&comment.text));
+    site.comments.retain(|comment| {
+        let name = counts(&comment.text);
+        if name {
+            // Before the others: a target whose labels have names takes the first.
+            labels.insert(0, Label::Name(comment.text.clone()));
+        }
+        !name
+    });
     site.comments.len() < all
 }
 
