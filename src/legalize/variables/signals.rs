@@ -36,6 +36,9 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
             _ => Expr::System(state, subscripts),
         }
     });
+    if any {
+        turned_back(program);
+    }
     for stmt in program.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
         let StmtKind::Assign { target: Place::System(state, subscripts), value } = &mut stmt.kind else {
             continue;
@@ -57,6 +60,31 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         report(index, span, state, number, context);
     }
     any
+}
+
+/// Makes an input of one less what is one less it: it reads 0 or 1. An output may hold another number.
+fn turned_back(program: &mut Program) {
+    let mut turn = |e: &mut Expr| {
+        e.walk_mut(&mut |part| {
+            if let Some(input) = one_less(part).and_then(one_less)
+                && matches!(input, Expr::System(Sys::Input | Sys::InputInverted, _))
+            {
+                *part = input.clone();
+            }
+        });
+    };
+    for block in &mut program.blocks {
+        block.stmts.iter_mut().for_each(|stmt| stmt.kind.exprs_mut(&mut turn));
+        block.term.kind.exprs_mut(&mut turn);
+    }
+}
+
+/// What an expression takes from one.
+fn one_less(e: &Expr) -> Option<&Expr> {
+    match e {
+        Expr::Binary(BinOp::Sub, operands) if operands[0].constant() == Some(1.0) => Some(&operands[1]),
+        _ => None,
+    }
 }
 
 /// True for the state of an input or output.
