@@ -1,7 +1,8 @@
 //! Positions that hold the tool length on one control, and not on the other.
 //!
 //! Law: the place of the spindle is that of the tip and the length in force, which controls keep in a variable of its
-//! own; so one is the other with that variable added or taken away. Where no length can be in force nothing is asked.
+//! own; so one is the other with that variable added or taken away. A variable that is added and taken away at once goes, as
+//! it is read at one moment. Where no length can be in force nothing is asked.
 //! Where it ends: a position of an axis that is computed.
 
 use crate::canon::{Group, Op, Sys};
@@ -60,8 +61,33 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             }
             e => e,
         });
+        settle(&mut module.programs[index]);
     }
     true
+}
+
+/// Leaves out a length that is added and taken away at once, as where an earlier conversion did the opposite.
+fn settle(program: &mut Program) {
+    let mut look = |e: &mut Expr| {
+        e.walk_mut(&mut |e| {
+            if let Some(position) = without_length(e) {
+                *e = position.clone();
+            }
+        });
+    };
+    for block in &mut program.blocks {
+        block.stmts.iter_mut().for_each(|stmt| stmt.kind.exprs_mut(&mut look));
+        block.term.kind.exprs_mut(&mut look);
+    }
+}
+
+/// The position in `position + length - length`, or with the signs the other way.
+fn without_length(e: &Expr) -> Option<&Expr> {
+    let Expr::Binary(outer, operands) = e else { return None };
+    let Expr::Binary(inner, parts) = &operands[0] else { return None };
+    let undone = matches!((outer, inner), (BinOp::Add, BinOp::Sub) | (BinOp::Sub, BinOp::Add));
+    let length = |e: &Expr| matches!(e, Expr::System(Sys::ActiveOffset, axis) if axis.first().and_then(Expr::constant) == Some(Z));
+    (undone && length(&operands[1]) && operands[1] == parts[1] && is_depth(&parts[0])).then_some(&parts[0])
 }
 
 /// True for a program that reads a position which may be along the axis of the length.
