@@ -170,6 +170,12 @@ impl<'p> Ranges<'p> {
         Self::following(program, summaries, inputs, in_whole_words(program))
     }
 
+    /// As [`Ranges::of_any_inputs`], of these variables.
+    pub fn of_these(program: &'p Program, summaries: &'p Summaries, vars: BTreeSet<Var>) -> Self {
+        let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));
+        Self::following(program, summaries, inputs.collect(), vars)
+    }
+
     /// As [`Ranges::of_any_inputs`], of the numbers of codes too.
     pub fn of_any_inputs_and_codes(program: &'p Program, summaries: &'p Summaries) -> Self {
         let inputs = head_literals(program).into_iter().map(|(id, at, _)| (id, at));

@@ -34,7 +34,9 @@ pub fn nearest(a: Expr, rewriter: &mut Rewriter<'_>, target: &Control) -> Expr {
     if target.function(Func::Round, 1).is_some() {
         return Expr::Var(rewriter.materialize(apply(Func::Round, a)));
     }
-    let a = rewriter.held(a);
+    // Nothing writes a variable between the two reads, and both take one that is vacant for 0. FIX of magnitudes holds it itself.
+    let stays = matches!(a, Expr::Var(_)) && !super::whole::of_magnitudes_only(target);
+    let a = if stays { a } else { rewriter.held(a) };
     let f = Expr::Var(rewriter.materialize(apply(Func::Fix, a.clone())));
     let rest = Expr::Var(rewriter.materialize(Expr::binary(BinOp::Sub, a, f.clone())));
     let r = rewriter.materialize(f.clone());
