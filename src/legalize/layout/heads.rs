@@ -13,8 +13,8 @@ use crate::dialect::Control;
 use crate::ir::{Block, Callee, Module, Program, SourceInfo, StmtKind, Stmts};
 use crate::legalize::{Context, calls_of};
 use crate::syntax::{Label, ProgramName};
-use smallvec::SmallVec;
 use std::collections::BTreeSet;
+use thin_vec::ThinVec;
 
 /// Leaves such comments out; true if there were any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
@@ -43,7 +43,7 @@ fn drop_name(block: &mut Block) -> bool {
     changed
 }
 
-fn drop_from(site: &mut SourceInfo, labels: &mut SmallVec<[Label; 1]>) -> bool {
+fn drop_from(site: &mut SourceInfo, labels: &mut ThinVec<Label>) -> bool {
     let all = site.comments.len();
     site.comments.retain(|comment| {
         let name = counts(&comment.text);

@@ -18,6 +18,7 @@ use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::highest_temp;
 use crate::text::Span;
 use std::collections::BTreeSet;
+use thin_vec::ThinVec;
 
 /// True if there is output in a format, and the target prints without one.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -42,7 +43,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     StmtKind::Output(parts) => {
                         found.push((index, stmt.site.span));
                         let parts = parts.into_iter().enumerate();
-                        let mut parts: Vec<PrintPart> =
+                        let mut parts: ThinVec<PrintPart> =
                             parts.map(|(n, part)| plain(part, rounded.contains(&(id, at, n)))).collect();
                         if context.target.statement("wait").is_some() {
                             if stmt.site.skip.is_none() {
@@ -76,7 +77,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
 
 /// Computes what is rounded before the wait that its output needs, where it hangs on no state of the machine: whoever reads
 /// the program finds the wait beside the output.
-fn compute_first(parts: &mut [PrintPart], next: &mut u32, stmts: &mut Vec<Stmt>) {
+fn compute_first(parts: &mut [PrintPart], next: &mut u32, stmts: &mut Stmts) {
     for part in parts {
         let PrintPart::Value(value @ Expr::Call(..)) = part else { continue };
         let mut waits = false;
