@@ -46,6 +46,10 @@ pub struct Scenario {
     /// What the operator answers, in order; after the last one 0. A stop whose message names a variable
     /// (`#100 DEPTH`) takes an answer too, into that variable, while there are any.
     pub answers: Vec<f64>,
+    /// True where that holds for texts too that are only shown before a stop: on the control that a conversion with such
+    /// a message goes to.
+    #[serde(skip)]
+    pub sets_named: bool,
     /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.
     pub state: Vec<StateValue>,
     /// Date, as yyyymmdd.
@@ -128,6 +132,7 @@ impl Default for Scenario {
         Self {
             variables: BTreeMap::new(),
             called: false,
+            sets_named: false,
             inch: None,
             modes: Vec::new(),
             entry: Entry::default(),

@@ -9,6 +9,7 @@ mod columns;
 mod json;
 mod letters;
 mod lines;
+mod names;
 mod shown;
 mod span;
 
@@ -16,5 +17,6 @@ pub use columns::CodePoints;
 pub use json::{Texts, json, json_pretty, write_json, write_json_pretty};
 pub use letters::{decode, likeness};
 pub use lines::{Line, Lines, MAX_FILE};
+pub use names::{VariableName, variable_names, variable_to_set};
 pub use shown::{acts, shown, shown_lines};
 pub use span::{LineIndex, Span};

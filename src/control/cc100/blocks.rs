@@ -9,7 +9,7 @@ use crate::control::trace::EventKind;
 use crate::control::words::{self, Read, Spoken};
 use crate::dialect::Question;
 use crate::syntax::{Block, ExprKind, ItemKind};
-use crate::text::decode;
+use crate::text::{decode, variable_to_set};
 use smallvec::SmallVec;
 
 /// G800: cycle nn has the code G8nn.
@@ -90,11 +90,9 @@ impl<'r> Interpreter<'r, '_> {
         self.flow(&read, words)
     }
 
-    /// An operator who reads the name of a variable at the start of a message enters the next answer into it.
+    /// An operator who reads the name of a variable in a message enters the next answer into it.
     fn answer_in(&mut self, text: &str) {
-        let name = text.strip_prefix("SET ").unwrap_or(text);
-        let digits = name.strip_prefix('V').and_then(|rest| rest.split(' ').next());
-        let cell = digits.and_then(|digits| digits.parse().ok()).and_then(Cell::numbered);
+        let cell = variable_to_set(text, &["V"]).and_then(|name| Cell::numbered(name.number));
         if let Some(cell) = cell.filter(|_| self.session.has_answer()) {
             let answer = self.session.answer();
             self.store.set(cell, answer);

@@ -10,7 +10,7 @@ use crate::control::trace::EventKind;
 use crate::control::words::{self, Read, Spoken};
 use crate::dialect::Question;
 use crate::syntax::{Block, Expr, ExprKind, Index, ItemKind};
-use crate::text::{Span, decode};
+use crate::text::{Span, decode, variable_to_set};
 use smallvec::SmallVec;
 
 /// The words of a block, and which R it set before they were read.
@@ -91,7 +91,10 @@ impl<'r> Interpreter<'r, '_> {
         let mut read = words::read(session, &line.words, &mut self.lasting)?;
         self.plane(&mut read, &line);
         self.before(&read, &line, asked)?;
-        let shown = if read.command.has(Op::Stop) { self.shown(&line) } else { None };
+        let printed = self.printed.take();
+        let stops = read.command.has(Op::Stop);
+        let shown = if stops { self.shown(&line) } else { None };
+        let text = shown.clone().or(printed).filter(|_| stops && self.session.scenario.sets_named);
         if shown.is_some() {
             read.command.ops.retain(|op| *op != Op::Stop);
         }
@@ -100,6 +103,7 @@ impl<'r> Interpreter<'r, '_> {
         if let Some(text) = shown {
             self.session.pause(Pause::Stop, EventKind::Message { text });
         }
+        self.answer_in(text.as_deref());
         if waits {
             self.session.pause(Pause::Message, EventKind::Message { text: String::new() });
         }
@@ -112,6 +116,16 @@ impl<'r> Interpreter<'r, '_> {
             self.call_local(call)?;
         }
         self.after(&read)
+    }
+
+    /// An operator who reads the name of a variable at a stop enters the next answer into it.
+    fn answer_in(&mut self, text: Option<&str>) {
+        let named = text.and_then(|text| variable_to_set(text, &["V", "R"]));
+        let register = named.and_then(|name| Register::new(&name.prefix, name.number));
+        if let Some(register) = register.filter(|_| self.session.has_answer()) {
+            let answer = self.session.answer();
+            self.keep(register, answer);
+        }
     }
 
     /// Takes out a dwell of the one time that waits for START.

@@ -52,6 +52,7 @@ fn run<'r>(
         modal: Vec::new(),
         in_modal: false,
         line: String::new(),
+        printed: None,
         moving: false,
         plane_moved: false,
     };
@@ -106,6 +107,8 @@ struct Interpreter<'r, 'f> {
     in_modal: bool,
     /// What PRINT left on the line of the screen.
     line: String,
+    /// The last line of it, until words are read.
+    printed: Option<String>,
     /// True while moves may still be under way: nothing waited for them.
     moving: bool,
     /// True once R0 has another value than the retract plane of the drilling cycle in force was told.

@@ -28,8 +28,7 @@ impl Interpreter<'_, '_> {
             }
         }
         if !stay || self.line.len() > LONGEST {
-            let text = std::mem::take(&mut self.line);
-            self.session.trace.push(EventKind::Output { text });
+            self.put_out();
         }
         Ok(())
     }
@@ -37,9 +36,16 @@ impl Interpreter<'_, '_> {
     /// Puts out what is left on the line.
     pub(super) fn flush(&mut self) {
         if !self.line.is_empty() {
-            let text = std::mem::take(&mut self.line);
-            self.session.trace.push(EventKind::Output { text });
+            self.put_out();
         }
+    }
+
+    fn put_out(&mut self) {
+        let text = std::mem::take(&mut self.line);
+        if self.session.scenario.sets_named {
+            self.printed = Some(text.clone());
+        }
+        self.session.trace.push(EventKind::Output { text });
     }
 }
 

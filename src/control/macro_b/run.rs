@@ -17,6 +17,7 @@ use crate::control::scenario::Scenario;
 use crate::control::session::{Halt, Session};
 use crate::control::trace::{EventKind, Place};
 use crate::dialect::{CodeMeaning, CodePlace, Control};
+use crate::text::variable_to_set;
 use std::collections::{HashMap, VecDeque};
 use std::rc::Rc;
 use std::sync::LazyLock;
@@ -301,10 +302,8 @@ impl<'c> Runner<'c> {
 
     /// An operator who reads the name of a variable in a message enters the next answer into it.
     fn answer_in(&mut self, text: &str) {
-        let digits = text.split_once('#').map(|(_, rest)| rest);
-        let number =
-            digits.and_then(|rest| rest.split(|sign: char| !sign.is_ascii_digit()).next()?.parse().ok());
-        if let Some(number) = number.filter(|_| self.session.has_answer()) {
+        let named = variable_to_set(text, &["#"]).map(|name| name.number);
+        if let Some(number) = named.filter(|_| self.session.has_answer()) {
             let answer = self.session.answer();
             self.memory.set(number, Some(answer), 0.0);
         }

@@ -33,6 +33,11 @@ Check it on the machine. If a machine profile can state it, state it there."
 "A message, a line of output or a comment has letters or signs that the target is not known to show, such as accented ones. Similar ones take their place: UE for Ü, C for Ç, EUR for €. Round brackets inside a message become square ones, and a per cent sign becomes PCT. This is reported once per program, at the first of them.
 
 Nothing needs to be done. If a letter of a message has no substitute, MG0507 says so."
+
+    "0408" NameInText Note "a text may name a variable that moved"
+"A comment or a message has a number that may be the name of a variable, or may count something: `TOOL #5`. The variable has another register on the target. Where the text is clear about it (`SET #500`, `#5 = DEPTH`), the name of the register takes its place; here it is not clear, and the text stays as it is. This is reported once per program, at the first of them.
+
+Read the text. If it means the variable, change it at the machine, or write `=` or `IS` after the name in the source."
         }
     };
 }

@@ -7,3 +7,4 @@ pub(in crate::legalize) mod messages;
 pub(in crate::legalize) mod omitted;
 pub(in crate::legalize) mod ports;
 pub(in crate::legalize) mod questions;
+pub(in crate::legalize) mod renamed;

@@ -5,7 +5,7 @@ use crate::legalize::assumptions::facts;
 use crate::legalize::calls::merged;
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
-use crate::legalize::operator::{letters, messages, ports, questions};
+use crate::legalize::operator::{letters, messages, ports, questions, renamed};
 use crate::legalize::registers::{allocate, clear, frames, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy};
 
@@ -54,11 +54,15 @@ pub(super) const REGISTERS: &[Pass] = &[
 ];
 
 pub(super) const OPERATOR: &[Pass] = &[
+    Pass::rewrites("renamed", "texts that name a variable name its register", renamed::run)
+        .needs(&["registers"])
+        .brings_nothing(),
     Pass::rewrites(
         "letters",
         "letters that the target may not show become what looks like them",
         letters::run,
     )
+    .needs(&["renamed"])
     .brings_nothing(),
     // A question names its register, and takes up the print before it.
     Pass::rewrites(

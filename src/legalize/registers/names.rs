@@ -40,6 +40,11 @@ pub fn name_of(var: Var, module: &Module, source: &Control) -> Option<String> {
     if let Some(name) = module.names.get(&var) {
         return Some(name.clone());
     }
+    numbered_name(var, source)
+}
+
+/// The name of a variable by its number.
+pub(in crate::legalize) fn numbered_name(var: Var, source: &Control) -> Option<String> {
     let class = match var.class {
         Class::Local => "local",
         Class::Common => "common",

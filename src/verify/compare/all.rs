@@ -44,7 +44,7 @@ pub fn differences<'r>(
     let cut = is_cut(source.1) || is_cut(target.1);
     let [ours, theirs] = farthest([source.1, target.1], |orders| {
         let sides = acts(source, target, orders);
-        let mut pairs = Pairs::new(source.0, target.0, tolerance);
+        let mut pairs = Pairs::new((source.0, target.0), names, tolerance);
         pairs.strict = strict;
         let (i, j) = pairs.walk(&sides[0], &sides[1], cut);
         let blocks = pairs.found.difference.as_ref().map(|found| [found.source, found.target]);
@@ -60,7 +60,7 @@ pub fn differences<'r>(
         &Blocks { acts: &theirs, blocks: told(target, &theirs) },
         tolerance.rounded,
     );
-    let mut pairs = Pairs::new(source.0, target.0, tolerance);
+    let mut pairs = Pairs::new((source.0, target.0), names, tolerance);
     pairs.strict = strict;
     // Where no message came to the target, one that follows a stop is no other way of that stop.
     let messages =

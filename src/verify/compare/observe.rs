@@ -168,7 +168,7 @@ impl<'r> Observer<'_, 'r> {
 }
 
 /// The question in a message that names the variable of the answer first: `#100 DEPTH`, `SET #100`.
-fn prompt<'t>(text: &'t str, control: &Control) -> &'t str {
+pub(super) fn prompt<'t>(text: &'t str, control: &Control) -> &'t str {
     let rest = text.trim().trim_start_matches("SET ").trim_start();
     let names = control.classes().iter().map(|row| row.name.as_str());
     let numbered = |name: &str| {

@@ -11,6 +11,7 @@ use super::loose::{Found, Order, farthest};
 use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
+use super::renamed::Renaming;
 use super::shown::{as_messages, lacks_messages};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
@@ -47,7 +48,7 @@ pub fn compare<'r>(
     let cut = is_cut(source.1) || is_cut(target.1);
     let mut found = farthest([source.1, target.1], |orders| {
         let [ours, theirs] = acts(source, target, orders);
-        let mut pairs = Pairs::new(source.0, target.0, tolerance);
+        let mut pairs = Pairs::new((source.0, target.0), names, tolerance);
         let (i, j) = pairs.walk(&ours, &theirs, cut);
         let (far, what) = (i + j, pairs.found);
         let blocks = what.difference.as_ref().map(|found| [found.source, found.target]);
@@ -77,7 +78,7 @@ pub(super) fn acts<'r>(
 ) -> [Vec<Act<'r>>; 2] {
     let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
     if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
-        (ours, theirs) = (as_messages(ours), as_messages(theirs));
+        (ours, theirs) = (as_messages(ours, source.0.control), as_messages(theirs, target.0.control));
     }
     if target.0.control.profile().outputs.is_some() {
         (ours, theirs) = (without_outputs(ours), without_outputs(theirs));
@@ -107,6 +108,8 @@ fn told_at<'r>(acts: &[Act<'r>]) -> Option<&'r Event> {
 /// Two runs side by side.
 pub(super) struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
+    /// What variables are called in texts.
+    renaming: Renaming<'p>,
     /// True for two runs of one side, of which all that differs is told.
     one_side: bool,
     /// True where the target's tool word brings a length that the source takes up without one.
@@ -130,9 +133,14 @@ pub(super) struct Pairs<'p, 'r> {
 
 impl<'p, 'r> Pairs<'p, 'r> {
     /// Nothing is paired yet.
-    pub(super) fn new(source: &Side<'_>, target: &'p Side<'p>, tolerance: Tolerance) -> Self {
+    pub(super) fn new(
+        (source, target): (&'p Side<'p>, &'p Side<'p>),
+        names: &'p SymbolMap,
+        tolerance: Tolerance,
+    ) -> Self {
         Self {
             target,
+            renaming: Renaming { names, source: source.control, target: target.control },
             brings_lengths: brought(source.control, target.control),
             one_side: std::ptr::eq(source, target),
             tolerance,
@@ -356,7 +364,10 @@ impl<'p, 'r> Pairs<'p, 'r> {
             rounded if rounded > 0.0 => ARC_ROUNDINGS * allowed.max(self.tolerance.rounded),
             _ => ARC_ROUNDINGS * allowed,
         };
-        let what = differ((&source.what, &target.what), target.room, (allowed, paths), &mut largest);
+        let mut what = differ((a, b), target.room, (allowed, paths), &mut largest);
+        if let Some(renamed) = what.and_then(|_| self.renaming.event(a, b)) {
+            what = differ((&renamed, b), target.room, (allowed, paths), &mut largest);
+        }
         match what {
             None => {
                 self.found.largest = largest;

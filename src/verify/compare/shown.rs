@@ -3,7 +3,7 @@
 //! An operator sees the same: the text, and a machine that stands. So a text that is shown right before a stop is read as
 //! the message of that stop, on both sides, and `ALARM 1 TEXT` before a halt of the control as the program's own alarm.
 
-use super::observe::Act;
+use super::observe::{Act, prompt};
 use crate::canon::{Op, Sys};
 use crate::control::Stop;
 use crate::control::trace::{EventKind, Spindle};
@@ -16,9 +16,15 @@ pub fn lacks_messages(control: &Control) -> bool {
 }
 
 /// Reads texts before stops as messages. Between a text and its stop stands only what the stop itself switches off.
-pub fn as_messages(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+pub fn as_messages<'r>(acts: Vec<Act<'r>>, control: &Control) -> Vec<Act<'r>> {
     let mut out: Vec<Act<'_>> = Vec::with_capacity(acts.len());
     for act in acts {
+        // A stop at which the operator sets a variable is a question.
+        if let (EventKind::Asked { .. }, Some(last)) = (&*act.what, out.last_mut())
+            && let EventKind::Message { text } = &*last.what
+        {
+            last.what = Cow::Owned(EventKind::Output { text: prompt(text, control).to_owned() });
+        }
         let text = out.iter().rposition(|earlier| !is_switched_off(&earlier.what));
         let shown = text.and_then(|at| match &*out[at].what {
             EventKind::Output { text } => Some((at, message(text, &act.what)?)),

@@ -8,6 +8,7 @@ use crate::control::trace::EventKind;
 use crate::control::{Run, Scenario};
 use crate::dialect::{Control, Units};
 use crate::ir::flag_of;
+use crate::verify::compare::lacks_messages;
 use crate::verify::sides::{Effort, Side, SymbolMap, class_of};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -353,6 +354,7 @@ pub fn on_target(
     (called, theirs): (bool, &BTreeMap<String, f64>),
 ) -> Scenario {
     let mut out = scenario.clone();
+    out.sets_named = lacks_messages(target.control) && !lacks_messages(source.control);
     out.inch = set_by_hand(target, run).or(unit(target, source)).or(scenario.inch);
     out.variables.clear();
     for (name, value) in &scenario.variables {

@@ -1,0 +1,126 @@
+//! Names of variables in texts that people read, where the variable has another register on the target.
+//!
+//! Law: a text that names a variable of the programs names the register that holds it, so whoever reads it looks at, or
+//! sets, the same value. Side condition: the text leaves no doubt that a variable is meant; else it stays as it is, and a
+//! note says so. Counter-example: `(TOOL #5)`, where #5 is a variable too.
+
+use crate::canon::Sys;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Class, Comment, Module, PrintPart, Program, StmtKind, Var};
+use crate::legalize::Context;
+use crate::legalize::registers::names::numbered_name;
+use crate::text::{Span, variable_names};
+use std::collections::BTreeMap;
+
+/// What the registers of variables are called, by prefix and number on the source.
+type Names = BTreeMap<(String, u32), String>;
+
+/// Puts the target's names into texts.
+pub fn run(module: &mut Module, context: &mut Context<'_>) {
+    let source = context.source;
+    let prefixes: Vec<&str> =
+        source.numbered().into_iter().chain(source.classes().iter().map(|row| row.name.as_str())).collect();
+    let shared = of_library(&prefixes, context);
+    // Where no message stops the machine, the operator is shown a text, stopped, and sets the register there.
+    let sets = context.target.system_runs(Sys::StopMessage).next().is_none();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        let names = of_program(program, &shared, &prefixes, context);
+        if names.is_empty() {
+            continue;
+        }
+        let mut writer =
+            Writer { names: &names, prefixes: &prefixes, context, index, span: program.site.span };
+        writer.comments(&mut program.site.comments);
+        for block in &mut program.blocks {
+            for stmt in &mut block.stmts {
+                writer.span = stmt.site.span;
+                writer.comments(&mut stmt.site.comments);
+                writer.texts(&mut stmt.kind, sets);
+            }
+            writer.span = block.term.site.span;
+            writer.comments(&mut block.term.site.comments);
+        }
+    }
+}
+
+/// The variables that all programs see and that moved.
+fn of_library(prefixes: &[&str], context: &Context<'_>) -> Names {
+    let shared = context.registers.of.iter().filter(|(var, _)| {
+        matches!(var.class, Class::Common | Class::Retained | Class::Global | Class::Parametric)
+    });
+    let named = shared.filter_map(|(var, register)| {
+        let own = numbered_name(*var, context.source)?;
+        let name = format!("{}{}", register.name, register.number);
+        (own != name).then_some((key(&own, prefixes)?, name))
+    });
+    named.collect()
+}
+
+/// Those and the locals of a program, on a target without locals.
+fn of_program(program: &Program, shared: &Names, prefixes: &[&str], context: &Context<'_>) -> Names {
+    let register = |var: &Var| context.registers.of.get(var).map(|r| format!("{}{}", r.name, r.number));
+    let locals = program.held.iter().filter_map(|(var, name)| Some((key(name, prefixes)?, register(var)?)));
+    shared.iter().map(|(key, name)| (key.clone(), name.clone())).chain(locals).collect()
+}
+
+/// A name, where it is nothing more than that.
+fn key(name: &str, prefixes: &[&str]) -> Option<(String, u32)> {
+    let one = variable_names(name, prefixes).into_iter().next()?;
+    (one.at == (0..name.len())).then_some((one.prefix, one.number))
+}
+
+struct Writer<'w, 'c> {
+    names: &'w Names,
+    prefixes: &'w [&'w str],
+    context: &'w mut Context<'c>,
+    index: usize,
+    span: Span,
+}
+
+impl Writer<'_, '_> {
+    fn comments(&mut self, comments: &mut [Comment]) {
+        comments.iter_mut().for_each(|comment| drop(self.take(&mut comment.text)));
+    }
+
+    fn texts(&mut self, kind: &mut StmtKind, sets: bool) {
+        match kind {
+            StmtKind::Alarm { text, .. } => drop(self.take(text)),
+            StmtKind::StopMessage { text, .. } => {
+                if let Some(register) = self.take(text).filter(|_| sets) {
+                    let what = format!(
+                        "the message names a variable: the operator must set it in {register} at the stop, before cycle \
+                         start"
+                    );
+                    self.context.add(self.index, Diagnostic::new(Code::Conditional, self.span, what));
+                }
+            }
+            // What goes to a port may be read by a program.
+            StmtKind::Print { serial: false, parts, .. } => parts.iter_mut().for_each(|part| {
+                if let PrintPart::Text(text) = part {
+                    self.take(text);
+                }
+            }),
+            _ => {}
+        }
+    }
+
+    /// Puts the target's names into a text; gives the first of them.
+    fn take(&mut self, text: &mut String) -> Option<String> {
+        let mut first = None;
+        for found in variable_names(text, self.prefixes).into_iter().rev() {
+            let Some(name) = self.names.get(&(found.prefix, found.number)) else { continue };
+            if found.sure {
+                text.replace_range(found.at, name);
+                first = Some(name.clone());
+            } else {
+                let what = format!(
+                    "'{}' may name a variable, which is {name} on the target: the text stays as it is",
+                    text.trim()
+                );
+                let note = Diagnostic::new(Code::NameInText, self.span, what);
+                self.context.add_once(self.index, "names in texts", note);
+            }
+        }
+        first
+    }
+}
