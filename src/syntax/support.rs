@@ -10,9 +10,17 @@ use std::borrow::Cow;
 /// Stands in pest's text for a byte that no grammar names.
 pub(super) const PLACEHOLDER: u8 = 0x01;
 
+/// The mark that editors put before a text in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// True for what no control sees: the NUL and DEL of a tape leader, and the Ctrl-Z that ends files of old computers.
+const fn is_passed_over(byte: u8) -> bool {
+    matches!(byte, 0x00 | 0x7f | 0x1a)
+}
+
 /// The line as text of the same length, so that offsets stay one to one:
 /// bytes beyond ASCII and control bytes become [`PLACEHOLDER`], the NUL and DEL
-/// of a tape leader become blanks.
+/// of a tape leader, a byte order mark at its start and Ctrl-Z become blanks.
 pub(super) fn readable(line: &[u8]) -> Cow<'_, str> {
     let plain = |byte: &u8| (0x20..0x7f).contains(byte) || *byte == b'\t';
     if line.iter().all(plain)
@@ -20,8 +28,10 @@ pub(super) fn readable(line: &[u8]) -> Cow<'_, str> {
     {
         return Cow::Borrowed(text);
     }
-    let replaced = line.iter().map(|byte| match byte {
-        0x00 | 0x7f => ' ',
+    let mark = if line.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+    let replaced = line.iter().enumerate().map(|(at, byte)| match byte {
+        _ if at < mark => ' ',
+        byte if is_passed_over(*byte) => ' ',
         byte if plain(byte) => char::from(*byte),
         _ => char::from(PLACEHOLDER),
     });
@@ -40,7 +50,10 @@ pub(super) fn tile(
     let gap = |tokens: &mut Vec<Token>, from: u32, to: u32| {
         if from < to {
             let span = Span::new(from, to);
-            let blank = span.of(source).iter().all(|byte| matches!(byte, b' ' | b'\t' | 0x00 | 0x7f));
+            let text = span.of(source);
+            let head = if from == line.start { BYTE_ORDER_MARK } else { &[] };
+            let text = text.strip_prefix(head).unwrap_or(text);
+            let blank = text.iter().all(|byte| matches!(byte, b' ' | b'\t') || is_passed_over(*byte));
             let kind = if blank { TokenKind::Space } else { TokenKind::Other };
             tokens.push(Token { kind, span });
         }

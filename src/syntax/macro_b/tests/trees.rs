@@ -73,6 +73,13 @@ const SHARED: &[(&str, &str)] = &[
     ("IF[#1 EQ #2] AND [#3 EQ #4] THEN #5 = 0 ;", "if-then And([Equal(#1,#2)],[Equal(#3,#4)]) {#5:=0} ;"),
     ("WHILE[#1 LT 1](NOTE)DO 2", "(NOTE) while [Less(#1,1)] do2"),
     ("\0\0\0%", "%"),
+    // A byte order mark before the text, and the Ctrl-Z after it: nothing that a control sees.
+    ("\u{feff}%", "%"),
+    ("\u{feff}O1", "program 1"),
+    ("\u{feff}G1 X2 (A)", "G=1 X=2 (A)"),
+    ("%\u{1a}", "%"),
+    ("M30 \u{1a}", "M=30"),
+    ("\u{1a}", ""),
     ("(\u{e9}\u{1}) M8", "(\u{e9}\u{1}) M=8"),
 ];
 
