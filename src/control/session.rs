@@ -256,7 +256,7 @@ impl<'r, 'f> Session<'r, 'f> {
     /// Notes an answer to a question of behaviour that mattered, if nobody confirmed it.
     pub fn rest_on(&mut self, question: Question) {
         match self.control.behaviour(question) {
-            Some(row) if row.origin.confirmed => {}
+            Some(row) if row.origin.is_settled() => {}
             _ => self.trace.doubt(question.fact()),
         }
     }
@@ -266,7 +266,7 @@ impl<'r, 'f> Session<'r, 'f> {
     pub fn act_as(&mut self, question: Question, answer: &str) {
         let as_here = |value: &str| value == answer || value == "unknown";
         match self.control.behaviour(question) {
-            Some(row) if row.origin.confirmed && as_here(&row.value) => {}
+            Some(row) if row.origin.is_settled() && as_here(&row.value) => {}
             _ => self.trace.doubt(question.fact()),
         }
     }

@@ -307,7 +307,7 @@ impl Trace {
 
     /// Records a row of a table that mattered, where no source confirms it.
     pub fn rest_on(&mut self, row: &impl Row) {
-        if !row.origin().confirmed {
+        if !row.origin().is_settled() {
             self.doubt(&row.fact());
         }
     }

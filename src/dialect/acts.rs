@@ -32,7 +32,7 @@ impl Control {
         Acts {
             question,
             late: late.unwrap_or(kind.waits()),
-            known: late.is_some() && row.is_some_and(|row| row.origin.confirmed),
+            known: late.is_some() && row.is_some_and(|row| row.origin.is_settled()),
         }
     }
 }
@@ -66,7 +66,7 @@ impl Control {
         let question = Question::ends(pause, running);
         let row = self.behaviour(question);
         let answer = row.and_then(|row| row.value.parse().ok());
-        let known = answer.is_some() && row.is_some_and(|row| row.origin.confirmed);
+        let known = answer.is_some() && row.is_some_and(|row| row.origin.is_settled());
         Ends { question, answer, known }
     }
 }

@@ -4,7 +4,7 @@
 use super::overlay;
 use super::reader::{Placed, Reader, closest};
 use super::{
-    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Operator, Question, Row,
+    Argument, Behaviour, CodeMeaning, Forbidden, Form, Function, InUse, Limit, Mark, Operator, Question, Row,
     Setting, Statement, SystemVariable, VariableClass, WordMeaning,
 };
 use std::collections::BTreeMap;
@@ -317,10 +317,16 @@ fn sources(reader: &mut Reader, tables: &Tables) {
             if origin.source.trim().is_empty() {
                 reader.fault_at(placed.place.clone(), "the source is empty", "name the manual and the page");
             }
-            if !origin.confirmed && origin.note.is_none() {
+            if !origin.is_settled() && origin.note.is_none() {
                 let help = "add 'note' with what is not certain";
                 reader.fault_at(placed.place.clone(), format!("{} is unconfirmed", placed.row.fact()), help);
             }
+        }
+    }
+    for placed in &tables.behaviours {
+        if placed.row.value == "unknown" && placed.row.origin.mark == Mark::Common {
+            let help = "write 'confirmed = false', or the answer";
+            reader.fault_at(placed.place.clone(), "an answer that is 'unknown' is not common", help);
         }
     }
     section(reader, &tables.forms);

@@ -8,12 +8,17 @@ use std::collections::BTreeSet;
 /// A cell of a control that has no such thing.
 const NONE: &str = ".";
 
+/// What the marks mean.
+pub(super) const MARKS: &str =
+    "? no maker's text confirms it    ~ no maker's text was reached, and two sources of the trade agree";
+
 /// The matrix of all dialects, without machine profiles. A `?` stands after
-/// what no maker's text confirms, a `.` where the control has no such thing.
+/// what no maker's text confirms, a `~` after what sources of the trade agree on, a `.` where the
+/// control has no such thing.
 pub fn matrix() -> String {
     let controls: Vec<Control> =
         registry::all().iter().filter_map(|entry| Control::plain(entry.name)).collect();
-    let mut out = String::from("? no maker's text confirms it    . the control has no such thing\n");
+    let mut out = format!("{MARKS}    . the control has no such thing\n");
     let head = |title: &str| {
         let mut row = vec![title.to_string()];
         row.extend(controls.iter().map(|control| control.name().to_string()));
@@ -172,9 +177,9 @@ fn names(controls: &[Control], of: impl Fn(&super::Dialect) -> Vec<String>) -> V
     all.into_iter().collect()
 }
 
-/// A cell, with the mark of what no maker confirms.
+/// A cell, with the mark of how sure it is.
 pub(super) fn mark(cell: &str, origin: &Origin) -> String {
-    if origin.confirmed { cell.into() } else { format!("{cell} ?") }
+    format!("{cell}{}", origin.mark.sign())
 }
 
 fn bare(bare: BareLength, origin: &Origin) -> String {

@@ -20,6 +20,7 @@ mod load;
 mod matrix;
 pub mod matters;
 mod model;
+mod origin;
 mod overlay;
 mod overlay_settings;
 mod page;
@@ -45,6 +46,7 @@ pub use forms::{Compares, Form, LineCounts, Names, Operand, OperandPlace};
 pub use load::load;
 pub use matrix::matrix;
 pub use model::*;
+pub use origin::{Mark, Origin};
 pub use page::page;
 pub use profile::{
     Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, SiteCode, Units, VariableRun,

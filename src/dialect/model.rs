@@ -1,26 +1,10 @@
-//! The shape of `dialects/*.toml`. Every row says where it comes from, and
-//! whether a maker's text confirms it.
+//! The shape of `dialects/*.toml`. Every row says where it comes from, and how
+//! sure it is.
 
+use super::Origin;
 use super::forms::{Form, LineCounts, Names};
 use super::rows::*;
 use serde::{Deserialize, Serialize};
-
-/// Where a row comes from. In the file its three keys stand among the row's own.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Origin {
-    /// Seed and line, or manual and page.
-    pub source: String,
-    /// True where a maker's text, or a seed that reproduces one, says so.
-    #[serde(default = "yes", skip_serializing_if = "Clone::clone")]
-    pub confirmed: bool,
-    /// What is not certain, or what to beware of.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub note: Option<String>,
-    /// The base that the row stands in; none for a row of the control's own table.
-    #[serde(skip)]
-    pub table: Option<String>,
-}
 
 pub(super) fn yes() -> bool {
     true

@@ -3,7 +3,7 @@
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::{Control, Dialect, Entry, SystemVariable, VariableClass, registry};
+use super::{Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
@@ -168,7 +168,7 @@ impl Overlay {
         // Whether an option was bought is the owner's word on what it brings.
         for row in dialect.behaviours.iter_mut().filter(|row| row.option.is_some() && bought.is_some()) {
             row.value = has(&row.option).to_string();
-            row.origin.confirmed = true;
+            row.origin.mark = Mark::Confirmed;
         }
         // A row that holds under a setting stands for the general one of the same letter.
         let special: BTreeSet<String> = dialect

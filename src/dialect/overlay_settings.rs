@@ -3,7 +3,7 @@
 use super::control::numbered;
 use super::overlay::{Overlay, conditions};
 use super::reader::closest;
-use super::{BareLength, Dialect, Origin, Setting};
+use super::{BareLength, Dialect, Mark, Origin, Setting};
 use std::collections::BTreeMap;
 
 impl Overlay {
@@ -56,9 +56,9 @@ impl Overlay {
                 dialect.numbers.feed_stated |= stated && target == "numbers:bare_feed" && value != "unknown";
                 if let Some(origin) = change(dialect, target, value)
                     && stated
-                    && setting.origin.confirmed
+                    && setting.origin.is_settled()
                 {
-                    origin.confirmed = true;
+                    origin.mark = Mark::Confirmed;
                 }
             }
             if setting.assumed && !stated {
@@ -73,7 +73,7 @@ impl Overlay {
         if let Some(point) = self.profile.decimal_point {
             dialect.numbers.bare_length = point.into();
             dialect.numbers.bare_argument = point.into();
-            dialect.numbers.origin.confirmed = true;
+            dialect.numbers.origin.mark = Mark::Confirmed;
             if dialect.numbers.bare_length == BareLength::Units
                 && dialect.numbers.calculator_letters.contains('F')
             {
@@ -107,7 +107,7 @@ impl Overlay {
 
 /// Notes that a row rests on a setting that nobody stated.
 fn assume(origin: &mut Origin, setting: &str) {
-    origin.confirmed = false;
+    origin.mark = Mark::Unconfirmed;
     let reason = format!("the machine profile does not give {setting}");
     origin.note = Some(match origin.note.take() {
         Some(note) if note.contains(&reason) => note,

@@ -1,15 +1,15 @@
 //! The page of one dialect: every row of its table with its source.
 
-use super::matrix::{mark, run};
+use super::matrix::{MARKS, mark, run};
 use super::table::columns;
 use super::{Compares, Control, Row};
 use crate::canon::Op;
 
 /// All that is known of a control: section by section, each row with its
-/// source, and with its note where it has one. A `?` marks what no maker's text confirms.
+/// source, and with its note where it has one. A `?` marks what no maker's text confirms, a `~` what is common.
 pub fn page(control: &Control) -> String {
     let dialect = control.dialect();
-    let mut out = format!("{} ({})\n", dialect.title, dialect.name);
+    let mut out = format!("{} ({})\n{MARKS}\n", dialect.title, dialect.name);
     if let Some(advice) = &dialect.advice {
         out.push_str(&format!("{advice}.\n"));
     }

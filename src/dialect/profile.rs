@@ -222,12 +222,7 @@ impl SiteCode {
             when: None,
             preferred: true,
             option: None,
-            origin: super::Origin {
-                source: "machine profile".into(),
-                confirmed: true,
-                note: Some(self.text.clone()),
-                table: None,
-            },
+            origin: super::Origin::of_profile(Some(self.text.clone())),
         }
     }
 }

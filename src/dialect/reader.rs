@@ -1,6 +1,7 @@
 //! Reads TOML tables row by row, so that each fault is reported at its place
 //! and one fault does not hide the next.
 
+use super::origin::{KEYS, Written};
 use super::{Origin, Row};
 use crate::diag::{Code, Diagnostic};
 use crate::text::{LineIndex, Span, shown};
@@ -33,13 +34,14 @@ pub(super) struct Reader {
 
 /// What a base's row says of one control's source.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "a source is its text, or a table of source, confirmed and note")]
+#[serde(
+    untagged,
+    expecting = "a source is its text, or a table of source, confirmed, common, cites and note"
+)]
 enum Source {
     Text(String),
-    Of(Origin),
+    Of(Written),
 }
-
-const ORIGIN: &[&str] = &["source", "confirmed", "note"];
 
 impl Reader {
     pub fn new(code: Code) -> Self {
@@ -145,14 +147,14 @@ impl Reader {
             return None;
         };
         let mut known = fields_of::<T>().to_vec();
-        known.extend(ORIGIN);
+        known.extend(KEYS);
         let before = self.faults.len();
         self.known_keys(&table, &known);
         if self.faults.len() > before {
             return None;
         }
         let mut origin = DeTable::new();
-        for &key in ORIGIN {
+        for &key in KEYS {
             if let Some((key, value)) = table.remove_entry(key) {
                 origin.insert(key, value);
             }
@@ -164,17 +166,17 @@ impl Reader {
     }
 
     /// Where a row comes from. In a base each control has a source of its own, which is its text, or a table of
-    /// `source`, `confirmed` and `note` where these are its own too.
+    /// `source`, `confirmed`, `common` and `note` where these are its own too.
     fn origin(&mut self, place: Range<usize>, mut table: DeTable<'_>) -> Option<Origin> {
         let by_control = table.get("source").is_some_and(|source| source.get_ref().is_table());
         if !by_control {
-            let mut origin = self.value::<Origin>(Spanned::new(place.clone(), DeValue::Table(table)))?;
-            origin.table = self.base.as_ref().map(|(base, _)| base.clone());
-            if self.base.is_some() && origin.confirmed {
+            let written = self.value::<Written>(Spanned::new(place.clone(), DeValue::Table(table)))?;
+            let origin = self.judged(place.clone(), written)?;
+            if self.base.is_some() && origin.is_settled() {
                 let help = "write source = { NAME = \"...\" } with the source of each control";
-                self.fault(place, "a confirmed row of a base has a source for each control", help);
+                self.fault(place, "a row of a base that is settled has a source for each control", help);
             }
-            return Some(origin);
+            return Some(Origin { table: self.base.as_ref().map(|(base, _)| base.clone()), ..origin });
         }
         let Some((base, _)) = self.base.clone() else {
             self.fault(
@@ -184,20 +186,31 @@ impl Reader {
             );
             return None;
         };
-        let sources: BTreeMap<String, Source> = self.take(&mut table, "source")?;
-        let confirmed = self.take(&mut table, "confirmed").unwrap_or(true);
-        let note = self.take(&mut table, "note");
-        let origin = match sources.get(&self.control) {
-            Some(Source::Of(origin)) => origin.clone(),
-            Some(Source::Text(source)) => Origin { source: source.clone(), confirmed, note, table: None },
+        let mut sources: BTreeMap<String, Source> = self.take(&mut table, "source")?;
+        let shared = self.value::<Written>(Spanned::new(place.clone(), DeValue::Table(table)))?;
+        let written = match sources.remove(&self.control) {
+            Some(Source::Of(written)) => written,
+            Some(Source::Text(source)) => Written { source: Some(source), ..shared },
             None => {
                 let named: Vec<&str> = sources.keys().map(String::as_str).collect();
                 let note =
                     format!("known of {}, and no source of {} says so", named.join(", "), self.control);
-                Origin { source: "another control".into(), confirmed: false, note: Some(note), table: None }
+                let source = Some("another control".into());
+                Written { source, confirmed: Some(false), note: Some(note), ..Written::default() }
             }
         };
-        Some(Origin { table: Some(base), ..origin })
+        Some(Origin { table: Some(base), ..self.judged(place, written)? })
+    }
+
+    /// How sure a row is by what is written of it.
+    fn judged(&mut self, place: Range<usize>, written: Written) -> Option<Origin> {
+        match written.judged() {
+            Ok(origin) => Some(origin),
+            Err((message, help)) => {
+                self.fault(place, message, help);
+                None
+            }
+        }
     }
 
     /// Reads all rows of a section.

@@ -4,6 +4,7 @@
 //! that input, so that programs of two controls mean one signal by one number. Signals that a profile does not speak of
 //! keep the table's numbers, but for those that it gives away.
 
+use super::origin::PROFILE;
 use super::overlay::Overlay;
 use super::profile::Signal;
 use super::{Dialect, Origin, Subscript, SystemVariable};
@@ -60,7 +61,6 @@ impl Overlay {
 }
 
 /// The source of rows that a profile makes.
-const PROFILE: &str = "machine profile";
 
 /// A run without the variable `gone`, and without the number `taken` of another signal.
 fn without(row: &SystemVariable, gone: Option<u32>, taken: u32) -> Vec<SystemVariable> {
@@ -87,6 +87,6 @@ fn without(row: &SystemVariable, gone: Option<u32>, taken: u32) -> Vec<SystemVar
 fn one(row: &SystemVariable, state: Sys, first: Option<u32>, signal: &Signal) -> SystemVariable {
     let subscript = Subscript { from: signal.number, count: 1, step: 1, axis: false };
     let note = signal.text.clone();
-    let origin = Origin { source: PROFILE.into(), confirmed: true, note, table: None };
+    let origin = Origin::of_profile(note);
     SystemVariable { state, first, subscripts: vec![subscript], origin, ..row.clone() }
 }

@@ -5,7 +5,7 @@ use super::overlay::Overlay;
 use super::profile::Plain;
 use super::questions::Answers;
 use super::reader::closest;
-use super::{Behaviour, CodeHead, Dialect, Origin, Question, Row, matters, registry};
+use super::{Behaviour, CodeHead, Control, Dialect, Mark, Origin, Question, Row, matters, registry};
 use crate::canon::Func;
 
 /// Answers that leave a question open.
@@ -38,7 +38,7 @@ impl Overlay {
             match dialect.limits.iter_mut().find(|row| row.name == name) {
                 Some(row) => {
                     row.max = Some(most);
-                    row.origin.confirmed = true;
+                    row.origin.mark = Mark::Confirmed;
                     row.origin.source = "machine profile".into();
                 }
                 None => {
@@ -72,7 +72,7 @@ impl Overlay {
             let mut found = 0;
             each_row(dialect, &mut |name, origin| {
                 if name == fact {
-                    origin.confirmed = true;
+                    origin.mark = Mark::Confirmed;
                     found += 1;
                 }
             });
@@ -147,7 +147,8 @@ fn acts_by(dialect: &Dialect, question: Question, row: Option<&Behaviour>, value
 fn answer(dialect: &mut Dialect, question: Question, value: String) {
     let open = OPEN.contains(&value.as_str());
     let note = open.then(|| "the machine profile leaves it open".into());
-    let origin = Origin { source: "machine profile".into(), confirmed: !open, note, table: None };
+    let mark = if open { Mark::Unconfirmed } else { Mark::Confirmed };
+    let origin = Origin { mark, ..Origin::of_profile(note) };
     let row = Behaviour { question, value, one_of: Vec::new(), option: None, origin };
     match dialect.behaviours.iter_mut().find(|row| row.question == question) {
         Some(old) => *old = row,
@@ -183,6 +184,35 @@ fn is_code(name: &str) -> bool {
     head.is_some_and(|(letter, number)| {
         letter.is_ascii_uppercase() && CodeHead::new(letter, number).is_some()
     })
+}
+
+impl Control {
+    /// How sure a fact is: of several rows of its name, as sure as the least sure; unconfirmed where it has no row.
+    pub fn mark(&self, fact: &str) -> Mark {
+        fn least<T: Row>(rows: &[T], fact: &str) -> Option<Mark> {
+            let named = |row: &&T| fact.starts_with(T::KIND) && row.fact() == fact;
+            rows.iter().filter(named).map(|row| row.origin().mark).min()
+        }
+        let d = self.dialect();
+        let marks = [
+            least(std::slice::from_ref(&d.numbers), fact),
+            least(std::slice::from_ref(&d.text), fact),
+            least(&d.forms, fact),
+            least(&d.limits, fact),
+            least(&d.forbidden, fact),
+            least(&d.operators, fact),
+            least(&d.functions, fact),
+            least(&d.statements, fact),
+            least(&d.behaviours, fact),
+            least(&d.variables, fact),
+            least(&d.system, fact),
+            least(&d.words, fact),
+            least(&d.codes, fact),
+            least(&d.arguments, fact),
+            least(&d.settings, fact),
+        ];
+        marks.into_iter().flatten().min().unwrap_or_default()
+    }
 }
 
 /// Visits every row with the name of its fact.

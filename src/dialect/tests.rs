@@ -1,6 +1,7 @@
 //! Each check refuses a table that is wrong in its way, at the right line.
 
 mod extends;
+mod marks;
 mod profiles;
 
 use super::{faults_as_text, load};
@@ -91,7 +92,7 @@ fn refuses_what_is_missing_or_no_toml() {
     assert!(faults_as_text("t", &text, &faults).contains("'name' is missing"));
     assert!(load("a = = b", &[]).is_err());
     assert!(load("", &[]).is_err());
-    refused(r#"limits = [{ name = "brackets" }]"#, "missing field `source`");
+    refused(r#"limits = [{ name = "brackets" }]"#, "the row has no source");
     refused(r#"limits = [7]"#, "a row of 'limits' is a table");
     refused(r#"limits = { name = "brackets" }"#, "'limits' is a list of rows");
 }

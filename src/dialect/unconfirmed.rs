@@ -1,6 +1,6 @@
 //! The words for facts that no manual confirms.
 
-use super::{Control, Question, Setting};
+use super::{Control, Mark, Question, Setting};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
 use std::collections::BTreeMap;
@@ -25,6 +25,14 @@ impl fmt::Display for Side {
 }
 
 impl Control {
+    /// How a program that rests on a fact of this control is told: for review, or, where the fact is common, with a note.
+    pub fn code_of(&self, fact: &str) -> Code {
+        match self.mark(fact) {
+            Mark::Common => Code::CommonFact,
+            Mark::Confirmed | Mark::Unconfirmed => Code::UnconfirmedFact,
+        }
+    }
+
     /// The construct at `span` rests on a fact of this control, named as a machine profile confirms it:
     /// `behaviour:load.sets.condition`.
     pub fn unconfirmed(&self, side: Side, fact: &str, note: Option<&str>, span: Span) -> Diagnostic {
@@ -32,11 +40,21 @@ impl Control {
         let asked = Question::of_fact(fact).map(|question| self.taken(question));
         let note = note.filter(|note| Question::of_fact(fact).is_none_or(|asked| asked.meaning() != *note));
         let said: Vec<&str> = asked.as_deref().into_iter().chain(note).collect();
-        let said = if said.is_empty() { "no source says so".into() } else { said.join("; ") };
-        let what = format!("no manual confirms '{fact}' for the {side}, {title}: {said}");
-        Diagnostic::new(Code::UnconfirmedFact, span, what)
-            .with_help(self.to_settle(fact, side))
-            .with_fact(fact)
+        let code = self.code_of(fact);
+        let said = match said.as_slice() {
+            [] if code == Code::CommonFact => "sources of the trade agree on it".into(),
+            [] => "no source says so".into(),
+            said => said.join("; "),
+        };
+        let what = match code {
+            Code::CommonFact => {
+                format!(
+                    "'{fact}' is common knowledge for the {side}, {title}, and no manual was reached: {said}"
+                )
+            }
+            _ => format!("no manual confirms '{fact}' for the {side}, {title}: {said}"),
+        };
+        Diagnostic::new(code, span, what).with_help(self.to_settle(fact, side)).with_fact(fact)
     }
 
     /// A question, and what this control is taken to answer.
@@ -60,7 +78,7 @@ impl Control {
         let sets = |row: &&Setting| {
             let mut answers = row.values.iter().map(|value| row.sets.get(value));
             let says = |sets: Option<&BTreeMap<String, String>>| sets.is_some_and(|s| s.contains_key(fact));
-            if open { answers.any(says) } else { row.origin.confirmed && answers.all(says) }
+            if open { answers.any(says) } else { row.origin.is_settled() && answers.all(says) }
         };
         let settings = self.dialect().settings.iter().filter(|row| !row.values.is_empty());
         match settings.clone().find(sets) {

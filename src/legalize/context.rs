@@ -281,7 +281,7 @@ impl<'a> Context<'a> {
         what: impl Into<Arc<str>>,
     ) {
         let control = if side == Side::Source { self.source } else { self.target };
-        let finding = Diagnostic::new(Code::UnconfirmedFact, span, what).with_fact(fact);
+        let finding = Diagnostic::new(control.code_of(fact), span, what).with_fact(fact);
         self.add_once(program, fact, finding.with_help(control.to_settle(fact, side)));
     }
 
@@ -320,7 +320,7 @@ impl<'a> Context<'a> {
             return;
         }
         let row = control.behaviour(question);
-        if row.is_some_and(|row| row.origin.confirmed && row.value != "unknown") {
+        if row.is_some_and(|row| row.origin.is_confirmed() && row.value != "unknown") {
             return;
         }
         let note = row.and_then(|row| row.origin.note.as_deref()).unwrap_or(question.meaning());
@@ -333,7 +333,7 @@ impl<'a> Context<'a> {
     /// Says, once a program, that it rests on which state a numbered variable is, where no maker's text confirms that.
     pub fn rests_on_number(&mut self, side: Side, program: usize, span: Span, number: u32) {
         let control = if side == Side::Source { self.source } else { self.target };
-        let row = control.numbered_state(number).filter(|(.., row)| !row.origin.confirmed);
+        let row = control.numbered_state(number).filter(|(.., row)| !row.origin.is_confirmed());
         if let Some((.., row)) = row {
             let finding = control.unconfirmed(side, &row.fact(), row.origin.note.as_deref(), span);
             self.add_once(program, &format!("{side} {}", row.fact()), finding);

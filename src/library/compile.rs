@@ -145,9 +145,10 @@ pub(super) fn context<'a>(
 
 /// Adds findings but for facts of the source that lowering has told already.
 pub(super) fn add_new(all: &mut Vec<Diagnostic>, more: Vec<Diagnostic>) {
-    let facts = all.iter().filter(|finding| finding.code == Code::UnconfirmedFact);
+    let is_fact = |d: &Diagnostic| matches!(d.code, Code::UnconfirmedFact | Code::CommonFact);
+    let facts = all.iter().filter(|finding| is_fact(finding));
     let told: BTreeSet<Arc<str>> = facts.map(|finding| finding.message.clone()).collect();
-    let is_told = |d: &Diagnostic| d.code == Code::UnconfirmedFact && told.contains(&d.message);
+    let is_told = |d: &Diagnostic| is_fact(d) && told.contains(&d.message);
     all.reserve_exact(more.len());
     all.extend(more.into_iter().filter(|finding| !is_told(finding)));
 }

@@ -157,7 +157,7 @@ fn deep(name: &str, most: u32, row: &Limit) -> String {
         "call.subprogram" => "calls of subprograms",
         _ => "calls",
     };
-    let sure = if row.origin.confirmed { "" } else { "; no manual confirms the limit" };
+    let sure = if row.origin.is_settled() { "" } else { "; no manual confirms the limit" };
     format!(
         "the call is {} levels deep, and the control has {most} levels of {what}{sure} ('limits.{name}')",
         most + 1

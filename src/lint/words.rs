@@ -138,7 +138,7 @@ pub(super) fn long_text(looked: &Looked<'_>, findings: &mut Findings) {
             };
             let count = text.chars().count();
             if count > most as usize {
-                let sure = if row.origin.confirmed { "" } else { ", as far as is known" };
+                let sure = if row.origin.is_settled() { "" } else { ", as far as is known" };
                 let shown: String = text.chars().take(most as usize).collect();
                 let message = format!(
                     "the text has {count} characters, and the control shows {most}{sure}: '{}' ('limits.{name}')",

@@ -40,7 +40,7 @@ pub fn fact<T>(
     otherwise: T,
 ) -> Fact<T> {
     let row = control.behaviour(question);
-    let known = row.and_then(|row| Some((read(&row.value)?, row.origin.confirmed)));
+    let known = row.and_then(|row| Some((read(&row.value)?, row.origin.is_settled())));
     let unsure = !known.as_ref().is_some_and(|(_, confirmed)| *confirmed);
     Fact { value: known.map_or(otherwise, |(value, _)| value), unsure: unsure.then(|| question.fact()) }
 }

@@ -178,8 +178,10 @@ impl Compiler<'_> {
 
     /// Notes a fact that is not confirmed, or that the table denies or leaves open.
     fn rest_on_behaviour(&self, question: Question, facts: &mut Vec<String>) {
-        let sure =
-            self.control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value == "true");
+        let sure = self
+            .control
+            .behaviour(question)
+            .is_some_and(|row| row.origin.is_settled() && row.value == "true");
         if !sure {
             facts.push(question.fact().into());
         }
@@ -187,7 +189,7 @@ impl Compiler<'_> {
 
     fn rest_on_statement(&self, name: &str, facts: &mut Vec<String>) {
         match self.control.statement(name) {
-            Some(row) if row.origin.confirmed => {}
+            Some(row) if row.origin.is_settled() => {}
             Some(row) => facts.push(row.fact()),
             None => facts.push(format!("statement:{name}")),
         }

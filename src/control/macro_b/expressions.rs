@@ -34,8 +34,10 @@ impl<'c, 'f> Expressions<'c, 'f> {
     }
 
     fn behaviour(&mut self, question: Question) {
-        let sure =
-            self.control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value == "true");
+        let sure = self
+            .control
+            .behaviour(question)
+            .is_some_and(|row| row.origin.is_settled() && row.value == "true");
         if !sure {
             self.facts.push(question.fact().into());
         }
@@ -65,7 +67,7 @@ impl<'c, 'f> Expressions<'c, 'f> {
             }
             ExprKind::Call { function, arguments, .. } => {
                 match self.control.function(*function, arguments.len()) {
-                    Some(row) if row.origin.confirmed => {}
+                    Some(row) if row.origin.is_settled() => {}
                     Some(row) => self.facts.push(row.fact()),
                     None => self.facts.push(format!("function:{function}")),
                 }
@@ -105,7 +107,7 @@ impl<'c, 'f> Expressions<'c, 'f> {
             BinaryOp::GreaterEqual => "ge",
             _ => return,
         };
-        if let Some(row) = self.control.operator(meaning).filter(|row| !row.origin.confirmed) {
+        if let Some(row) = self.control.operator(meaning).filter(|row| !row.origin.is_settled()) {
             self.facts.push(row.fact());
         }
     }
@@ -176,7 +178,7 @@ pub fn numbered(control: &Control, number: u32) -> Var {
             subscripts,
             readable: row.access != "w",
             writable: row.access != "r",
-            unsure: (!row.origin.confirmed).then(|| row.fact()),
+            unsure: (!row.origin.is_settled()).then(|| row.fact()),
         }));
     }
     match control.variable_class("#", number) {

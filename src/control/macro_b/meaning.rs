@@ -28,7 +28,7 @@ pub fn fixed(control: &Control, style: &Style, words: &[Word]) -> Option<Meaning
 }
 
 fn acts_as(control: &Control, question: Question, answer: &str, facts: &mut Vec<String>) {
-    if !control.behaviour(question).is_some_and(|row| row.origin.confirmed && row.value == answer) {
+    if !control.behaviour(question).is_some_and(|row| row.origin.is_settled() && row.value == answer) {
         facts.push(question.fact().into());
     }
 }
@@ -75,7 +75,7 @@ pub fn of(
         let row = place.and_then(|place| control.code_at(place));
         called = alias.is_some_and(|alias| alias.arguments)
             || row.is_some_and(|row| matches!(row.op, Op::CallMacro | Op::CallModal | Op::CallModalEach));
-        if let Some(row) = row.filter(|row| !row.origin.confirmed) {
+        if let Some(row) = row.filter(|row| !row.origin.is_settled()) {
             meaning.facts.push(row.fact());
         }
         if row.is_none() && alias.is_none() && word.letter == 'G' {
@@ -94,7 +94,7 @@ pub fn of(
         });
         meaning.beside.push(beside.filter(|_| here));
         let alone = control.word(word.letter, word.comma).filter(|_| here);
-        if let Some(row) = alone.filter(|row| beside.is_none() && !called && !row.origin.confirmed) {
+        if let Some(row) = alone.filter(|row| beside.is_none() && !called && !row.origin.is_settled()) {
             meaning.facts.push(row.fact());
         }
         meaning.alone.push(alone.map(|row| row.role));

@@ -29,7 +29,7 @@ impl<T: Copy> Answer<T> {
         otherwise: T,
     ) -> Self {
         let row = control.behaviour(question);
-        let known = row.and_then(|row| Some((read(&row.value)?, row.origin.confirmed)));
+        let known = row.and_then(|row| Some((read(&row.value)?, row.origin.is_settled())));
         let sure = known.is_some_and(|(_, confirmed)| confirmed);
         let value = known.map_or(otherwise, |(value, _)| value);
         Self { value, unsure: (!sure).then(|| question.fact()) }

@@ -133,7 +133,7 @@ impl Rules {
             feed_parts: numbers.feed_parts,
             feed_unsure: control.profile().decimal_point.is_some() && !numbers.feed_stated,
             pointed: numbers.calculator_letters.clone(),
-            numbers_unsure: !numbers.origin.confirmed,
+            numbers_unsure: !numbers.origin.is_settled(),
             increment_mm: numbers.increment_mm,
             increment_inch: numbers.increment_inch,
             increment_degrees: numbers.increment_degrees,

@@ -17,6 +17,11 @@ Correct the row shown. `dialects/README.md` says what the columns mean."
 "The profile of a machine has a key that nothing reads, a value that its control cannot have, or names a fact that its table does not hold. A setting that is not understood would make every conversion for that machine doubtful, so nothing is converted.
 
 Correct the line shown. `macroglot dialects` lists what a control can be set to."
+
+    "0204" CommonFact Note "common knowledge, and no manual was reached"
+"The conversion depends on how a control behaves here. No text of its maker was reached that says so, and what the trade writes of it agrees: at least two sources that do not depend on each other, or one that reproduces a named manual. `macroglot dialects` with the control's name prints the fact, and the sources.
+
+There is nothing to do as a rule. If your machine does otherwise, say so in its profile under `[behaviours]`; if you have checked it, put its name into `confirm`, and the note is gone."
         }
     };
 }

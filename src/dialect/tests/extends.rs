@@ -44,7 +44,7 @@ fn a_row_has_the_source_of_the_control_that_extends() {
     let dialect = loaded(EXTENDS, &[base(BASE)]).unwrap();
     let limit = |name: &str| {
         let row = dialect.limits.iter().find(|row| row.name == name).unwrap();
-        (row.max, row.origin.source.as_str(), row.origin.confirmed, row.origin.table.as_deref())
+        (row.max, row.origin.source.as_str(), row.origin.is_confirmed(), row.origin.table.as_deref())
     };
     assert_eq!(limit("brackets"), (Some(5), "page 1", true, Some("family")));
     assert_eq!(limit("do.depth"), (Some(3), "page 4", false, Some("family")));
@@ -132,7 +132,7 @@ fn faults_of_a_base_stand_in_its_file() {
     refused(
         EXTENDS,
         &with(r#"{ name = "brackets", source = "s" }"#),
-        "family.toml:4:3: MG0202: a confirmed row of a base has a source for each control",
+        "family.toml:4:3: MG0202: a row of a base that is settled has a source for each control",
     );
     refused(EXTENDS, &with(r#"{ name = "brackets", source = { test = 7 } }"#), "family.toml:4:");
     refused(

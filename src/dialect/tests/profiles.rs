@@ -49,7 +49,7 @@ fn profiles_state_answers() {
     let told = |more: &str| {
         let control = haas(more).unwrap();
         let row = control.behaviour(Question::DivideByZero).unwrap();
-        (row.value.clone(), row.origin.confirmed)
+        (row.value.clone(), row.origin.is_confirmed())
     };
     assert_eq!(told(""), ("unknown".into(), false));
     for text in [
@@ -60,7 +60,7 @@ fn profiles_state_answers() {
         assert_eq!(told(text), ("alarm".into(), true), "{text}");
     }
     let truth = haas("[behaviours]\nvacant.eq.zero = false").unwrap();
-    assert!(truth.behaviour(Question::VacantEqZero).unwrap().origin.confirmed);
+    assert!(truth.behaviour(Question::VacantEqZero).unwrap().origin.is_confirmed());
     // Silence of the table is an answer there; a profile may give another.
     assert!(haas("").unwrap().behaviour(Question::CycleEndsByMotion).is_none());
     let open = haas("[behaviours]\nalarm.offset = \"unknown\"");
@@ -68,7 +68,7 @@ fn profiles_state_answers() {
     // What another control of the family leaves open may be left open here.
     let doubted =
         haas("[behaviours]\narguments.mixed.later.wins = true\nm99.block.moves.first = \"unknown\"").unwrap();
-    assert!(!doubted.behaviour(Question::M99BlockMovesFirst).unwrap().origin.confirmed);
+    assert!(!doubted.behaviour(Question::M99BlockMovesFirst).unwrap().origin.is_confirmed());
     let option = "dialect = \"fanuc\"\n[behaviours]\ncondition.and.or = false";
     assert!(!Control::from_profile(option).unwrap().is(Question::ConditionAndOr));
 }

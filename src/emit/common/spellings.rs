@@ -242,7 +242,7 @@ fn operator<'c>(control: &'c Control, meaning: &str) -> Operator<'c> {
     let row = control.operator(meaning);
     row.map_or(Operator::default(), |row| Operator {
         text: &row.spelling,
-        rank: if row.origin.confirmed { row.rank.saturating_add(1) } else { 0 },
+        rank: if row.origin.is_settled() { row.rank.saturating_add(1) } else { 0 },
     })
 }
 

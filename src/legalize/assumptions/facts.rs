@@ -47,8 +47,9 @@ pub fn of_source(module: &Module, context: &mut Context<'_>) {
 
 fn look(module: &Module, computes: bool, context: &mut Context<'_>, control: &Control, side: Side) {
     // Where nothing is computed, nothing vacant is.
-    let asked =
-        VACANCY.iter().any(|question| control.behaviour(*question).is_some_and(|row| !row.origin.confirmed));
+    let asked = VACANCY
+        .iter()
+        .any(|question| control.behaviour(*question).is_some_and(|row| !row.origin.is_confirmed()));
     let own = computes && asked && context.source.is(Question::Vacancy);
     let summaries = if own { context.summaries(module) } else { Rc::default() };
     let given = if own { context.called(module).given(module) } else { BTreeMap::new() };
@@ -181,7 +182,7 @@ impl<'c> Found<'c> {
     }
 
     fn row<T: Row>(&mut self, row: &'c T, span: Span) {
-        if row.origin().confirmed {
+        if row.origin().is_confirmed() {
             return;
         }
         let place = std::ptr::from_ref(row) as usize;

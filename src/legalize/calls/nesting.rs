@@ -28,7 +28,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     if merged::concerns(target) {
         return;
     }
-    let known = |name: &str| context.source.limit_row(name).filter(|row| row.origin.confirmed)?.max;
+    let known = |name: &str| context.source.limit_row(name).filter(|row| row.origin.is_settled())?.max;
     // A source that takes no more stops first.
     let here: Vec<Option<u32>> = LIMITS.iter().map(|(name, _)| known(name)).collect();
     let limits = LIMITS.iter().zip(&here).filter_map(|((name, counted), here)| {
@@ -79,7 +79,7 @@ fn report(
         None => format!("{kind} may nest deeper from here, but"),
     };
     let what = format!("{how} {title} takes {most} levels and stops with an alarm at more");
-    let finding = match (row.origin.confirmed, deep) {
+    let finding = match (row.origin.is_settled(), deep) {
         (false, _) => {
             let fact = format!("limit:{}", row.name);
             Diagnostic::new(Code::UnconfirmedFact, span, what).with_help(to_confirm(&fact, Side::Target))

@@ -255,7 +255,7 @@ impl Block<'_> {
     /// Leaves no more M codes beside the move than the target takes: the last that starts something, or the first that
     /// stops something.
     fn spread(&mut self, context: &Context<'_>) {
-        let most = context.target.behaviour(Question::MCodesPerBlock).filter(|row| row.origin.confirmed);
+        let most = context.target.behaviour(Question::MCodesPerBlock).filter(|row| row.origin.is_settled());
         let most = most
             .map_or(1, |row| if row.value == "any" { usize::MAX } else { row.value.parse().unwrap_or(1) });
         loop {

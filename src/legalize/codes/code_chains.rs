@@ -191,7 +191,7 @@ fn choice(
     if odd {
         return None;
     }
-    if !row.origin.confirmed {
+    if !row.origin.is_confirmed() {
         doubts.push((format!("code:{letter}{number}"), row.origin.note.clone()));
     }
     let unnamed = matches!(

@@ -101,7 +101,7 @@ fn say_limit(index: usize, state: Option<&Modal>, span: Span, context: &mut Cont
 /// Says what becomes of a wait where the target has neither a wait nor a limit.
 fn say_unlimited(index: usize, early: bool, span: Span, context: &mut Context<'_>) {
     let waits = context.target.behaviour(Question::SystemReadWaits);
-    if early || !waits.is_some_and(|b| b.value == "true" && b.origin.confirmed) {
+    if early || !waits.is_some_and(|b| b.value == "true" && b.origin.is_confirmed()) {
         let what = "the source waits here until all moves are done; no manual confirms that the target \
                     waits before it reads a position";
         context.unconfirmed(index, Side::Target, span, Question::SystemReadWaits.fact(), what);

@@ -23,7 +23,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// True if a motion code is sure to end the cycle in force.
 fn ends(control: &Control) -> bool {
     let row = control.behaviour(Question::CycleEndsByMotion);
-    row.is_none_or(|row| row.value == "true" && row.origin.confirmed)
+    row.is_none_or(|row| row.value == "true" && row.origin.is_settled())
 }
 
 /// Ends cycles before what would go on drilling.

@@ -45,7 +45,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             }
         }
         let row = target.behaviour(Question::DwellExpression);
-        let known = row.is_some_and(|row| row.value == "ms" && row.origin.confirmed);
+        let known = row.is_some_and(|row| row.value == "ms" && row.origin.is_confirmed());
         // In seconds a computed value counts as written; a cycle has no such word.
         let asked = computed.iter().find(|(in_cycle, _)| *in_cycle || !s);
         if let Some((_, span)) = asked.filter(|_| row.is_some_and(|row| row.value == "seconds")) {

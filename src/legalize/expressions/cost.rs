@@ -48,7 +48,7 @@ pub(in crate::legalize) struct Measure<'c> {
 impl<'c> Measure<'c> {
     pub fn new(control: &'c Control) -> Self {
         let rank = |meaning: &str| {
-            let row = control.operator(meaning).filter(|row| row.origin.confirmed);
+            let row = control.operator(meaning).filter(|row| row.origin.is_settled());
             row.map_or(0, |row| row.rank.saturating_add(1))
         };
         Self { control, ranks: OPERATORS.map(rank), comparisons: COMPARISONS.map(rank) }

@@ -68,7 +68,7 @@ fn agree(question: Question, context: &Context<'_>) -> bool {
 /// A control's answer, where a source confirms it.
 fn answer(control: &Control, question: Question) -> Option<&str> {
     let row = control.behaviour(question)?;
-    (row.origin().confirmed && row.value != "unknown").then_some(row.value.as_str())
+    (row.origin().is_confirmed() && row.value != "unknown").then_some(row.value.as_str())
 }
 
 fn about_zero(nc: &Nc) -> bool {

@@ -40,7 +40,7 @@ fn may_use(index: usize, context: &Context<'_>) -> bool {
 /// A position that is set while a local shift may be in force.
 fn set_positions(module: &Module, context: &mut Context<'_>) {
     let answer = |control: &crate::dialect::Control| {
-        let row = control.behaviour(ENDS).filter(|row| row.origin.confirmed && row.value != "unknown");
+        let row = control.behaviour(ENDS).filter(|row| row.origin.is_confirmed() && row.value != "unknown");
         row.map(|row| row.value.clone())
     };
     if answer(context.source).is_some_and(|ours| answer(context.target) == Some(ours))

@@ -45,7 +45,7 @@ impl Asked {
     }
 
     fn is_sure(&self, control: &Control) -> bool {
-        control.behaviour(self.question).is_some_and(|row| row.origin.confirmed)
+        control.behaviour(self.question).is_some_and(|row| row.origin.is_settled())
     }
 }
 
@@ -161,6 +161,8 @@ fn settle(stmt: &mut Stmt, place: &Place<'_>, index: usize, context: &mut Contex
         ours.is_some() && ours == asked.cancels(target) && asked.is_sure(target)
     };
     if questions.iter().all(same) {
+        // A common fact has its note.
+        rests(&questions, Side::Target, index, span, context);
         return;
     }
     // Where no source says, emulated controls keep it.

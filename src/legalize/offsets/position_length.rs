@@ -23,8 +23,9 @@ const Z: f64 = DEPTH as f64;
 
 /// Adds the length to positions, or takes it away; true if there are any.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let row =
-        |control: &Control| control.behaviour(FACT).map(|row| (row.value == "added", row.origin.confirmed));
+    let row = |control: &Control| {
+        control.behaviour(FACT).map(|row| (row.value == "added", row.origin.is_confirmed()))
+    };
     let (ours, theirs) = (row(context.source), row(context.target));
     if ours == theirs && (context.source.name() == context.target.name() || ours == Some((true, true))) {
         return false;

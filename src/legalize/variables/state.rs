@@ -196,7 +196,7 @@ fn shared(state: Sys, source: &Control, target: &Control) -> bool {
 }
 
 fn note(state: Sys, row: &crate::dialect::SystemVariable, span: Span, found: &mut Vec<(Span, Finding)>) {
-    if !row.origin.confirmed {
+    if !row.origin.is_confirmed() {
         let note = row.origin.note.as_deref().map(|note| format!(": {note}")).unwrap_or_default();
         found.push((span, Finding::Unconfirmed(state, row.fact(), note)));
     }

@@ -64,7 +64,7 @@ impl<'c> Findings<'c> {
     /// The construct at `span` rests on a row of the table.
     pub fn rest_on<R: Row>(&mut self, row: &'c R, span: Span) {
         let place = std::ptr::from_ref(row) as usize;
-        if !row.origin().confirmed && self.rows.insert(place, self.program) != Some(self.program) {
+        if !row.origin().is_confirmed() && self.rows.insert(place, self.program) != Some(self.program) {
             self.unconfirmed(row.fact(), row.origin().note.as_deref(), span);
         }
     }

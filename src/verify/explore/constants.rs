@@ -250,7 +250,7 @@ impl Reader<'_> {
 
     fn says(&self, question: Question, answer: &str) -> bool {
         let row = self.control.behaviour(question);
-        row.is_some_and(|row| (row.origin.confirmed || self.as_run) && row.value == answer)
+        row.is_some_and(|row| (row.origin.is_settled() || self.as_run) && row.value == answer)
     }
 }
 

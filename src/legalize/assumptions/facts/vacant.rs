@@ -77,7 +77,7 @@ impl Found<'_> {
     /// True where there is no more to say about a behaviour in this program.
     fn is_told(&self, question: Question) -> bool {
         let last = |row| self.rows.get(&(std::ptr::from_ref(row) as usize)).map(|(_, last)| *last);
-        let row = self.control.behaviour(question).filter(|row| !row.origin.confirmed);
+        let row = self.control.behaviour(question).filter(|row| !row.origin.is_confirmed());
         row.is_none_or(|row| last(row) == Some(self.program))
     }
 }

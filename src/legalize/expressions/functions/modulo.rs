@@ -13,7 +13,7 @@ use crate::legalize::Rewriter;
 /// True where the target's MOD is the one of the intermediate form for these operands.
 pub fn is_native(operands: &[Expr; 2], target: &Control) -> bool {
     let answer = |question: Question, value: &str| {
-        target.behaviour(question).is_some_and(|row| row.value == value && row.origin.confirmed)
+        target.behaviour(question).is_some_and(|row| row.value == value && row.origin.is_settled())
     };
     let whole = |e: &Expr| e.constant().is_some_and(|v| v >= 0.0 && v.fract() == 0.0);
     target.operator("modulo").is_some()

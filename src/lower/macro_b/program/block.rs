@@ -230,7 +230,7 @@ impl<'a> Lowering<'a> {
                 if groups == assigns { Question::AssignSharesBlock } else { Question::StatementSharesBlock };
             match self.findings.behaviour(question, site.span) {
                 Some("true") => {}
-                Some(_) if self.control.behaviour(question).is_some_and(|row| row.origin.confirmed) => {
+                Some(_) if self.control.behaviour(question).is_some_and(|row| row.origin.is_settled()) => {
                     let message = "the control takes one statement in a block, and none beside words";
                     self.findings.not_understood(site.span, message);
                 }

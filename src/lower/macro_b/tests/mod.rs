@@ -12,7 +12,7 @@ mod programs;
 mod runs;
 mod words;
 
-use crate::diag::{Code, Severity};
+use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::ir::{Module, Program, validate};
 use crate::lower::{Lowered, fanuc, haas};
@@ -101,7 +101,7 @@ fn reviews(name: &str, source: &str, codes: &[Code]) {
     assert_eq!(found, codes, "{source}");
 }
 
-/// The source rests on this unconfirmed fact, said once.
+/// The source rests on this fact, which is common or unconfirmed, said once.
 #[track_caller]
 fn rests_on(name: &str, source: &str, fact: &str) {
     assert_eq!(told(name, source, fact), 1, "{source}: {fact}");
@@ -111,5 +111,6 @@ fn told(name: &str, source: &str, fact: &str) -> usize {
     let quoted = format!("'{fact}'");
     let lowered = lowered(name, source);
     let all = lowered.programs.iter().flat_map(|(_, findings)| findings);
-    all.filter(|f| f.code == Code::UnconfirmedFact && f.message.contains(&quoted)).count()
+    let is_fact = |f: &&Diagnostic| matches!(f.code, Code::UnconfirmedFact | Code::CommonFact);
+    all.filter(is_fact).filter(|f| f.message.contains(&quoted)).count()
 }

@@ -39,7 +39,9 @@ impl<'a> Lowering<'a> {
 
     /// The construct rests on a code's row; said once a program.
     pub fn rest_on_code(&mut self, id: CodeId, row: &'a CodeMeaning, span: Span) {
-        if !row.origin.confirmed && (self.codes.tell(id) || self.codes.get(id).is_some_and(|c| c.depends)) {
+        if !row.origin.is_confirmed()
+            && (self.codes.tell(id) || self.codes.get(id).is_some_and(|c| c.depends))
+        {
             self.findings.rest_on(row, span);
         }
     }

@@ -68,7 +68,7 @@ impl<'a> Lowering<'a> {
             let reference = codes.iter().any(|(_, row)| row.op == Op::ReferenceReturn);
             return usual.filter(|_| reference).map(|usual| (usual.role, None));
         };
-        if !usual.origin.confirmed && self.codes.tell_letter(word.letter, word.comma) {
+        if !usual.origin.is_confirmed() && self.codes.tell_letter(word.letter, word.comma) {
             self.findings.rest_on(usual, span);
         }
         if is_arc_word(usual.role) && !self.fits_arc(word, span, codes, own.is_some(), in_force) {
@@ -128,7 +128,7 @@ impl<'a> Lowering<'a> {
             _ => return false,
         };
         let listed = self.control.profile().axes.as_ref().is_some_and(|axes| axes.contains(&axis));
-        let stated = self.codes.letter(word.letter, word.comma).is_some_and(|row| row.origin.confirmed);
+        let stated = self.codes.letter(word.letter, word.comma).is_some_and(|row| row.origin.is_settled());
         self.control.machine() == Machine::Mill && !word.comma && !listed && !stated
     }
 

@@ -1,0 +1,80 @@
+//! How sure a row is: what each mark needs, and what is refused.
+
+use super::{faults, refused, table};
+use crate::dialect::{Base, Dialect, Mark, load};
+
+fn row(keys: &str) -> String {
+    format!("limits = [{{ name = \"brackets\", max = 5, {keys} }}]")
+}
+
+fn origin(keys: &str) -> (Mark, String) {
+    let dialect: Dialect = load(&table(&row(keys)), &[]).unwrap();
+    let origin = &dialect.limits[0].origin;
+    (origin.mark, origin.source.clone())
+}
+
+#[test]
+fn a_mark_is_what_the_keys_say() {
+    assert_eq!(origin(r#"source = "page 1""#), (Mark::Confirmed, "page 1".into()));
+    assert_eq!(
+        origin(r#"source = "told", confirmed = false, note = "one report""#),
+        (Mark::Unconfirmed, "told".into())
+    );
+    assert_eq!(
+        origin(r#"common = ["POST, line 4", "COURSE, page 9"]"#),
+        (Mark::Common, "POST, line 4; COURSE, page 9".into())
+    );
+    assert_eq!(
+        origin(r#"source = "facts 3", common = ["BOOK"], cites = "B-1 p. 2""#),
+        (Mark::Common, "facts 3; BOOK; after B-1 p. 2".into())
+    );
+}
+
+#[test]
+fn common_needs_two_sources_that_are_not_one() {
+    let two = "MG0202: a common row needs two sources";
+    refused(&row("common = []"), two);
+    refused(&row(r#"common = ["POST"]"#), two);
+    refused(&row(r#"common = [], cites = "B-1""#), two);
+    // Two places of one source, however it is written, are one source.
+    let twice = "MG0202: one source is named twice";
+    refused(&row(r#"common = ["POST", "POST"]"#), twice);
+    refused(&row(r#"common = ["POST, line 4", "post , line 90"]"#), twice);
+    refused(&row(r#"common = ["POST: a", "POST, b"]"#), twice);
+    refused(&row(r#"common = ["POST", "BOOK", "POST, b"]"#), twice);
+    refused(&row(r#"common = ["POST", ""]"#), "a source has no name");
+    refused(&row(r#"common = ["POST", ", line 4"]"#), "a source has no name");
+    refused(&row(r#"common = ["POST"], cites = " ""#), "a source has no name");
+    refused(&row(r#"common = "POST""#), "MG0202:");
+}
+
+#[test]
+fn a_row_has_one_mark() {
+    let both = "MG0202: a row has one mark: 'confirmed' or 'common'";
+    refused(&row(r#"common = ["POST", "BOOK"], confirmed = true"#), both);
+    refused(&row(r#"common = ["POST", "BOOK"], confirmed = false, note = "n""#), both);
+    refused(&row(r#"source = "s", cites = "B-1""#), "'cites' stands without 'common'");
+    refused(&row(r#"confirmed = false, note = "n""#), "the row has no source");
+    // What nobody knows, nobody agrees on.
+    let unknown = r#"behaviours = [{ name = "skip.levels", value = "unknown", common = ["POST", "BOOK"] }]"#;
+    refused(unknown, "an answer that is 'unknown' is not common");
+    assert_eq!(faults(&unknown.replace("unknown", "true")), "");
+}
+
+#[test]
+fn a_base_names_the_common_sources_of_each_control() {
+    let base = |source: &str| {
+        format!("name = \"family\"\ntitle = \"F\"\nlimits = [{{ name = \"brackets\", max = 5, {source} }}]\n")
+    };
+    let mark = |source: &str| {
+        let text = base(source);
+        let bases = [Base { name: "family", file: "family.toml", text: &text }];
+        load(&table("extends = \"family\"\n"), &bases).map(|dialect| dialect.limits[0].origin.mark)
+    };
+    let given = mark(r#"source = { test = { common = ["POST", "BOOK"] }, other = "page 1" }"#);
+    assert_eq!(given.unwrap(), Mark::Common);
+    assert_eq!(mark(r#"source = { other = { common = ["POST", "BOOK"] } }"#).unwrap(), Mark::Unconfirmed);
+    let faults = mark(r#"common = ["POST", "BOOK"]"#).unwrap_err();
+    assert!(faults[0].message.contains("has a source for each control"), "{faults:?}");
+    assert!(mark(r#"source = { test = { common = ["POST"] } }"#).is_err());
+}
