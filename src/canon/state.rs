@@ -63,7 +63,7 @@ super::vocabulary! {
         /// Used tool time, minutes: tool.
         ToolTimeUsed = "tool.time.used",
         /// Tool life and other tool-table cells that only one control has: cell, tool. Cells: 1 feed
-        /// seconds, 2 total seconds, 3 life limit, 4 life counter, 5 largest load, 6 load limit.
+        /// seconds, 2 total seconds, 3 life limit, 4 life counter, 5 largest load, 6 load limit, 7 flutes.
         ToolTable = "tool.table",
         /// The modal code of a group: group, by the common numbers of groups.
         Modal = "modal",

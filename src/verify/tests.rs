@@ -385,13 +385,13 @@ fn ways_that_constants_exclude_are_not_missed() {
 /// Without a conversion's report every fact that mattered is a reason, with what it asks and where.
 #[test]
 fn facts_are_reasons_that_say_where() {
-    let program = "O1\nG0X1.\nG4P500\nM30\n";
+    let program = "O1\nG0X1.\n#100=500\nG4P#100\nM30\n";
     let found = within("fanuc", program, program);
     let texts: Vec<&str> = found.reasons.iter().map(|reason| reason.text.as_str()).collect();
     assert!(
         texts.iter().any(|text| {
-            text.starts_with("no manual confirms 'behaviour:dwell.bare' (what P of a dwell counts")
-                && text.ends_with("the source depends on it in line 3 of cycle1.nc, 'G4P500'")
+            text.starts_with("no manual confirms 'behaviour:dwell.expression' (")
+                && text.ends_with("the source depends on it in line 4 of cycle1.nc, 'G4P#100'")
         }),
         "{texts:#?}"
     );

@@ -25,15 +25,11 @@ fn a_wrong_profile_is_named_with_its_line() {
 /// What a profile states needs no review any more.
 #[test]
 fn a_profile_answers_reviews() {
-    let program = CLEAN.replace("G0 X1.", "#101=2.\nG0 X#101");
-    let confirm = "confirm = [\"behaviour:word.bare.expression\"]\n";
+    let program = CLEAN.replace("G0 X1.", "G0 X1. A5.");
+    let confirm = "confirm = [\"word:A\"]\n";
     let shop = Shop::with(&[("a.nc", &program), ("m.toml", &format!("dialect = \"fanuc\"\n{confirm}"))]);
     let plain = shop.run("convert a.nc --from fanuc --to haas");
-    assert!(
-        plain.err.contains("word.bare.expression") && plain.err.contains("1 for review"),
-        "{}",
-        plain.err
-    );
+    assert!(plain.err.contains("word:A") && plain.err.contains("1 for review"), "{}", plain.err);
     let known = shop.run("convert a.nc --from fanuc --to haas --machine m.toml");
     assert!(known.err.contains("1 converted"), "{}", known.err);
     assert_eq!(known.out, plain.out, "the same program, with nothing to look at");

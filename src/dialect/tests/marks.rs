@@ -1,7 +1,9 @@
 //! How sure a row is: what each mark needs, and what is refused.
 
 use super::{faults, refused, table};
-use crate::dialect::{Base, Dialect, Mark, load};
+use crate::diag::{Code, Severity};
+use crate::dialect::{Base, Control, Dialect, Mark, Side, load};
+use crate::text::Span;
 
 fn row(keys: &str) -> String {
     format!("limits = [{{ name = \"brackets\", max = 5, {keys} }}]")
@@ -77,4 +79,21 @@ fn a_base_names_the_common_sources_of_each_control() {
     let faults = mark(r#"common = ["POST", "BOOK"]"#).unwrap_err();
     assert!(faults[0].message.contains("has a source for each control"), "{faults:?}");
     assert!(mark(r#"source = { test = { common = ["POST"] } }"#).is_err());
+}
+
+/// A common fact has a note, an unconfirmed one a review; a profile that checked it leaves neither.
+#[test]
+fn a_common_fact_brings_a_note() {
+    let plain = Control::plain("fanuc").unwrap();
+    let fact = "behaviour:skip.midblock";
+    assert_eq!(plain.mark(fact), Mark::Common);
+    let told = plain.unconfirmed(Side::Source, fact, None, Span::new(0, 1));
+    assert_eq!((told.code, told.severity()), (Code::CommonFact, Severity::Note));
+    assert_eq!(told.fact(), Some(fact));
+    assert_eq!(plain.mark("behaviour:repeat.moves"), Mark::Unconfirmed);
+    let told = plain.unconfirmed(Side::Source, "behaviour:repeat.moves", None, Span::new(0, 1));
+    assert_eq!((told.code, told.severity()), (Code::UnconfirmedFact, Severity::Review));
+    assert_eq!(plain.mark("code:M77"), Mark::Unconfirmed);
+    let checked = Control::from_profile(&format!("dialect = \"fanuc\"\nconfirm = [\"{fact}\"]")).unwrap();
+    assert_eq!(checked.mark(fact), Mark::Confirmed);
 }

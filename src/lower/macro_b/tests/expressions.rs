@@ -174,5 +174,6 @@ fn early_reads() {
     // The class's own example: the output is set before the dwell is over.
     reviews("haas", "#1124=1;\nG04 P2.;\n#1124=0;", &[Code::EarlyRead]);
     reviews("haas", "G103 P1;\n#1124=1;\nG04 P2.;\n#1124=0;", &[]);
-    rests_on("fanuc", "#1=#5041", "behaviour:system.read.waits");
+    // The maker tells to stop reading ahead before it (B-63324EN/03 p. 674).
+    reviews("fanuc", "#1=#5041", &[Code::EarlyRead]);
 }
