@@ -81,6 +81,8 @@ super::vocabulary! {
         RampsOn = "path.ramps.on",
         /// A gain of the axes: how closely they follow their path.
         AxisGain = "path.gain",
+        /// A mode of how smoothly or how fast a path is followed, within the tolerance that the control is set to.
+        PathQuality = "path.quality",
         /// XY plane.
         PlaneXy = "plane.xy",
         /// ZX plane.

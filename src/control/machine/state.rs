@@ -30,7 +30,7 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
                 machine.path_mode = op;
                 trace.push(EventKind::Other { operation: op, code: None });
             }
-            Op::AxisGain => trace.push(EventKind::Other { operation: op, code: None }),
+            Op::AxisGain | Op::PathQuality => trace.push(EventKind::Other { operation: op, code: None }),
             Op::PlaneOther | Op::Wrap => trace.doubt("machine:plane"),
             Op::Thread if command.word(Role::Lead).is_some() => {}
             _ => {}

@@ -38,6 +38,11 @@ Nothing needs to be done. If a letter of a message has no substitute, MG0507 say
 "A comment or a message has a number that may be the name of a variable, or may count something: `TOOL #5`. The variable has another register on the target. Where the text is clear about it (`SET #500`, `#5 = DEPTH`), the name of the register takes its place; here it is not clear, and the text stays as it is. This is reported once per program, at the first of them.
 
 Read the text. If it means the variable, change it at the machine, or write `=` or `IS` after the name in the source."
+
+    "0409" QualityDropped Note "a mode of quality is dropped"
+"The block sets how smoothly or how fast the control follows a path: advanced preview, AI contour control, accuracy. Such a mode moves the tool to no other place, beyond the tolerance that the control is set to, and no code of the target means the same. It is left out, and told once a program.
+
+Nothing needs to be done for the shape of the part. Where surface or speed matter, choose the mode of the target by its own codes or settings."
         }
     };
 }

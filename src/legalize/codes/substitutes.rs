@@ -1,14 +1,16 @@
 //! Operations whose nearest relative on the target changes nothing that is measured on the part.
 //!
 //! Each row is a condition that a reviewer must accept: another coolant, corners that are rounded or stopped at
-//! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here.
+//! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here. Modes of quality are
+//! left out with a note: both controls follow the path within the tolerance that they are set to.
 
-use crate::canon::{Group, Op};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{NcItem, Program, StmtKind};
+use crate::ir::{Nc, NcItem, Program, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::emptied::drop_emptied;
+use crate::text::Span;
 use std::collections::BTreeMap;
 
 /// An operation, what stands for it (nothing: it is left out), and what a reviewer must accept.
@@ -57,7 +59,29 @@ const ROWS: &[(Op, Option<Op>, &str)] = &[
 
 /// True where an operation with a row stands, or a block that it may have left empty.
 pub fn concerns(features: &Features) -> bool {
-    features.has(Feature::Emptied) || ROWS.iter().any(|(op, ..)| features.op(*op))
+    features.has(Feature::Emptied)
+        || features.op(Op::PathQuality)
+        || ROWS.iter().any(|(op, ..)| features.op(*op))
+}
+
+/// Leaves out a mode of quality, with the words that belong to it. Beside axis words it would be something else: those
+/// say where to go, or for which axes it is.
+fn drop_quality(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>) -> bool {
+    let is_mode = |item: &NcItem| *item == NcItem::Op(Op::PathQuality);
+    if !nc.items.iter().any(is_mode) {
+        return false;
+    }
+    if nc.names_axis() {
+        let what =
+            "a mode of quality stands beside axis words: it is not known whether they are a move or its axes";
+        let help = "write the mode in a block of its own";
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+        return false;
+    }
+    nc.items.retain(|item| !is_mode(item) && !matches!(item, NcItem::Word(Role::Builder, _)));
+    let what = "a mode of how smoothly or how fast a path is followed is dropped: the target follows it as it is set";
+    context.add_once(index, what, Diagnostic::new(Code::QualityDropped, span, what));
+    true
 }
 
 /// Puts substitutes in the place of operations that the target lacks.
@@ -68,6 +92,7 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
     for block in &mut program.blocks {
         for stmt in &mut block.stmts {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+            changed |= drop_quality(nc, index, stmt.site.span, context);
             for (op, other, what) in &rows {
                 let Some(at) = nc.items.iter().position(|item| *item == NcItem::Op(*op)) else {
                     continue;

@@ -53,7 +53,8 @@ pub fn is_pause(what: &EventKind) -> bool {
 /// True for a mode of corners, ramps or gains, or a limit on reading ahead: it acts in the moves after it.
 pub fn is_mode(what: &EventKind) -> bool {
     let EventKind::Other { operation, .. } = what else { return false };
-    operation.group() == Group::PathMode || matches!(operation, Op::LimitLookahead | Op::AxisGain)
+    operation.group() == Group::PathMode
+        || matches!(operation, Op::LimitLookahead | Op::AxisGain | Op::PathQuality)
 }
 
 /// True for the end of a program that others call.
