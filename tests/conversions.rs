@@ -9,6 +9,7 @@ mod machine;
 use cases::{Case, cases, hold};
 use machine::machine;
 use macroglot::diag::Code;
+use macroglot::dialect::Control;
 use macroglot::library::{Input, Lock, Options, convert};
 use std::collections::BTreeSet;
 
@@ -16,6 +17,7 @@ use std::collections::BTreeSet;
 fn fault(case: &Case) -> Option<String> {
     let [source, target] =
         [&case.from, &case.to].map(|spec| machine(spec).unwrap_or_else(|error| panic!("{error}")));
+    let (source, target) = Control::meeting(source, target).unwrap_or_else(|error| panic!("{error}"));
     let bytes = case.source.clone().into_bytes();
     let inputs = [Input { path: "case.nc".into(), name: "case.nc".into(), bytes }];
     let lock = Lock::new(source.name(), target.name());

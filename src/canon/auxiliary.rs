@@ -39,7 +39,7 @@ impl Op {
             SpindleCw => Auxiliary::Forward,
             SpindleCcw | Mist | Flood | ThroughSpindle => Auxiliary::Start,
             SpindleStop | SpindleOrient | CoolantOff | ThroughSpindleOff => Auxiliary::Stop,
-            OverrideOn | OverrideOff | ProbeOn | ToolProbeOn | OutputOn | OutputOff => Auxiliary::Other,
+            OverrideOn | OverrideOff | ProbeOn | ToolProbeOn | OutputOn | OutputOff | Act => Auxiliary::Other,
             _ => return None,
         })
     }

@@ -7,6 +7,7 @@
 //! Names are stable: they stand in the TOML tables, in the text form of the
 //! IR and in traces.
 
+mod acts;
 mod auxiliary;
 mod function;
 mod kinds;
@@ -15,6 +16,7 @@ mod pause;
 mod role;
 mod state;
 
+pub use acts::Act;
 pub use auxiliary::Auxiliary;
 pub use function::Func;
 pub use operation::{Group, Op};

@@ -301,6 +301,8 @@ super::vocabulary! {
         SubAreaEnd = "sub.area.end",
         /// A machine builder's code, with what the machine profile says of it.
         Builder = "builder",
+        /// A code of a machine's builder that the profile names: it leaves every mode as it is.
+        Act = "machine.act",
         /// Something that only this kind of machine has; never carried across.
         MachineSpecific = "machine.specific",
     }

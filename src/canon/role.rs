@@ -114,10 +114,47 @@ super::vocabulary! {
         WrapRatio = "wrap.ratio",
         /// A value that a machine builder's code takes as it is.
         Builder = "builder",
+        /// The number of the name that the profile gives to a builder's code.
+        Act = "act",
+        /// First word that such a code takes, by the order of their names.
+        Act1 = "act.1",
+        /// Second word of such a code.
+        Act2 = "act.2",
+        /// Third word of such a code.
+        Act3 = "act.3",
+        /// Fourth word of such a code.
+        Act4 = "act.4",
+        /// Fifth word of such a code.
+        Act5 = "act.5",
+        /// Sixth word of such a code.
+        Act6 = "act.6",
+        /// Seventh word of such a code.
+        Act7 = "act.7",
+        /// Eighth word of such a code.
+        Act8 = "act.8",
     }
 }
 
 impl Role {
+    /// The words of builders' codes that profiles name.
+    pub const ACT_WORDS: [Role; 8] =
+        [Role::Act1, Role::Act2, Role::Act3, Role::Act4, Role::Act5, Role::Act6, Role::Act7, Role::Act8];
+
+    /// True for a word of a builder's code that a profile names: its value is carried as it is.
+    pub const fn is_act_word(self) -> bool {
+        matches!(
+            self,
+            Role::Act1
+                | Role::Act2
+                | Role::Act3
+                | Role::Act4
+                | Role::Act5
+                | Role::Act6
+                | Role::Act7
+                | Role::Act8
+        )
+    }
+
     /// True for the target of an axis.
     pub const fn is_axis(self) -> bool {
         matches!(
@@ -162,6 +199,7 @@ impl Role {
                 | Role::Lookahead
                 | Role::OffsetRow
                 | Role::ProbePoint
+                | Role::Act
         )
     }
 

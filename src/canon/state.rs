@@ -56,6 +56,8 @@ super::vocabulary! {
         LatheTip = "offset.lathe.tip",
         /// Lathe tool offset along Y: number.
         LatheY = "offset.lathe.y",
+        /// A variable that a code of the machine's builder reads or sets, by the name that profiles give it: act, word.
+        Act = "machine.act",
         /// Tool in the spindle.
         ActiveTool = "tool.active",
         /// Allowed tool time, minutes: tool.

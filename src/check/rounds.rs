@@ -96,9 +96,19 @@ fn known_or_found(
     if let Some(known) = request.cache.get(&key) {
         return (known, true);
     }
-    let shown = Way { machine, home: &shelf.control, away, effort: request.effort }.walk(&inputs);
+    let (home, away) = met(&shelf.control, away);
+    let shown = Way { machine, home: &home, away: &away, effort: request.effort }.walk(&inputs);
     request.cache.put(&key, &shown);
     (shown, false)
+}
+
+/// Two machines that know of each other what their profiles say of both; as they are where that contradicts their tables:
+/// what it concerns is refused then.
+fn met(home: &Control, away: &Control) -> (Control, Control) {
+    let as_they_are = || (home.clone(), away.clone());
+    let (home_met, away_met) = Control::meeting(home.clone(), away.clone()).unwrap_or_else(|_| as_they_are());
+    let kept = (home_met.clone(), away_met.clone());
+    Control::meeting(away_met, home_met).map_or(kept, |(away, home)| (home, away))
 }
 
 /// A machine to go to and come back from.

@@ -83,7 +83,12 @@ pub fn controls(
     }
     let machine_for =
         |name: &str| profiles.iter().find(|(_, p)| p.dialect == name).map(|(path, _)| path.as_path());
-    Ok((control(from, machine_for(from).or(own))?, control(to, machine_for(to))?))
+    meeting(control(from, machine_for(from).or(own))?, control(to, machine_for(to))?)
+}
+
+/// A source and a target that know of each other what their profiles say of both.
+pub fn meeting(source: Control, target: Control) -> Result<(Control, Control), u8> {
+    Control::meeting(source, target).map_err(complain_lines)
 }
 
 /// A machine profile.

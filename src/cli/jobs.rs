@@ -1,6 +1,6 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
-use super::common::{control, controls, dialect_of, doubt, names, own_profile, read, read_all};
+use super::common::{control, controls, dialect_of, doubt, meeting, names, own_profile, read, read_all};
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
@@ -193,7 +193,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     let mut ways = Vec::new();
     for (name, library) in &project.libraries {
         for (machine, folder) in &library.targets {
-            let (source, target) = (control_of(&library.machine)?, control_of(machine)?);
+            let (source, target) = meeting(control_of(&library.machine)?, control_of(machine)?)?;
             if wanted(wish.from, &source) && wanted(wish.to, &target) {
                 let (path, folder) = (short(&project.root.join(&library.path)), short(&root.join(folder)));
                 ways.push(Way { path, source, target, folder, name });

@@ -63,7 +63,7 @@ impl Control {
             system.entry(row.name.clone()).or_default().push((at, first, last));
             states.entry(row.state).or_default().push(at);
         }
-        let aliases = aliases(&dialect, &settings);
+        let aliases = aliases(&dialect, &settings, &profile);
         let mut behaviours = vec![None; Question::ALL.len()];
         for (at, row) in dialect.behaviours.iter().enumerate() {
             if let Some(place) = behaviours.get_mut(row.question as usize) {

@@ -1,9 +1,8 @@
 //! What codes and words mean, and how they are written.
 
 use super::control::numbered;
-use super::profile::SiteCode;
-use super::{CodeHead, CodeMeaning, Control, Dialect, WordMeaning};
-use crate::canon::{Op, Role};
+use super::{CodeHead, CodeMeaning, Control, Dialect, Profile, SiteCode, WordMeaning};
+use crate::canon::{Act, Op, Role};
 use std::collections::BTreeMap;
 
 /// The place of a code's row in its table.
@@ -192,13 +191,36 @@ impl Control {
     /// What the profile says of a builder's code.
     pub fn site_code(&self, letter: char, number: f64) -> Option<&SiteCode> {
         let wanted = CodeHead::new(letter, number)?;
-        self.profile.site.iter().find(|site| site.row().head() == Some(wanted))
+        self.profile.site.iter().find(|site| site.head() == Some(wanted))
+    }
+
+    /// What the profile says of a builder's code by the name that it has.
+    pub fn site_of(&self, act: Act) -> Option<&SiteCode> {
+        self.profile.site.iter().find(|site| site.head().is_some() && self.act_of(site) == Some(act))
+    }
+
+    /// The code that does what a name stands for, as it is written.
+    pub fn code_of(&self, act: Act) -> Option<&CodeMeaning> {
+        self.code_for(Op::Act, &BTreeMap::from([(Role::Act, act.number())]))
+    }
+
+    /// The name of a builder's code; none if it has none and does not need one.
+    pub fn act_of(&self, site: &SiteCode) -> Option<Act> {
+        site.act(&self.profile)
     }
 }
 
 /// The codes that the settings make call programs; of two for one code the first counts.
-pub(super) fn aliases(dialect: &Dialect, settings: &BTreeMap<String, String>) -> Vec<(char, f64, Alias)> {
-    let mut aliases = Vec::new();
+pub(super) fn aliases(
+    dialect: &Dialect,
+    settings: &BTreeMap<String, String>,
+    profile: &Profile,
+) -> Vec<(char, f64, Alias)> {
+    let calls = |site: &SiteCode| {
+        let (head, program) = (site.head()?, site.calls?);
+        Some((head.letter, head.number(), Alias { program, arguments: site.arguments, modal: false }))
+    };
+    let mut aliases: Vec<_> = profile.site.iter().filter_map(calls).collect();
     for row in &dialect.settings {
         let (Some(rule), Some((stem, first))) = (row.alias, numbered(&row.name)) else { continue };
         for (setting, program) in (first..=row.through.unwrap_or(first)).zip(rule.program..) {

@@ -19,6 +19,7 @@ mod forms;
 mod load;
 mod matrix;
 pub mod matters;
+mod meeting;
 mod model;
 mod origin;
 mod overlay;
@@ -31,6 +32,8 @@ pub mod registry;
 mod row;
 mod rows;
 mod signals;
+mod site;
+mod site_rows;
 mod spelling;
 mod stated;
 mod table;
@@ -45,16 +48,18 @@ pub use extend::Base;
 pub use forms::{Compares, Form, LineCounts, Names, Operand, OperandPlace};
 pub use load::load;
 pub use matrix::matrix;
+pub use meeting::NoMeeting;
 pub use model::*;
 pub use origin::{Mark, Origin};
 pub use page::page;
 pub use profile::{
-    Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, SiteCode, Units, VariableRun,
+    Axis, DecimalPoint, LineEnds, Machine, Outputs, Plain, Profile, Signal, Units, VariableRun,
 };
 pub use questions::{Answers, Question};
 pub use reader::{faults_as_text, faults_of_files};
 pub use registry::Entry;
 pub use row::Row;
 pub use rows::*;
-pub use spelling::{Beside, CodeHead};
+pub use site::{SiteCode, Without};
+pub use spelling::{Beside, CodeHead, measures};
 pub use unconfirmed::{Settled, Side, to_confirm};

@@ -4,7 +4,6 @@ use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
 use super::{Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
-use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -241,38 +240,6 @@ impl Overlay {
                 )
             })
             .collect();
-    }
-
-    /// Adds the codes of the machine's builder; they stand for the table's own of that number.
-    fn site(&mut self, dialect: &mut Dialect) {
-        for site in self.profile.site.clone() {
-            let row = site.row();
-            let (Some(head), Some(_)) = (row.head(), row.beside()) else {
-                let message = format!("'{}' is not a code", site.code);
-                self.fault(
-                    &format!("site:{}", site.code),
-                    message,
-                    "write a letter and a number: 'M20'".into(),
-                );
-                continue;
-            };
-            if row.op.is_flow() || row.op == Op::MachineSpecific {
-                let message = format!("'{}' cannot mean '{}'", site.code, row.op);
-                let help =
-                    "leave 'op' out; a code that calls a program is set by the control's alias parameters";
-                self.fault(&format!("site:{}", site.code), message, help.into());
-            }
-            if matches!(row.op, Op::OutputOn | Op::OutputOff) && !row.fixed.contains_key(&Role::Output) {
-                let message = format!("'{}' does not say which output it switches", site.code);
-                let help = "write fixed = { \"output.bit\" = 24 }: the number that programs of the other control know it by";
-                self.fault(&format!("site:{}", site.code), message, help.into());
-            }
-            dialect.codes.retain(|old| old.head() != Some(head) || old.beside() != row.beside());
-            // The control's own spelling of an operation stays the one that is written.
-            let taken =
-                dialect.codes.iter().any(|old| old.op == row.op && old.fixed == row.fixed && old.preferred);
-            dialect.codes.push(super::CodeMeaning { preferred: !taken && row.op != Op::Builder, ..row });
-        }
     }
 }
 

@@ -1,8 +1,7 @@
 //! Machine profiles: what one machine's owner bought and set.
 
 use super::reader::Reader;
-use super::{BareLength, CodeMeaning};
-use crate::canon::{Op, Role};
+use super::{BareLength, SiteCode};
 use crate::diag::{Code, Diagnostic};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -181,48 +180,6 @@ impl std::fmt::Display for Plain {
             Plain::Whole(number) => write!(f, "{number}"),
             Plain::Number(number) => write!(f, "{number}"),
             Plain::Word(word) => f.write_str(word),
-        }
-    }
-}
-
-/// A code that the machine's builder or the shop defined.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SiteCode {
-    /// The code: `M20`.
-    pub code: String,
-    /// What it does in common terms; absent for what only this machine does.
-    #[serde(default)]
-    pub op: Option<Op>,
-    /// What it does, in words.
-    pub text: String,
-    /// Operands that the code itself fixes.
-    #[serde(default)]
-    pub fixed: BTreeMap<Role, f64>,
-    /// Letters and their roles beside it.
-    #[serde(default)]
-    pub words: BTreeMap<String, Role>,
-}
-
-impl SiteCode {
-    /// The code as a row of a dialect's table.
-    pub(super) fn row(&self) -> CodeMeaning {
-        CodeMeaning {
-            code: self.code.clone(),
-            also: Vec::new(),
-            op: self.op.unwrap_or(Op::Builder),
-            fixed: self.fixed.clone(),
-            words: self.words.clone(),
-            required: Vec::new(),
-            shift: BTreeMap::new(),
-            through: None,
-            counted: None,
-            modal: None,
-            machine: None,
-            when: None,
-            preferred: true,
-            option: None,
-            origin: super::Origin::of_profile(Some(self.text.clone())),
         }
     }
 }

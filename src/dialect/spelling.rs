@@ -3,6 +3,12 @@
 use super::CodeMeaning;
 use crate::canon::Role;
 
+/// True for a letter whose numbers may count increments where they have no point: all but those that count things, by the
+/// common rules of the trade (ISO 6983). A builder's code is given such a number with a point.
+pub const fn measures(letter: char) -> bool {
+    !matches!(letter, 'D' | 'H' | 'L' | 'P' | 'S' | 'T')
+}
+
 /// The letter and number of a code, the number in thousandths so that `G54.1` is exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CodeHead {

@@ -3,6 +3,7 @@
 mod extends;
 mod marks;
 mod profiles;
+mod site;
 
 use super::{faults_as_text, load};
 

@@ -26,7 +26,7 @@ impl fmt::Display for Side {
 
 impl Control {
     /// How a program that rests on a fact of this control is told: for review, or, where the fact is common, with a note.
-    pub fn code_of(&self, fact: &str) -> Code {
+    pub fn told_as(&self, fact: &str) -> Code {
         match self.mark(fact) {
             Mark::Common => Code::CommonFact,
             Mark::Confirmed | Mark::Unconfirmed => Code::UnconfirmedFact,
@@ -40,7 +40,7 @@ impl Control {
         let asked = Question::of_fact(fact).map(|question| self.taken(question));
         let note = note.filter(|note| Question::of_fact(fact).is_none_or(|asked| asked.meaning() != *note));
         let said: Vec<&str> = asked.as_deref().into_iter().chain(note).collect();
-        let code = self.code_of(fact);
+        let code = self.told_as(fact);
         let said = match said.as_slice() {
             [] if code == Code::CommonFact => "sources of the trade agree on it".into(),
             [] => "no source says so".into(),

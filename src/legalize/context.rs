@@ -281,7 +281,7 @@ impl<'a> Context<'a> {
         what: impl Into<Arc<str>>,
     ) {
         let control = if side == Side::Source { self.source } else { self.target };
-        let finding = Diagnostic::new(control.code_of(fact), span, what).with_fact(fact);
+        let finding = Diagnostic::new(control.told_as(fact), span, what).with_fact(fact);
         self.add_once(program, fact, finding.with_help(control.to_settle(fact, side)));
     }
 

@@ -213,6 +213,7 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
         Asked { answer } => format!("asked   {}", number(*answer)),
         Other { operation, code: Some(code) } => format!("{operation} {code}"),
         Other { operation, code: None } => format!("{operation}"),
+        Act { name, words } => format!("code    {}", act(name, words)),
         End { by } => format!("{by}"),
         Enter { program, .. } => {
             let name = programs.get(*program as usize).map_or("", |program| program.name.as_str());
@@ -221,6 +222,13 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
         Leave => "return".into(),
         Unsure { fact } => format!("unsure  {fact}"),
     }
+}
+
+/// A builder's code by its name, with the values of its words.
+pub(super) fn act(name: &str, words: &std::collections::BTreeMap<String, f64>) -> String {
+    let name = name.split(crate::canon::Act::OWN).next().unwrap_or(name);
+    let words = words.iter().map(|(word, value)| format!(" {word} {}", number(*value)));
+    words.fold(name.to_owned(), |all, word| all + &word)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Tool change, spindle and coolant: what a block does beside moving, with the start of its move or after it.
 
 use super::{Command, Machine, tooling};
-use crate::canon::{Auxiliary, Op, Role, Running};
+use crate::canon::{Act, Auxiliary, Op, Role, Running};
 use crate::control::trace::{Event, EventKind, Spindle, Told, Trace};
 
 /// What counts of the machine before a block, to see whether the time at which something acts matters.
@@ -105,7 +105,14 @@ fn switch(machine: &mut Machine, command: &Command, op: Op, trace: &mut Trace) {
 fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     // Each code that switches an output brings the number of its own.
     let mut outputs = command.words.iter().filter(|(role, _)| *role == Role::Output);
+    let mut acts = command.words.iter().filter(|(role, _)| *role == Role::Act);
     for &op in &command.ops {
+        if op == Op::Act {
+            if let Some(act) = acts.next().and_then(|(_, number)| Act::of(*number)) {
+                builders(machine, command, act, trace);
+            }
+            continue;
+        }
         if matches!(op, Op::OutputOn | Op::OutputOff) {
             if let Some((_, number)) = outputs.next() {
                 machine.switch_output(number.round() as u32, op == Op::OutputOn, trace);
@@ -116,6 +123,13 @@ fn others(machine: &mut Machine, command: &Command, trace: &mut Trace) {
             trace.push(EventKind::Other { operation: op, code: command.own_code.clone() });
         }
     }
+}
+
+/// A builder's code that the profile names: the variables that it sets have what the machine puts there.
+fn builders(machine: &mut Machine, command: &Command, act: Act, trace: &mut Trace) {
+    let words = command.words.iter().filter_map(|(role, value)| Some((act.word_name(*role)?, *value)));
+    trace.push(EventKind::Act { name: act.name(), words: words.collect() });
+    machine.answers(act);
 }
 
 /// True for the operations that only the code tells apart.

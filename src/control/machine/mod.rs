@@ -107,6 +107,8 @@ pub struct Machine {
     time: f64,
     /// State that nothing here models.
     cells: HashMap<(Sys, [u32; 2]), f64>,
+    /// What the codes of the machine's builder put into variables, by the numbers of their names.
+    given_acts: HashMap<u32, f64>,
 }
 
 impl Machine {
@@ -158,6 +160,7 @@ impl Machine {
             date: scenario.date,
             time: scenario.time,
             cells: HashMap::new(),
+            given_acts: HashMap::new(),
         };
         for cell in &scenario.state {
             machine.preset(cell.state, &cell.subscripts, cell.value);

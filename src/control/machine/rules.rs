@@ -1,6 +1,6 @@
 //! The facts of a control that the machine acts by, read once.
 
-use crate::canon::{Auxiliary, Op, Pause, Running, Sys};
+use crate::canon::{Act, Auxiliary, Op, Pause, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
 use std::collections::BTreeMap;
@@ -91,6 +91,8 @@ pub struct Rules {
     late: [Fact<bool>; Auxiliary::ALL.len()],
     /// Whether each kind of stop ends spindle and coolant, and whether that is known.
     ends: [[(Option<bool>, bool); Running::ALL.len()]; Pause::ALL.len()],
+    /// The variables that builders' codes set, by the numbers of their names.
+    pub sets: BTreeMap<Act, Vec<u32>>,
     /// True if a code cancels all zero shifts, or a word that selects them takes 0 for none.
     pub cancels_offsets: bool,
     pub negative_radius_is_long: Fact<bool>,
@@ -166,6 +168,12 @@ impl Rules {
         };
         Self {
             late: Auxiliary::ALL.map(late),
+            sets: (control.profile().site.iter())
+                .filter_map(|site| {
+                    let sets = site.sets.values().map(|name| Act::named(name).number() as u32);
+                    Some((control.act_of(site)?, sets.collect()))
+                })
+                .collect(),
             ends: Pause::ALL.map(|pause| {
                 Running::ALL.map(|running| {
                     let ends = control.ends(pause, running);

@@ -5,7 +5,7 @@
 
 use super::Machine;
 use super::rules::RadiusTable;
-use crate::canon::{Op, Sys};
+use crate::canon::{Act, Op, Sys};
 use crate::control::outcome::Stop;
 use crate::control::scenario::AXES;
 use crate::control::trace::{EventKind, Spindle, Trace};
@@ -134,6 +134,9 @@ impl Machine {
             Sys::OutputInverted => (Sys::Output, 1.0 - value),
             _ => (state, value),
         };
+        if let (Sys::Act, Some(number)) = (state, subscripts.first()) {
+            self.given_acts.insert(*number, value);
+        }
         self.cells.insert(cell(state, subscripts), value);
     }
 
@@ -216,6 +219,15 @@ impl Machine {
         let value = f64::from(u8::from(on));
         self.cells.insert(cell(Sys::Output, &[number]), value);
         trace.push(EventKind::Write { state: Sys::Output, subscripts: vec![number], value });
+    }
+
+    /// A builder's code has run: what it sets holds what the scenario says that the machine puts there.
+    pub(super) fn answers(&mut self, act: Act) {
+        for number in self.rules.sets.get(&act).into_iter().flatten() {
+            let at = cell(Sys::Act, &[*number]);
+            let value = self.given_acts.get(number).copied().unwrap_or(0.0);
+            self.cells.insert(at, value);
+        }
     }
 
     /// The operation in force in a modal group that the machine keeps.

@@ -264,6 +264,14 @@ pub enum EventKind {
         #[serde(skip_serializing_if = "Option::is_none")]
         code: Option<String>,
     },
+    /// A code of the machine's builder that the profile names.
+    Act {
+        /// Its name.
+        name: String,
+        /// The values of its words, by their names.
+        #[serde(skip_serializing_if = "std::collections::BTreeMap::is_empty")]
+        words: std::collections::BTreeMap<String, f64>,
+    },
     /// The program ended.
     End {
         /// The code's operation; a program that runs out ends by [`Op::End`].

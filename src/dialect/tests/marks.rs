@@ -70,7 +70,7 @@ fn a_base_names_the_common_sources_of_each_control() {
     };
     let mark = |source: &str| {
         let text = base(source);
-        let bases = [Base { name: "family", file: "family.toml", text: &text }];
+        let bases = [Base { name: "family", file: "family.toml", text: &text, document: None }];
         load(&table("extends = \"family\"\n"), &bases).map(|dialect| dialect.limits[0].origin.mark)
     };
     let given = mark(r#"source = { test = { common = ["POST", "BOOK"] }, other = "page 1" }"#);

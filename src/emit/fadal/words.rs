@@ -145,7 +145,10 @@ impl<'p> Emitter<'p> {
             }
             _ => value,
         };
-        self.word_value(role, value, letter == 'R');
+        match value.constant() {
+            Some(number) if role.is_act_word() => self.out.number(number, crate::dialect::measures(letter)),
+            _ => self.word_value(role, value, letter == 'R'),
+        }
     }
 
     /// Writes the value of a word: `10.`, `+R9`, `-R9`; `signed` where a sign must stand.

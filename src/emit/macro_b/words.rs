@@ -165,7 +165,10 @@ impl<'p> Emitter<'p> {
         if spellings.is_shifted(role, code) {
             return self.shifted(role, value, code);
         }
-        self.word_value(role, value);
+        match value.constant() {
+            Some(number) if role.is_act_word() => self.out.number(number, crate::dialect::measures(letter.0)),
+            _ => self.word_value(role, value),
+        }
     }
 
     /// Writes the number that the control has for a common one: 101 is `P1` of G54.1. Of a computed
@@ -251,7 +254,9 @@ fn split_sum(value: &Expr) -> (&Expr, f64) {
 
 /// True where a constant in this role has a decimal point.
 fn has_point(role: Role) -> bool {
-    !role.is_integer() && !matches!(role, Role::DwellMs | Role::CycleDwell | Role::SpeedLimit | Role::Builder)
+    !role.is_integer()
+        && !role.is_act_word()
+        && !matches!(role, Role::DwellMs | Role::CycleDwell | Role::SpeedLimit | Role::Builder)
 }
 
 /// What a role is, as a part of a sentence.

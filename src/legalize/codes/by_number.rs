@@ -78,11 +78,23 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 (by_scheme, what)
             }
         };
+        let help = match finding {
+            Finding::Other(code) => Some(format!(
+                "if the machine's builder made {code}, say in the source's profile what becomes of it: [[site]] with code, a \
+                 text, and name (in both profiles), target or do"
+            )),
+            Finding::Read(_) | Finding::Any(_) => None,
+        };
         let own = found.partition_point(|(other, ..)| other < index);
         let own = found.iter().skip(own).take_while(|(other, ..)| other == index);
         let places = own.filter(|(.., (other, _))| other == letter).map(|(_, span, _)| *span).collect();
         let predicate = Predicate::Codes { letter: *letter, places, same: known.alike.clone() };
-        context.add_once(*index, &what, Diagnostic::new(code, *span, what.clone()).assuming(predicate));
+        let told = Diagnostic::new(code, *span, what.clone()).assuming(predicate);
+        let told = match help {
+            Some(help) => told.with_help(help),
+            None => told,
+        };
+        context.add_once(*index, &what, told);
     }
 }
 

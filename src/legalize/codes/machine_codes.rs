@@ -10,6 +10,7 @@ use crate::canon::{Auxiliary, Op};
 use crate::dialect::{Control, Question};
 use crate::ir::{Nc, NcItem, Program, SourceInfo, Stmt, StmtKind};
 use crate::legalize::Context;
+use crate::legalize::codes::beside_moves::belongs;
 use crate::legalize::features::{Feature, Features};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,8 +41,8 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
                 nc.items.retain(|item| *item != NcItem::Op(Op::TurnsPerMinute));
             }
             let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
-            let rest = split(nc, most, m_codes).into_iter().map(|item| {
-                let kind = StmtKind::Nc(Nc { items: vec![item] });
+            let rest = split(nc, most, m_codes).into_iter().map(|items| {
+                let kind = StmtKind::Nc(Nc { items });
                 (at, Stmt { kind, site: site.clone() })
             });
             behind.extend(rest);
@@ -66,11 +67,13 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
 
 /// True for an operation that the target has an M code for.
 fn is_m_code(op: Op, target: &Control) -> bool {
-    target.code_for(op, &BTreeMap::new()).is_some_and(|row| row.code.starts_with('M'))
+    let by_name = || target.dialect().codes.iter().any(|row| row.op == op && row.code.starts_with('M'));
+    let named = matches!(op, Op::Act | Op::OutputOn | Op::OutputOff) && by_name();
+    named || target.code_for(op, &BTreeMap::new()).is_some_and(|row| row.code.starts_with('M'))
 }
 
-/// Takes the M codes past `most` out of a block.
-fn split(nc: &mut Nc, most: usize, m_codes: &BTreeSet<Op>) -> Vec<NcItem> {
+/// Takes the M codes past `most` out of a block, each with the words that a builder's code brings.
+fn split(nc: &mut Nc, most: usize, m_codes: &BTreeSet<Op>) -> Vec<Vec<NcItem>> {
     let is_m = |item: &NcItem| match item {
         NcItem::Op(op) => m_codes.contains(op),
         NcItem::Code(letter, _) => *letter == 'M',
@@ -85,13 +88,26 @@ fn split(nc: &mut Nc, most: usize, m_codes: &BTreeSet<Op>) -> Vec<NcItem> {
         .collect();
     codes.sort();
     let behind: Vec<usize> = codes.split_off(most).into_iter().map(|(_, at)| at).collect();
-    let taken = behind.iter().filter_map(|at| nc.items.get(*at).cloned()).collect();
+    let mut taken: Vec<Vec<NcItem>> =
+        behind.iter().filter_map(|at| nc.items.get(*at)).map(|code| vec![code.clone()]).collect();
     let mut at = 0;
     nc.items.retain(|_| {
         at += 1;
         !behind.contains(&(at - 1))
     });
+    for block in &mut taken {
+        let Some(code) = block.first().filter(|code| brings(code)).cloned() else { continue };
+        let (words, kept): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut nc.items).into_iter().partition(|item| belongs(item, &code));
+        nc.items = kept;
+        block.extend(words);
+    }
     taken
+}
+
+/// True for a code that says nothing without the words that the profile fixes for it.
+fn brings(code: &NcItem) -> bool {
+    matches!(code, NcItem::Op(Op::Act | Op::OutputOn | Op::OutputOff))
 }
 
 /// The order in which codes act that nothing moves beside; a stop comes last.

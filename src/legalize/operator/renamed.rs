@@ -84,9 +84,9 @@ impl Writer<'_, '_> {
 
     fn texts(&mut self, kind: &mut StmtKind, sets: bool) {
         match kind {
-            StmtKind::Alarm { text, .. } => drop(self.take(text)),
+            StmtKind::Alarm { text, .. } => drop(self.take_boxed(text)),
             StmtKind::StopMessage { text, .. } => {
-                if let Some(register) = self.take(text).filter(|_| sets) {
+                if let Some(register) = self.take_boxed(text).filter(|_| sets) {
                     let what = format!(
                         "the message names a variable: the operator must set it in {register} at the stop, before cycle \
                          start"
@@ -102,6 +102,14 @@ impl Writer<'_, '_> {
             }),
             _ => {}
         }
+    }
+
+    /// The same for a text that never grows.
+    fn take_boxed(&mut self, text: &mut Box<str>) -> Option<String> {
+        let mut whole = String::from(std::mem::take(text));
+        let first = self.take(&mut whole);
+        *text = whole.into();
+        first
     }
 
     /// Puts the target's names into a text; gives the first of them.

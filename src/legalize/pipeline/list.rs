@@ -10,8 +10,8 @@ use crate::legalize::calls::{
     chain, jump_chains, link, main_returns, modal_calls, modal_off, nesting, outline, repeat_loops, repeats,
 };
 use crate::legalize::codes::{
-    beside_moves, by_number, code_chains, forbidden, lookahead, machine_codes, missing, pauses, substitutes,
-    waits,
+    acts, beside_moves, by_number, code_chains, forbidden, lookahead, machine_codes, missing, pauses,
+    substitutes, waits,
 };
 use crate::legalize::cycles::{
     bare_dwells, cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves,
@@ -139,6 +139,13 @@ const BLOCKS: &[Pass] = &[
     Pass::reports("codes", "looks up codes that are known by number only", by_number::run)
         .when(|c, _| c.has(Feature::Code))
         .needs(&["code-chains"]),
+    Pass::rewrites(
+        "builders-codes",
+        "builders' codes that the target has not become what the profile says",
+        acts::run,
+    )
+    .when(|c, _| c.op(Op::Act))
+    .needs(&["code-chains"]),
     Pass::edits(
         "beside-moves",
         "spindle, coolant and tool change get blocks of their own",

@@ -99,6 +99,13 @@ impl Finding {
         match self {
             // The pass that turns signals round has said so.
             Finding::Missing(state) if is_signal(state) => {}
+            Finding::Missing(Sys::Act) => {
+                let what =
+                    format!("{title} has no variable for one that a code of the builder reads or sets here");
+                let help = "name it in the target's profile at the code: sets = { \"VARIABLE\" = \"NAME\" }, or reads, with the \
+                            name that the source's profile has";
+                context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+            }
             Finding::Missing(state) => {
                 let what = format!("{title} has no variable for '{state}' ({})", state.meaning().trim());
                 let finding = Diagnostic::new(Code::NoEquivalent, span, what);

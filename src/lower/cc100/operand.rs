@@ -17,6 +17,10 @@ impl Lowering<'_> {
             self.findings.not_understood(span, format!("{} has no value", word.letter));
             return None;
         };
+        if let (true, Some(number)) = (role.is_act_word(), constant(written)) {
+            self.findings.bare_act_word(word.letter, number, has_point(written), span);
+            return Some(Expr::Number(number));
+        }
         let value = match constant(written) {
             Some(number) => self.number(role, number, written, span)?,
             None => self.operand(written)?,

@@ -122,13 +122,14 @@ impl<'a> Lowering<'a> {
             };
             let Some(row) = self.control.code(word.letter, number, &letters) else {
                 let message = format!("no source names {}{number} for this control", word.letter);
-                self.findings.not_understood(*span, message);
+                let finding = Diagnostic::new(Code::NotUnderstood, *span, message);
+                self.findings.add(finding.with_help(self.answered_by(word.letter, number)));
                 return None;
             };
             self.findings.rest_on(row, *span);
             if matches!(row.op, Op::Builder | Op::MachineSpecific | Op::CycleOther) {
                 let message = format!("what {}{number} does is not known", word.letter);
-                let help = "give its meaning under 'site' in the machine profile";
+                let help = self.answered_by(word.letter, number);
                 let finding = Diagnostic::new(Code::NotUnderstood, *span, message);
                 self.findings.add(finding.with_help(help));
                 return None;
@@ -149,6 +150,14 @@ impl<'a> Lowering<'a> {
             all.push(meaning);
         }
         all.into_iter().collect()
+    }
+
+    /// Where a profile says what a code does that the builder made.
+    fn answered_by(&self, letter: char, number: f64) -> String {
+        format!(
+            "if the machine's builder made it, say in the machine profile what it does: [[site]] with code = \
+             \"{letter}{number}\", a text, and name, target or do"
+        )
     }
 
     /// The role of a letter: from the code of the block that uses it, else its usual one.

@@ -61,6 +61,15 @@ impl<'c> Findings<'c> {
         self.add(Diagnostic::new(Code::NotUnderstood, span, message));
     }
 
+    /// A word of a builder's code is carried as it is: a length without a point may count increments.
+    pub fn bare_act_word(&mut self, letter: char, number: f64, point: bool, span: Span) {
+        if !point && number != 0.0 && crate::dialect::measures(letter) {
+            let message = format!("{letter}{number} beside a code of the builder has no decimal point");
+            let finding = Diagnostic::new(Code::NotUnderstood, span, message);
+            self.add(finding.with_help("write the point: without one it may count increments"));
+        }
+    }
+
     /// The construct at `span` rests on a row of the table.
     pub fn rest_on<R: Row>(&mut self, row: &'c R, span: Span) {
         let place = std::ptr::from_ref(row) as usize;

@@ -263,6 +263,7 @@ impl Unit {
                 format!("{number} {}", stop.text).trim().to_owned()
             }
             Asked { answer } => number(*answer),
+            Act { name, words } => crate::report::trace::act(name, words),
             Other { operation, code } => code.clone().unwrap_or_else(|| operation.to_string()),
             Corner { chamfer, size } => {
                 format!("{} {}", if *chamfer { "chamfer" } else { "radius" }, self.length(*size, true))
@@ -339,7 +340,7 @@ fn kind(what: &EventKind) -> &'static str {
         Alarm(_) => "alarm",
         Output { .. } => "output",
         Asked { .. } => "answer",
-        Other { .. } => "code",
+        Other { .. } | Act { .. } => "code",
         End { .. } => "end",
         Enter { .. } => "call",
         Leave => "return",

@@ -94,6 +94,17 @@ pub fn differ(
         }
         // The operator is shown more than before.
         (Stop, Message { .. }) => None,
+        (Act { name, words }, Act { name: other, words: others }) => {
+            let near = |(word, value): (&String, &f64)| {
+                others.get(word).is_some_and(|other| !differs(*value, *other))
+            };
+            if name != other {
+                Some("they do different things")
+            } else {
+                let same = words.len() == others.len() && words.iter().all(near);
+                (!same).then_some("a word of a builder's code differs")
+            }
+        }
         (Asked { answer }, Asked { answer: other }) => {
             differs(*answer, *other).then_some("the answer differs")
         }

@@ -16,6 +16,8 @@ pub struct Comparison<'r> {
     pub texts: BTreeSet<(String, String)>,
     /// What the target cannot do and did otherwise, or left out.
     pub substituted: BTreeSet<String>,
+    /// True where the target stops for good in the place of a builder's code, as the source's profile wants it.
+    pub stopped: bool,
 }
 
 /// A difference: the events that should be the same, where there are any, and what is wrong.

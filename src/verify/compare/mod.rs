@@ -3,6 +3,7 @@
 mod aligned;
 mod all;
 mod arcs;
+mod builders;
 mod differ;
 mod exit_state;
 mod found;

@@ -1,6 +1,7 @@
 //! Whether two runs amount to the same.
 
 use super::arcs::joined;
+use super::builders;
 use super::differ::{ANOTHER_FEED, differ};
 use super::exit_state::left_differs;
 use super::found::{Comparison, Difference};
@@ -12,7 +13,7 @@ use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
 use super::renamed::Renaming;
-use super::shown::{as_messages, lacks_messages};
+use super::shown::{as_messages, lacks_messages, without_outputs};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
     stands_for,
@@ -26,17 +27,6 @@ use crate::verify::sides::{Side, SymbolMap};
 /// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
 /// the end, and the centre in two axes, each by a half.
 const ARC_ROUNDINGS: f64 = 2.0;
-
-/// Without the output that the target's profile says to leave out. What stands before a question is its text.
-fn without_outputs(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
-    let asks = |act: Option<&Act<'_>>| act.is_some_and(|act| matches!(*act.what, EventKind::Asked { .. }));
-    let stays: Vec<bool> = acts
-        .iter()
-        .enumerate()
-        .map(|(at, act)| !matches!(*act.what, EventKind::Output { .. }) || asks(acts.get(at + 1)))
-        .collect();
-    acts.into_iter().zip(stays).filter_map(|(act, stays)| stays.then_some(act)).collect()
-}
 
 /// Compares what an observer could tell of two runs, and the variables that outlive them.
 pub fn compare<'r>(
@@ -55,7 +45,7 @@ pub fn compare<'r>(
         let blocks = blocks.unwrap_or_default().map(|event| event.map(|event| event.at));
         Found { pairs: what.difference.is_some().then_some(far), blocks, what }
     });
-    if found.difference.is_some() || cut {
+    if found.difference.is_some() || cut || found.stopped {
         return found;
     }
     let left = left_differs(source, target, tolerance, &mut found.substituted);
@@ -107,6 +97,7 @@ fn told_at<'r>(acts: &[Act<'r>]) -> Option<&'r Event> {
 
 /// Two runs side by side.
 pub(super) struct Pairs<'p, 'r> {
+    source: &'p Side<'p>,
     target: &'p Side<'p>,
     /// What variables are called in texts.
     renaming: Renaming<'p>,
@@ -139,6 +130,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
         tolerance: Tolerance,
     ) -> Self {
         Self {
+            source,
             target,
             renaming: Renaming { names, source: source.control, target: target.control },
             brings_lengths: brought(source.control, target.control),
@@ -170,6 +162,9 @@ impl<'p, 'r> Pairs<'p, 'r> {
                         self.moved(0, a);
                         self.moved(1, b);
                         (i, j) = (i + 1, j + 1);
+                        if self.found.stopped {
+                            return (i, j);
+                        }
                         continue;
                     }
                     Some(what) => what,
@@ -317,7 +312,10 @@ impl<'p, 'r> Pairs<'p, 'r> {
         }
         let leaves = returns_to_caller(what);
         self.left |= leaves.is_some();
-        let left_out = is_left_out(self.target, what).or_else(|| makes_ready(self.target, what)).or(leaves);
+        let left_out = is_left_out(self.target, what)
+            .or_else(|| makes_ready(self.target, what))
+            .or_else(|| builders::is_left_out(self.source, self.target, what))
+            .or(leaves);
         self.found.substituted.extend(left_out.clone());
         left_out.is_some()
     }
@@ -340,6 +338,11 @@ impl<'p, 'r> Pairs<'p, 'r> {
         let (a, b) = (&source.what, &target.what);
         if !self.shows_more && matches!((&**a, &**b), (EventKind::Stop, EventKind::Message { .. })) {
             return Some("a message stands for a stop".to_owned());
+        }
+        if let Some((ends, text)) = builders::stands_for(self.source, self.target, (a, b)) {
+            self.found.substituted.insert(text);
+            self.found.stopped |= ends;
+            return None;
         }
         let on = self.runs[0].goes_on(a) && self.runs[1].goes_on(b);
         if (on || ends_cycle(source, target)) && may_turn(source, target) {

@@ -63,6 +63,17 @@ fn message(text: &str, next: &EventKind) -> Option<EventKind> {
     }
 }
 
+/// Without the output that the target's profile says to leave out. What stands before a question is its text.
+pub fn without_outputs(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
+    let asks = |act: Option<&Act<'_>>| act.is_some_and(|act| matches!(*act.what, EventKind::Asked { .. }));
+    let stays: Vec<bool> = acts
+        .iter()
+        .enumerate()
+        .map(|(at, act)| !matches!(*act.what, EventKind::Output { .. }) || asks(acts.get(at + 1)))
+        .collect();
+    acts.into_iter().zip(stays).filter_map(|(act, stays)| stays.then_some(act)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

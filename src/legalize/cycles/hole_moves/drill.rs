@@ -349,7 +349,14 @@ fn keeps_height(op: Op) -> bool {
         Motion | Cycle | Distance | FeedMode | ReturnPlane | RadiusComp | Spindle | Coolant | PathMode
     ) || matches!(
         op,
-        Op::PlaneXy | Op::CycleHere | Op::Stop | Op::OptionalStop | Op::Dwell | Op::OutputOn | Op::OutputOff
+        Op::PlaneXy
+            | Op::CycleHere
+            | Op::Stop
+            | Op::OptionalStop
+            | Op::Dwell
+            | Op::OutputOn
+            | Op::OutputOff
+            | Op::Act
     )
 }
 

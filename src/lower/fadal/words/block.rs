@@ -161,6 +161,10 @@ impl<'b> Lowering<'b> {
             self.findings.rest_on(row, item.span);
         }
         let beside = reading.codes.known().find(|row| row.shift.contains_key(&role));
+        if role.is_act_word() {
+            let (number, point) = written(value);
+            self.findings.bare_act_word(word.letter, number, point, item.span);
+        }
         let lowered = self.word_value(value, role, beside)?;
         note_reads(&lowered, &mut reading.read);
         let op = meaning.and_then(|row| row.op);
@@ -204,12 +208,18 @@ impl<'b> Lowering<'b> {
         let Some(row) = reading.codes.row(item) else {
             let number = constant(value).unwrap_or_default();
             let message = format!("the table has no meaning for {}{number}", word.letter);
-            let mut finding = Diagnostic::new(Code::NotUnderstood, item.span, message);
-            if let Some(setting) = self.control.code_under(word.letter, number) {
-                let setting = setting.trim_start_matches("setting.");
-                finding = finding
-                    .with_help(format!("it has one if the machine profile has {setting} under [settings]"));
-            }
+            let help = match self.control.code_under(word.letter, number) {
+                Some(setting) => {
+                    let setting = setting.trim_start_matches("setting.");
+                    format!("it has one if the machine profile has {setting} under [settings]")
+                }
+                None => format!(
+                    "if the machine's builder made it, say in the machine profile what it does: [[site]] with code = \
+                     \"{}{number}\", a text, and name, target or do",
+                    word.letter
+                ),
+            };
+            let finding = Diagnostic::new(Code::NotUnderstood, item.span, message).with_help(help);
             self.findings.add(finding);
             return None;
         };
@@ -341,6 +351,18 @@ impl<'b> Lowering<'b> {
             }
         }
         self.fixed(number, arguments, span)
+    }
+}
+
+/// The number that a word has, and whether with a point; a variable's value has one.
+fn written(value: &syntax::Expr) -> (f64, bool) {
+    match &value.kind {
+        syntax::ExprKind::Number(number) => (number.value, number.point),
+        syntax::ExprKind::Negate(inner) | syntax::ExprKind::Plus(inner) => match &inner.kind {
+            syntax::ExprKind::Number(number) => (number.value, number.point),
+            _ => (0.0, true),
+        },
+        _ => (0.0, true),
     }
 }
 

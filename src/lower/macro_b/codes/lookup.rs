@@ -133,17 +133,19 @@ impl<'c> Codes<'c> {
 
     /// True for a program that a code calls by the machine profile.
     pub fn is_alias_target(&self, program: u32) -> bool {
-        self.control.dialect().settings.iter().any(|row| {
-            let Some(rule) = row.alias else { return false };
-            let Some(at) = program.checked_sub(rule.program) else { return false };
-            let stem = row.name.trim_end_matches(|c: char| c.is_ascii_digit());
-            let Some(first) = row.name.get(stem.len()..).and_then(|n| n.parse::<u32>().ok()) else {
-                return false;
-            };
-            let setting = first.saturating_add(at);
-            setting <= row.through.unwrap_or(first)
-                && (self.control.setting(&format!("{stem}{setting}")))
-                    .is_some_and(|value| value.parse::<f64>().is_ok_and(|code| code != 0.0))
-        })
+        let by_site = self.control.profile().site.iter().any(|site| site.calls == Some(program));
+        by_site
+            || self.control.dialect().settings.iter().any(|row| {
+                let Some(rule) = row.alias else { return false };
+                let Some(at) = program.checked_sub(rule.program) else { return false };
+                let stem = row.name.trim_end_matches(|c: char| c.is_ascii_digit());
+                let Some(first) = row.name.get(stem.len()..).and_then(|n| n.parse::<u32>().ok()) else {
+                    return false;
+                };
+                let setting = first.saturating_add(at);
+                setting <= row.through.unwrap_or(first)
+                    && (self.control.setting(&format!("{stem}{setting}")))
+                        .is_some_and(|value| value.parse::<f64>().is_ok_and(|code| code != 0.0))
+            })
     }
 }

@@ -204,6 +204,7 @@ impl<'a> Lowering<'a> {
                 | Sys::TimerHours
                 | Sys::CycleSeconds
                 | Sys::SpindleActual
+                | Sys::Act
                 | Sys::Output
                 | Sys::OutputWord
         );

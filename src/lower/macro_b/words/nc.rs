@@ -1,7 +1,7 @@
 //! Blocks of NC words.
 
 use super::roles::BlockCodes;
-use crate::canon::{Group, Op, Role};
+use crate::canon::{Auxiliary, Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{CodeMeaning, Question};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, StmtKind};
@@ -74,7 +74,34 @@ impl<'a> Lowering<'a> {
             }
         }
         self.check_m_codes(&seen, site.span);
+        if nc.ops().filter(|op| *op == Op::Act).count() > 1 {
+            return self.builders_codes(nc, site);
+        }
         self.push_nc(nc, site);
+    }
+
+    /// More than one named code of the builder in a block: each gets a block of its own, before or after what moves.
+    fn builders_codes(&mut self, mut nc: Nc, site: &SourceInfo) {
+        if nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_act_word())) {
+            let message = "two codes of the builder and a word: the block does not say whose it is";
+            self.findings.add(
+                Diagnostic::new(Code::NotUnderstood, site.span, message)
+                    .with_help("give each code a block of its own"),
+            );
+        }
+        let names = |item: &NcItem| matches!(item, NcItem::Op(Op::Act) | NcItem::Word(Role::Act, _));
+        let (acts, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut nc.items).into_iter().partition(names);
+        let acts = acts.into_iter().filter(|item| matches!(item, NcItem::Word(..)));
+        let mut blocks: Vec<Nc> = acts.map(|name| Nc { items: vec![NcItem::Op(Op::Act), name] }).collect();
+        if !rest.is_empty() {
+            let at = if self.control.acts(Auxiliary::Other).late { 0 } else { blocks.len() };
+            blocks.insert(at, Nc { items: rest });
+        }
+        let mut site = site.clone();
+        for nc in blocks {
+            let rest = SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() };
+            self.push_nc(nc, &std::mem::replace(&mut site, rest));
+        }
     }
 
     /// A lookahead limit is a statement of its own, whatever stands beside it.
@@ -126,8 +153,10 @@ impl<'a> Lowering<'a> {
         } else {
             format!("the table of this control has no code {name}")
         };
-        let help = "if the code calls a program or the machine builder defined it, put it into the \
-                    machine profile";
+        let help = format!(
+            "say in the machine profile what the builder made of it: [[site]] with code = \"{name}\", a text, and name, \
+             target or do; or calls, if it calls a program"
+        );
         self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
     }
 
@@ -162,7 +191,7 @@ impl<'a> Lowering<'a> {
             nc.items.push(NcItem::Op(row.op));
         }
         for (role, value) in &row.fixed {
-            if seen.role(*role) {
+            if seen.role(*role) && *role != Role::Act {
                 nc.items.retain(|item| !matches!(item, NcItem::Word(other, _) if other == role));
             }
             nc.items.push(NcItem::Word(*role, Expr::Number(*value)));

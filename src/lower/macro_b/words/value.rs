@@ -26,6 +26,10 @@ impl<'a> Lowering<'a> {
         if matches!(role, Role::DwellMs | Role::DwellS | Role::CycleDwell) {
             return self.dwell(role, letter, number, point, value);
         }
+        if role.is_act_word() {
+            self.findings.bare_act_word(letter, number, point, value.span);
+            return Some((role, Expr::Number(number)));
+        }
         if role.is_integer() {
             return self.whole_word(role, letter, number, point, value, code);
         }

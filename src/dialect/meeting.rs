@@ -1,0 +1,114 @@
+//! Two machines of one conversion: codes that the source's profile names on the target.
+
+use super::control::Control;
+use super::site::{SiteCode, Without};
+use super::{CodeMeaning, faults_as_text, site_rows};
+use crate::canon::{Act, Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::text::Span;
+use std::collections::BTreeMap;
+
+/// A code that the source's profile names on the target, and that cannot be that.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub struct NoMeeting(String);
+
+impl Control {
+    /// The source and the target of a conversion: what `target = "M88"` and `do = "same"` in the source's profile say of
+    /// the target's codes is a row of the target's table, or of the source's where the target's code has a meaning in common
+    /// terms.
+    pub fn meeting(source: Self, target: Self) -> Result<(Self, Self), NoMeeting> {
+        let named: Vec<(SiteCode, String)> =
+            (source.profile.site.iter()).filter_map(|site| Some((site.clone(), there(site)?))).collect();
+        if named.is_empty() {
+            return Ok((source, target));
+        }
+        let (mut ours, mut theirs) = (source.dialect.clone(), target.dialect.clone());
+        let mut faults = Vec::new();
+        for (site, code) in named {
+            let Some(act) = source.act_of(&site) else { continue };
+            let has =
+                |row: &CodeMeaning| row.op == Op::Act && row.fixed.get(&Role::Act) == Some(&act.number());
+            if target.dialect.codes.iter().any(has) {
+                // The target's own profile has the name.
+                continue;
+            }
+            match met(&site, act, &code, &target) {
+                Ok(Met::Target(row)) => site_rows::lay(&mut theirs, row),
+                Ok(Met::Source(row)) => site_rows::lay(&mut ours, row),
+                Err(message) => {
+                    let span =
+                        source.profile.places.get(&format!("site:{}", site.code)).cloned().unwrap_or(0..0);
+                    let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+                    let span = Span::new(offset(span.start), offset(span.end));
+                    faults.push(Diagnostic::new(Code::MachineProfile, span, message));
+                }
+            }
+        }
+        if !faults.is_empty() {
+            let path = source.profile.file.as_deref();
+            let text = path.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
+            let name = path.map_or_else(|| "the source's profile".into(), |path| path.display().to_string());
+            return Err(NoMeeting(faults_as_text(&name, &text, &faults).trim_end().to_owned()));
+        }
+        let again = |control: Self, dialect| {
+            Self::index(control.entry, dialect, control.profile, control.settings, control.reserved)
+        };
+        Ok((again(source, ours), again(target, theirs)))
+    }
+}
+
+/// The code of the target that a profile names.
+fn there(site: &SiteCode) -> Option<String> {
+    match (&site.target, site.without) {
+        (Some(code), _) => Some(code.clone()),
+        (None, Some(Without::Same)) => Some(site.code.clone()),
+        _ => None,
+    }
+}
+
+/// The row that a code of the source gives.
+enum Met {
+    /// Of the target: its code has the source's name.
+    Target(CodeMeaning),
+    /// Of the source: its code does what the target's does.
+    Source(CodeMeaning),
+}
+
+fn met(site: &SiteCode, act: Act, code: &str, target: &Control) -> Result<Met, String> {
+    let named = CodeMeaning { code: code.into(), ..site.row(None) };
+    let head = named.head().ok_or_else(|| format!("'{code}' is not a code"))?;
+    let standard = target.code(head.letter, head.number(), &[]).filter(|row| row.op != Op::Builder);
+    let Some(standard) = standard else {
+        return Ok(Met::Target(builders(site, act, code)));
+    };
+    let switched = matches!(standard.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
+    let own = matches!(standard.op, Op::MachineSpecific | Op::ProbeOther);
+    if standard.op.is_flow() || !switched || own {
+        let meaning = standard.op.meaning().trim().trim_end_matches('.');
+        return Err(format!("{} cannot be {code} of the target, which is: {meaning}", site.code));
+    }
+    let mut words = BTreeMap::new();
+    for (letter, there) in &site.words {
+        let wanted = if site.target.is_some() { there } else { letter };
+        let letter_there = wanted.chars().next().unwrap_or_default();
+        let role = target.role(letter_there, false, Some(standard));
+        let role = role.ok_or_else(|| format!("{code} of the target takes no word {wanted}"))?;
+        words.insert(letter.clone(), role);
+    }
+    let (op, fixed) = (standard.op, standard.fixed.clone());
+    Ok(Met::Source(CodeMeaning { op, fixed, words, ..site.row(None) }))
+}
+
+/// The row of a code that only builders have.
+fn builders(site: &SiteCode, act: Act, code: &str) -> CodeMeaning {
+    let row = site.row(Some(act));
+    let words = match &site.target {
+        None => row.words,
+        Some(_) => {
+            let letters = site.words.iter();
+            letters.filter_map(|(letter, there)| Some((there.clone(), act.word(letter)?))).collect()
+        }
+    };
+    CodeMeaning { code: code.into(), words, preferred: true, ..row }
+}

@@ -1,0 +1,255 @@
+//! Lays the codes of a machine's builder over a table, and refuses what cannot be one.
+
+use super::control_codes::address;
+use super::overlay::Overlay;
+use super::reader::closest;
+use super::site::{SiteCode, Without};
+use super::{Beside, CodeHead, CodeMeaning, Dialect, Subscript, SystemVariable, VariableRun};
+use crate::canon::{Act, Group, Op, Role, Sys};
+use std::collections::BTreeMap;
+
+impl Overlay {
+    /// Adds the codes of the machine's builder; they stand for the table's own of that number.
+    pub(super) fn site(&mut self, dialect: &mut Dialect) {
+        let mut written: BTreeMap<Act, String> = BTreeMap::new();
+        let mut seen: Vec<(CodeHead, Vec<Beside>)> = Vec::new();
+        for site in self.profile.site.clone() {
+            let act = site.act(&self.profile);
+            let row = site.row(act);
+            let (Some(head), Some(beside)) = (row.head(), row.beside()) else {
+                let message = format!("'{}' is not a code", site.code);
+                self.site_fault(&site, message, "write a letter and a number: 'M20'");
+                continue;
+            };
+            if seen.contains(&(head, beside.clone())) {
+                let message = format!("{} stands in the profile twice", site.code);
+                self.site_fault(&site, message, "keep one of the two");
+                continue;
+            }
+            seen.push((head, beside));
+            self.check_site(&site, &row, dialect);
+            if let Some(act) = act.filter(|_| site.preferred)
+                && let Some(other) = written.insert(act, site.code.clone())
+            {
+                let message = format!("{other} and {} have one name", site.code);
+                let help = "give each a name of its own; if both do the same, put preferred = false at the one that is \
+                            not to be written";
+                self.site_fault(&site, message, help);
+            }
+            self.site_variables(&site, dialect);
+            if site.calls.is_some() {
+                self.check_call(&site, dialect);
+                dialect.codes.retain(|old| old.head() != Some(head));
+            } else {
+                lay(dialect, row);
+            }
+        }
+    }
+
+    fn site_fault(&mut self, site: &SiteCode, message: String, help: &str) {
+        self.fault(&format!("site:{}", site.code), message, help.into());
+    }
+
+    fn check_site(&mut self, site: &SiteCode, row: &CodeMeaning, dialect: &Dialect) {
+        let code = &site.code;
+        if site.text.trim().is_empty() {
+            let help = "write in a few words what it does: text = \"chuck air on\"";
+            self.site_fault(site, format!("{code} has an empty 'text'"), help);
+        }
+        if row.op.is_flow()
+            || matches!(row.op, Op::MachineSpecific | Op::Act | Op::Builder) && site.op.is_some()
+        {
+            let message = format!("'{code}' cannot mean '{}'", row.op);
+            let help = "leave 'op' out; for a code that calls a program write calls = 9010";
+            self.site_fault(site, message, help);
+        }
+        if matches!(row.op, Op::OutputOn | Op::OutputOff) && !row.fixed.contains_key(&Role::Output) {
+            let message = format!("'{code}' does not say which output it switches");
+            let help = "write fixed = { \"output.bit\" = 24 }: the number that programs of the other control know it by";
+            self.site_fault(site, message, help);
+        }
+        self.check_answers(site);
+        self.check_words(site, row);
+        if site.op.is_none() {
+            self.check_standard(site, row, dialect);
+        }
+    }
+
+    /// Keys that say two things of one code.
+    fn check_answers(&mut self, site: &SiteCode) {
+        let code = &site.code;
+        let named = site.name.is_some() || site.target.is_some() || site.without.is_some();
+        if site.op.is_some() && named {
+            let help = "'op' says what it does: leave out 'name', 'target' and 'do'";
+            self.site_fault(site, format!("{code} has two meanings"), help);
+        }
+        if site.target.is_some() && site.without.is_some() {
+            let help = "leave out 'do', or 'target'";
+            self.site_fault(site, format!("{code} has 'target' and 'do': one of them counts"), help);
+        }
+        let odd = |name: &String| {
+            name.is_empty()
+                || !name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-'))
+        };
+        let names = site.name.iter().chain(site.reads.values()).chain(site.sets.values());
+        if let Some(name) = names.clone().find(|name| odd(name)) {
+            let help = "write a name of letters, digits, points, '-' and '_': name = \"chuck.air.on\"";
+            self.site_fault(site, format!("'{name}' is not a name"), help);
+        }
+        if let Some(target) = &site.target
+            && (CodeMeaning { code: target.clone(), ..site.row(None) }).head().is_none()
+        {
+            let help = "name the code of the other machine: target = \"M88\"";
+            self.site_fault(site, format!("'{target}' is not a code"), help);
+        }
+        if site.calls.is_some() && (site.op.is_some() || named) {
+            let help = "'calls' says what it does: leave out 'op', 'name', 'target' and 'do'";
+            self.site_fault(site, format!("{code} has two meanings"), help);
+        }
+        if site.arguments && site.calls.is_none() {
+            let help = "write calls = 9010 beside it: the program that gets them";
+            self.site_fault(site, format!("{code} has arguments and calls no program"), help);
+        }
+    }
+
+    /// Only some controls can make a code call a program.
+    fn check_call(&mut self, site: &SiteCode, dialect: &Dialect) {
+        if !dialect.settings.iter().any(|row| row.alias.is_some()) {
+            let message =
+                format!("{} calls a program, which no code of a builder does on this control", site.code);
+            self.site_fault(site, message, "leave 'calls' out, and say by 'name' or 'do' what it does");
+        } else if !site.words.is_empty() {
+            let help = "leave 'words' out: the letters of the block are arguments, or none of its business";
+            self.site_fault(site, format!("{} has words and calls a program", site.code), help);
+        }
+    }
+
+    fn check_words(&mut self, site: &SiteCode, row: &CodeMeaning) {
+        for (letter, meaning) in &site.words {
+            let is_letter = address(letter).is_some_and(|(letter, _)| letter.is_ascii_uppercase());
+            if !(is_letter || letter.starts_with('R')) || matches!(letter.as_str(), "G" | "M" | "N" | "O") {
+                let help = "write a letter and what it is: words = { P = \"level\" }";
+                self.site_fault(site, format!("'{letter}' is not the letter of a word"), help);
+            } else if site.op.is_some() && Role::find(meaning).is_none() {
+                let near = closest(meaning, Role::ALL.iter().map(|role| role.name()));
+                let help = match near {
+                    Some(near) => format!("did you mean '{near}'?"),
+                    None => "beside 'op' a word has a role: words = { F = \"dwell.s\" }".into(),
+                };
+                self.site_fault(site, format!("'{meaning}' is not the role of a word"), &help);
+            } else if site.target.is_some() && address(meaning).is_none() {
+                let help = "beside 'target' a word becomes a letter of that code: words = { S = \"P\" }";
+                self.site_fault(site, format!("'{meaning}' is not the letter of a word"), help);
+            } else if !row.words.contains_key(letter) {
+                let most = Role::ACT_WORDS.len();
+                let message = format!("the codes named as {} have more than {most} words in all", site.code);
+                self.site_fault(site, message, "give each word the same name in both profiles");
+            }
+        }
+    }
+
+    /// A code that ends a program, calls one or sets a mode does so whatever a builder adds.
+    fn check_standard(&mut self, site: &SiteCode, row: &CodeMeaning, dialect: &Dialect) {
+        let standard = (dialect.codes.iter())
+            .filter(|old| old.head() == row.head() && old.beside() == row.beside())
+            .find(|old| {
+                let switched = matches!(old.op.group(), Group::OneShot | Group::Spindle | Group::Coolant);
+                old.op.is_flow() || !switched
+            });
+        if let Some(standard) = standard {
+            let meaning = standard.op.meaning().trim().trim_end_matches('.');
+            let message = format!("{} has a meaning of its own on this control: {meaning}", site.code);
+            self.site_fault(site, message, "leave its row out: a builder cannot change what it does");
+        }
+    }
+
+    /// Makes the variables that a code reads or sets state of the machine, known by their names.
+    fn site_variables(&mut self, site: &SiteCode, dialect: &mut Dialect) {
+        for (variable, name) in site.reads.iter().chain(&site.sets) {
+            let run = VariableRun::read(variable).filter(|run| run.first == run.last && !run.letter);
+            let Some(run) = run else {
+                let help = "write one variable and its name: sets = { \"#501\" = \"air.pressure\" }";
+                self.site_fault(site, format!("'{variable}' is not a variable"), help);
+                continue;
+            };
+            let number = Act::named(name).number() as u32;
+            let here = |row: &SystemVariable| row.first == Some(run.first) && row.name == run.name;
+            let mut shared = dialect.system.iter().filter(|row| row.state == Sys::Act);
+            match shared.find(|row| here(row) || number_of(row) == Some(number)) {
+                Some(row) if here(row) && number_of(row) == Some(number) => continue,
+                Some(_) => {
+                    let message = format!("{variable} and '{name}' are paired otherwise at another code");
+                    self.site_fault(site, message, "one variable has one name");
+                    continue;
+                }
+                None => {}
+            }
+            take_out(dialect, &run);
+            dialect.system.insert(0, state_of(&run, number, site));
+        }
+    }
+}
+
+/// Lays a row over the table's own of the same code.
+pub(super) fn lay(dialect: &mut Dialect, row: CodeMeaning) {
+    dialect.codes.retain(|old| old.head() != row.head() || old.beside() != row.beside());
+    // The control's own spelling of an operation stays the one that is written.
+    let taken = dialect.codes.iter().any(|old| old.op == row.op && old.fixed == row.fixed && old.preferred);
+    let preferred = row.preferred && !taken && row.op != Op::Builder;
+    dialect.codes.push(CodeMeaning { preferred, ..row });
+}
+
+/// Takes a variable out of the classes that programs may use freely.
+fn take_out(dialect: &mut Dialect, run: &VariableRun) {
+    let classes = std::mem::take(&mut dialect.variables);
+    for class in classes {
+        let holds = class.name == run.name
+            && class.class != "letter"
+            && (class.first..=class.last).contains(&run.first);
+        if !holds {
+            dialect.variables.push(class);
+            continue;
+        }
+        if class.first < run.first {
+            dialect.variables.push(super::VariableClass { last: run.first - 1, ..class.clone() });
+        }
+        if run.first < class.last {
+            dialect.variables.push(super::VariableClass { first: run.first + 1, ..class });
+        }
+    }
+}
+
+/// The number of the name that a variable of a builder's code has.
+fn number_of(row: &SystemVariable) -> Option<u32> {
+    row.subscripts.first().map(|subscript| subscript.from)
+}
+
+fn state_of(run: &VariableRun, number: u32, site: &SiteCode) -> SystemVariable {
+    SystemVariable {
+        state: Sys::Act,
+        name: run.name.clone(),
+        alias: None,
+        first: Some(run.first),
+        subscripts: vec![Subscript { from: number, count: 1, step: 1, axis: false }],
+        array: false,
+        access: "rw".into(),
+        fixed: Vec::new(),
+        after: Vec::new(),
+        machine: None,
+        when: None,
+        option: None,
+        origin: site.row(None).origin,
+    }
+}
+
+impl Without {
+    /// As a profile spells it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Without::Omit => "omit",
+            Without::Stop => "stop",
+            Without::Same => "same",
+            Without::Alarm => "alarm",
+        }
+    }
+}

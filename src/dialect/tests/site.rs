@@ -1,0 +1,104 @@
+//! Rows of builders' codes in machine profiles.
+
+use crate::canon::{Act, Op, Role, Sys};
+use crate::dialect::{Control, faults_as_text};
+
+fn refused(dialect: &str, rows: &str, expected: &str) {
+    let text = format!("dialect = \"{dialect}\"\nsite = [{rows}]");
+    let faults = Control::from_profile(&text).map(|_| ()).unwrap_err();
+    let faults = faults_as_text("p.toml", &text, &faults);
+    assert!(faults.contains(expected), "expected '{expected}' in:\n{faults}");
+}
+
+fn control(dialect: &str, rows: &str) -> Control {
+    Control::from_profile(&format!("dialect = \"{dialect}\"\nsite = [{rows}]")).unwrap()
+}
+
+#[test]
+fn rows_that_contradict_themselves_or_the_table_are_faults() {
+    let row = |more: &str| format!("{{code='M14',text='air',{more}}}");
+    let fanuc = |more: &str, expected: &str| refused("fanuc", &row(more), expected);
+    fanuc("name=''", "'' is not a name");
+    fanuc("name='chuck air'", "'chuck air' is not a name");
+    fanuc("name='air',op='coolant.flood'", "M14 has two meanings");
+    fanuc("target='M88',do='omit'", "M14 has 'target' and 'do'");
+    fanuc("target='88'", "'88' is not a code");
+    fanuc("do='nothing'", "omit");
+    fanuc("arguments=true", "M14 has arguments and calls no program");
+    fanuc("calls=9010,name='air'", "M14 has two meanings");
+    fanuc("calls=9010,words={P='level'}", "M14 has words and calls a program");
+    fanuc("name='air',words={PP='level'}", "'PP' is not the letter of a word");
+    fanuc("name='air',words={G='level'}", "'G' is not the letter of a word");
+    fanuc("target='M88',words={S='level'}", "'level' is not the letter of a word");
+    fanuc("op='dwell',words={P='dwell.msec'}", "did you mean 'dwell.ms'?");
+    fanuc("name='air',sets={'#500-#501'='x'}", "'#500-#501' is not a variable");
+    fanuc("nam='air'", "unknown");
+    refused("fanuc", "{code='M14',text=' ',name='air'}", "M14 has an empty 'text'");
+    refused("fanuc", "{code='M30',text='end',name='end'}", "M30 has a meaning of its own on this control");
+    refused("fanuc", "{code='G91',text='x',name='x'}", "G91 has a meaning of its own on this control");
+    refused("cc100", "{code='M20',text='x',calls=9010}", "no code of a builder does on this control");
+}
+
+#[test]
+fn two_rows_of_one_code_or_of_one_name_are_faults() {
+    refused(
+        "fanuc",
+        "{code='M14',text='a',name='a'},{code='M14',text='b',name='b'}",
+        "M14 stands in the profile twice",
+    );
+    refused(
+        "fanuc",
+        "{code='M14',text='a',name='a'},{code='M15',text='b',name='a'}",
+        "M14 and M15 have one name",
+    );
+    let both = control(
+        "fanuc",
+        "{code='M14',text='a',name='test.a'},{code='M15',text='b',name='test.a',preferred=false}",
+    );
+    assert_eq!(both.code_of(Act::named("test.a")).map(|row| row.code.as_str()), Some("M14"));
+    assert_eq!(both.code('M', 15.0, &[]).map(|row| row.op), Some(Op::Act));
+    let shared =
+        "{code='M14',text='a',name='a',sets={'#500'='x'}},{code='M15',text='b',name='b',sets={'#500'='y'}}";
+    refused("fanuc", shared, "paired otherwise at another code");
+}
+
+#[test]
+fn a_variable_of_a_code_is_none_of_the_programs() {
+    let control = control("fanuc", "{code='M14',text='a',name='a',sets={'#500'='test.result'}}");
+    assert!(control.variable_class("#", 500).is_none());
+    assert!(control.variable_class("#", 501).is_some());
+    let number = Act::named("test.result").number() as u32;
+    let found = control.read_system("#", Some(500)).map(|(state, subscripts, _)| (state, subscripts));
+    assert_eq!(found, Some((Sys::Act, vec![number])));
+}
+
+#[test]
+fn a_code_without_a_name_of_the_shop_is_known_on_its_own_machine_alone() {
+    let mills = [("fanuc", "air"), ("fanuc", "door")]
+        .map(|(dialect, text)| control(dialect, &format!("{{code='M14',text='{text}',do='omit'}}")));
+    let names = mills
+        .each_ref()
+        .map(|mill| mill.code('M', 14.0, &[]).and_then(|row| row.fixed.get(&Role::Act).copied()));
+    assert_ne!(names[0], names[1]);
+    assert_eq!(names[0].and_then(Act::of).map(Act::shown).as_deref(), Some("M14"));
+}
+
+#[test]
+fn the_source_names_codes_of_the_target() {
+    let meeting = |row: &str| {
+        let source = control("fanuc", row);
+        let (source, target) =
+            Control::meeting(source, Control::plain("haas").unwrap()).map_err(|e| e.to_string())?;
+        let act = source.site_code('M', 14.0).and_then(|site| source.act_of(site)).unwrap();
+        let op = source.code('M', 14.0, &[]).map(|row| row.op);
+        Ok::<_, String>((op, target.code_of(act).map(|row| row.code.clone())))
+    };
+    let own = meeting("{code='M14',text='a',target='M151'}");
+    assert_eq!(own, Ok((Some(Op::Act), Some("M151".into()))));
+    let standard = meeting("{code='M14',text='a',target='M8'}");
+    assert_eq!(standard, Ok((Some(Op::Flood), None)));
+    let flow = meeting("{code='M14',text='a',target='M30'}").unwrap_err();
+    assert!(flow.contains("M14 cannot be M30 of the target"), "{flow}");
+    let word = meeting("{code='M14',text='a',target='M8',words={P='Q'}}").unwrap_err();
+    assert!(word.contains("takes no word Q"), "{word}");
+}

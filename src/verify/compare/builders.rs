@@ -1,0 +1,40 @@
+//! Codes of a machine's builder that the target has not, and what the source's profile puts in their place.
+
+use crate::canon::Act;
+use crate::control::trace::EventKind;
+use crate::dialect::Without;
+use crate::verify::sides::Side;
+
+/// The text of a code that is left out.
+pub fn is_left_out(source: &Side<'_>, target: &Side<'_>, what: &EventKind) -> Option<String> {
+    without_code(source, target, what).filter(|(without, _)| *without == Without::Omit).map(|(_, text)| text)
+}
+
+/// The text of a stop or an alarm in the place of a code, and true after which the target does nothing more.
+pub fn stands_for(
+    source: &Side<'_>,
+    target: &Side<'_>,
+    (here, there): (&EventKind, &EventKind),
+) -> Option<(bool, String)> {
+    let (without, text) = without_code(source, target, here)?;
+    let stands = match without {
+        Without::Stop => matches!(there, EventKind::Message { .. } | EventKind::Stop),
+        Without::Alarm => matches!(there, EventKind::Alarm(stop) if stop.program_number.is_some()),
+        Without::Omit | Without::Same => false,
+    };
+    stands.then_some((without == Without::Alarm, text))
+}
+
+fn without_code(source: &Side<'_>, target: &Side<'_>, what: &EventKind) -> Option<(Without, String)> {
+    let EventKind::Act { name, .. } = what else { return None };
+    let act = Act::named(name);
+    let site = source.control.site_of(act)?;
+    let without = site.without.filter(|_| target.control.code_of(act).is_none())?;
+    let becomes = match without {
+        Without::Omit => "is left out",
+        Without::Stop => "is a stop",
+        Without::Alarm => "is an alarm",
+        Without::Same => return None,
+    };
+    Some((without, format!("{} ({}) {becomes} on the target, as the profile says", site.code, site.text)))
+}
