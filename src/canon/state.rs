@@ -159,6 +159,7 @@ impl Sys {
                 | EndPosition
                 | SkipPosition
                 | ProbePoint
+                | Act
                 | Input
                 | InputInverted
                 | ToolTimeUsed

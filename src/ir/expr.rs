@@ -184,7 +184,9 @@ impl Expr {
         match self {
             Expr::Vacant | Expr::Indirect(Bank::Numbered, _) => true,
             Expr::Var(var) => var.class.nullable(),
-            Expr::System(state, _) => matches!(state, Sys::Empty | Sys::Address | Sys::AddressNow),
+            Expr::System(state, _) => {
+                matches!(state, Sys::Empty | Sys::Address | Sys::AddressNow | Sys::Act)
+            }
             _ => false,
         }
     }
