@@ -3,11 +3,64 @@
 use super::Pass;
 use crate::legalize::assumptions::facts;
 use crate::legalize::calls::merged;
+use crate::legalize::cycles::bare_dwells;
+use crate::legalize::expressions::{
+    codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
+};
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
 use crate::legalize::registers::{allocate, clear, frames, temporaries};
-use crate::legalize::variables::{computed_numbers, retention, vacancy};
+use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
+
+pub(super) const EXPRESSIONS: &[Pass] = &[
+    Pass::rewrites(
+        "vacancy-flags",
+        "flags say what is vacant, on a target where nothing is",
+        vacancy_flags::run,
+    )
+    .when(vacancy_flags::concerns)
+    .changes_flow(),
+    Pass::each("bare-dwells", "dwells that may find a feed for their time get one", bare_dwells::run)
+        .when(bare_dwells::concerns)
+        .needs(&["dwell", "vacancy-flags"]),
+    Pass::edits("whole-words", "words that are whole numbers are rounded before them", whole_words::run)
+        .when(whole_words::concerns)
+        .needs(&["vacancy-flags"]),
+    Pass::each("functions", "functions and operators become those of the target", functions::run)
+        .when(|c, _| c.has(Feature::Function))
+        .changes_flow(),
+    Pass::each("truth", "comparisons as values become branches", truth::run)
+        .when(truth::concerns)
+        .needs(&["functions"])
+        .changes_flow(),
+    Pass::each("conditions", "AND, OR and NOT of conditions become branches", conditions::run)
+        .when(|c, _| c.has(Feature::Compound))
+        .needs(&["truth"])
+        .changes_flow(),
+    Pass::each("constants", "constants of many digits become sums", constants::run)
+        .when(|c, _| c.has(Feature::Long))
+        .needs(&["functions"]),
+    Pass::each("printed-values", "values to be printed go to temporaries", questions::hold_values)
+        .when(|c, _| c.has(Feature::Print)),
+    Pass::each(
+        "operands",
+        "operands are computed before where the target takes no expression",
+        operands::run,
+    )
+    .when(operands::concerns)
+    .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
+    Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
+        .when(|c, _| c.has(Feature::Computed))
+        .needs(&["operands"]),
+    Pass::each(
+        "codes-by-variable",
+        "codes beside words by variables are by a variable too",
+        codes_by_variable::run,
+    )
+    .when(codes_by_variable::concerns)
+    .needs(&["operands", "split-expressions"]),
+];
 
 pub(super) const ENTRY: &[Pass] = &[
     Pass::rewrites("ports", "output ports are opened and closed", ports::run)

@@ -1,6 +1,6 @@
 //! The passes, in the order they run in.
 
-use super::late::{ENTRY, LAYOUT, OPERATOR, REGISTERS};
+use super::late::{ENTRY, EXPRESSIONS, LAYOUT, OPERATOR, REGISTERS};
 use super::moves::MOVES;
 use super::{Group, Pass};
 use crate::canon::{Op, Role};
@@ -13,20 +13,15 @@ use crate::legalize::codes::{
     acts, beside_moves, by_number, code_chains, forbidden, lookahead, machine_codes, missing, pauses,
     substitutes, waits,
 };
-use crate::legalize::cycles::{
-    bare_dwells, cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves,
-};
-use crate::legalize::expressions::{
-    codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
-};
+use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::{blanks, heads, scratch};
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
-use crate::legalize::operator::{alarms, formatted, omitted, questions};
+use crate::legalize::operator::{alarms, formatted, omitted};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, probe_points, signals, state,
-    subscript_chains, timers, touch_points, vacancy_flags, vacant_writes,
+    subscript_chains, timers, touch_points, vacant_writes,
 };
 use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable, WordValues};
 
@@ -346,55 +341,6 @@ const CODES: &[Pass] = &[
     )
     .when(forbidden::concerns)
     .needs(&["missing", "cycle-ends", "machine-codes"]),
-];
-
-const EXPRESSIONS: &[Pass] = &[
-    Pass::rewrites(
-        "vacancy-flags",
-        "flags say what is vacant, on a target where nothing is",
-        vacancy_flags::run,
-    )
-    .when(vacancy_flags::concerns)
-    .changes_flow(),
-    Pass::each("bare-dwells", "dwells that may find a feed for their time get one", bare_dwells::run)
-        .when(bare_dwells::concerns)
-        .needs(&["dwell", "vacancy-flags"]),
-    Pass::edits("whole-words", "words that are whole numbers are rounded before them", whole_words::run)
-        .when(whole_words::concerns)
-        .needs(&["vacancy-flags"]),
-    Pass::each("functions", "functions and operators become those of the target", functions::run)
-        .when(|c, _| c.has(Feature::Function))
-        .changes_flow(),
-    Pass::each("truth", "comparisons as values become branches", truth::run)
-        .when(truth::concerns)
-        .needs(&["functions"])
-        .changes_flow(),
-    Pass::each("conditions", "AND, OR and NOT of conditions become branches", conditions::run)
-        .when(|c, _| c.has(Feature::Compound))
-        .needs(&["truth"])
-        .changes_flow(),
-    Pass::each("constants", "constants of many digits become sums", constants::run)
-        .when(|c, _| c.has(Feature::Long))
-        .needs(&["functions"]),
-    Pass::each("printed-values", "values to be printed go to temporaries", questions::hold_values)
-        .when(|c, _| c.has(Feature::Print)),
-    Pass::each(
-        "operands",
-        "operands are computed before where the target takes no expression",
-        operands::run,
-    )
-    .when(operands::concerns)
-    .needs(&["functions", "truth", "conditions", "constants", "printed-values"]),
-    Pass::each("split-expressions", "expressions are cut to the target's brackets and line", split::run)
-        .when(|c, _| c.has(Feature::Computed))
-        .needs(&["operands"]),
-    Pass::each(
-        "codes-by-variable",
-        "codes beside words by variables are by a variable too",
-        codes_by_variable::run,
-    )
-    .when(codes_by_variable::concerns)
-    .needs(&["operands", "split-expressions"]),
 ];
 
 /// Only passes that keep a module such as the target can say it.

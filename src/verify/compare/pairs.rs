@@ -13,15 +13,15 @@ use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
 use super::renamed::Renaming;
-use super::shown::{as_messages, lacks_messages, without_outputs};
+use super::shown::{as_messages, end_differs, lacks_messages, texts, without_outputs};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
     stands_for,
 };
 use super::tolerance::Tolerance;
 use super::variables::variables_differ;
+use crate::control::Run;
 use crate::control::trace::{Event, EventKind, Position, Told};
-use crate::control::{End, Run};
 use crate::verify::sides::{Side, SymbolMap};
 
 /// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
@@ -387,21 +387,4 @@ impl<'p, 'r> Pairs<'p, 'r> {
             },
         }
     }
-}
-
-pub(super) fn end_differs(source: &End, target: &End) -> Option<String> {
-    let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
-    (!same).then(|| "one side ends with an alarm, the other does not".to_owned())
-}
-/// Texts that count as the same and are written differently.
-fn texts(source: &EventKind, target: &EventKind) -> Option<(String, String)> {
-    let show = |what: &EventKind| match what {
-        EventKind::Message { text } | EventKind::Output { text } => Some(text.trim().to_owned()),
-        EventKind::Stop => Some(String::new()),
-        EventKind::Alarm(stop) => {
-            stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
-        }
-        _ => None,
-    };
-    Some((show(source)?, show(target)?)).filter(|(a, b)| a != b)
 }

@@ -4,11 +4,13 @@
 mod branches;
 mod constants;
 mod inputs;
+mod on_target;
 mod random;
 mod scenarios;
 mod steer;
 
 pub use branches::{Coverage, NotReached};
 pub use inputs::{Inputs, inputs, inputs_of_both};
-pub use scenarios::{Proposals, asked, on_target, set_by_hand, unit};
+pub use on_target::{asked, on_target, set_by_hand, unit};
+pub use scenarios::Proposals;
 pub use steer::{Attempt, Circumstances, Steer, inputs_of};
