@@ -94,7 +94,8 @@ impl<'r> Interpreter<'r, '_> {
         let printed = self.printed.take();
         let stops = read.command.has(Op::Stop);
         let shown = if stops { self.shown(&line) } else { None };
-        let text = shown.clone().or(printed).filter(|_| stops && self.session.scenario.sets_named);
+        let printed = printed.filter(|_| stops && self.session.scenario.sets_named);
+        let text = shown.clone().or(printed);
         if shown.is_some() {
             read.command.ops.retain(|op| *op != Op::Stop);
         }

@@ -77,6 +77,7 @@ impl<'c> Runner<'c> {
         if let Some(text) = shown {
             let what = EventKind::Message { text: text.clone() };
             self.session.pause(Pause::Stop, what);
+            self.answer_in(text);
         }
         match call {
             Some(call) => self.call_macro(words, call),

@@ -301,7 +301,7 @@ impl<'c> Runner<'c> {
     }
 
     /// An operator who reads the name of a variable in a message enters the next answer into it.
-    fn answer_in(&mut self, text: &str) {
+    pub(super) fn answer_in(&mut self, text: &str) {
         let named = variable_to_set(text, &["#"]).map(|name| name.number);
         if let Some(number) = named.filter(|_| self.session.has_answer()) {
             let answer = self.session.answer();
