@@ -187,6 +187,16 @@ fn one_lock(first: &Lock, second: &Lock, away: &Control, home: &Control) -> Lock
     if locals(away).is_empty() {
         scratch.extend(locals(home));
     }
+    // What nothing of the library uses has no place on another control, whatever a clearing of all does to it.
+    if here != there {
+        let rows = home.classes().iter().filter(|row| row.name == here && row.class != "local");
+        let unused = rows.flat_map(|row| row.first..=row.last).filter(|number| {
+            !first.variables.contains_key(&format!("{here}{number}"))
+                && !first.variables.contains_key(&format!("{here}(..)"))
+                && !variables.values().any(|taken| taken == number)
+        });
+        scratch.extend(unused);
+    }
     let program = |number: u32| second.programs.get(&format!("O{number:04}")).copied().unwrap_or(number);
     let programs = first.programs.iter().map(|(name, number)| (name.clone(), program(*number)));
     let mut programs: BTreeMap<String, u32> = programs.collect();

@@ -6,7 +6,7 @@
 
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Class, Comment, Module, PrintPart, Program, StmtKind, Var};
+use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var};
 use crate::legalize::Context;
 use crate::legalize::registers::names::numbered_name;
 use crate::text::{Span, variable_names};
@@ -32,10 +32,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             Writer { names: &names, prefixes: &prefixes, context, index, span: program.site.span };
         writer.comments(&mut program.site.comments);
         for block in &mut program.blocks {
-            for stmt in &mut block.stmts {
+            let asks = before_questions(&block.stmts);
+            for (stmt, asks) in block.stmts.iter_mut().zip(asks) {
                 writer.span = stmt.site.span;
                 writer.comments(&mut stmt.site.comments);
-                writer.texts(&mut stmt.kind, sets);
+                writer.texts(&mut stmt.kind, sets, asks);
             }
             writer.span = block.term.site.span;
             writer.comments(&mut block.term.site.comments);
@@ -69,6 +70,19 @@ fn key(name: &str, prefixes: &[&str]) -> Option<(String, u32)> {
     (one.at == (0..name.len())).then_some((one.prefix, one.number))
 }
 
+/// For each statement, whether a question comes next.
+fn before_questions(stmts: &[Stmt]) -> Vec<bool> {
+    let (mut asks, mut all) = (false, Vec::with_capacity(stmts.len()));
+    for stmt in stmts.iter().rev() {
+        all.push(asks);
+        if stmt.kind != StmtKind::Comment {
+            asks = matches!(stmt.kind, StmtKind::Input { .. });
+        }
+    }
+    all.reverse();
+    all
+}
+
 struct Writer<'w, 'c> {
     names: &'w Names,
     prefixes: &'w [&'w str],
@@ -82,7 +96,8 @@ impl Writer<'_, '_> {
         comments.iter_mut().for_each(|comment| drop(self.take(&mut comment.text)));
     }
 
-    fn texts(&mut self, kind: &mut StmtKind, sets: bool) {
+    /// `sets` where the operator sets a variable at any stop, `asks` for what stands before a question.
+    fn texts(&mut self, kind: &mut StmtKind, sets: bool, asks: bool) {
         match kind {
             StmtKind::Alarm { text, .. } => drop(self.take_boxed(text)),
             StmtKind::StopMessage { text, .. } => {
@@ -94,12 +109,16 @@ impl Writer<'_, '_> {
                     self.context.add(self.index, Diagnostic::new(Code::Conditional, self.span, what));
                 }
             }
-            // What goes to a port may be read by a program.
-            StmtKind::Print { serial: false, parts, .. } => parts.iter_mut().for_each(|part| {
-                if let PrintPart::Text(text) = part {
-                    self.take(text);
-                }
-            }),
+            // What goes to a port may be read by a program, and comes back as it is.
+            StmtKind::Print { serial: false, parts, .. }
+                if asks || self.context.target.statement("print").is_some() =>
+            {
+                parts.iter_mut().for_each(|part| {
+                    if let PrintPart::Text(text) = part {
+                        self.take(text);
+                    }
+                });
+            }
             _ => {}
         }
     }
