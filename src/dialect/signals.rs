@@ -60,8 +60,6 @@ impl Overlay {
     }
 }
 
-/// The source of rows that a profile makes.
-
 /// A run without the variable `gone`, and without the number `taken` of another signal.
 fn without(row: &SystemVariable, gone: Option<u32>, taken: u32) -> Vec<SystemVariable> {
     let (Some(first), [counted]) = (row.first, row.subscripts.as_slice()) else { return vec![row.clone()] };

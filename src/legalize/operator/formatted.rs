@@ -92,10 +92,13 @@ fn compute_first(parts: &mut [PrintPart], next: &mut u32, stmts: &mut Stmts) {
     }
 }
 
+/// A part of an output, by block, statement and part.
+type PartOf = (BlockId, usize, usize);
+
 /// Where values stand that have no more places than their format: whole numbers over a power of ten, as an earlier conversion
-/// rounds them. By block, statement and part.
-fn rounded(program: &Program, summaries: &Summaries) -> BTreeSet<(BlockId, usize, usize)> {
-    let mut found: Vec<((BlockId, usize, usize), (usize, Expr))> = Vec::new();
+/// rounds them.
+fn rounded(program: &Program, summaries: &Summaries) -> BTreeSet<PartOf> {
+    let mut found: Vec<(PartOf, (usize, Expr))> = Vec::new();
     let mut vars = BTreeSet::new();
     for (id, block) in program.ids().zip(&program.blocks) {
         for (at, stmt) in block.stmts.iter().enumerate() {

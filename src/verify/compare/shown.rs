@@ -74,6 +74,25 @@ pub fn without_outputs(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
     acts.into_iter().zip(stays).filter_map(|(act, stays)| stays.then_some(act)).collect()
 }
 
+/// Why two ends are not the same, if they are not.
+pub(super) fn end_differs(source: &End, target: &End) -> Option<String> {
+    let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
+    (!same).then(|| "one side ends with an alarm, the other does not".to_owned())
+}
+
+/// Texts that count as the same and are written differently.
+pub(super) fn texts(source: &EventKind, target: &EventKind) -> Option<(String, String)> {
+    let show = |what: &EventKind| match what {
+        EventKind::Message { text } | EventKind::Output { text } => Some(text.trim().to_owned()),
+        EventKind::Stop => Some(String::new()),
+        EventKind::Alarm(stop) => {
+            stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
+        }
+        _ => None,
+    };
+    Some((show(source)?, show(target)?)).filter(|(a, b)| a != b)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,23 +111,4 @@ mod tests {
         assert_eq!(message(&text(), &EventKind::Stop), Some(EventKind::Message { text: text() }));
         assert_eq!(message(&text(), &EventKind::OptionalStop), None);
     }
-}
-
-/// Why two ends are not the same, if they are not.
-pub(super) fn end_differs(source: &End, target: &End) -> Option<String> {
-    let same = matches!((source, target), (End::Ended, End::Ended) | (End::Alarm { .. }, End::Alarm { .. }));
-    (!same).then(|| "one side ends with an alarm, the other does not".to_owned())
-}
-
-/// Texts that count as the same and are written differently.
-pub(super) fn texts(source: &EventKind, target: &EventKind) -> Option<(String, String)> {
-    let show = |what: &EventKind| match what {
-        EventKind::Message { text } | EventKind::Output { text } => Some(text.trim().to_owned()),
-        EventKind::Stop => Some(String::new()),
-        EventKind::Alarm(stop) => {
-            stop.program_number.map(|number| format!("{number} {}", stop.text).trim().to_owned())
-        }
-        _ => None,
-    };
-    Some((show(source)?, show(target)?)).filter(|(a, b)| a != b)
 }
