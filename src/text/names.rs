@@ -5,42 +5,24 @@ use std::ops::Range;
 /// From this many digits on a number beside a sign names a variable: nobody counts tools or holes so far.
 const MANY_DIGITS: usize = 3;
 
-/// Words before a name that stand before variables, and not before what is counted.
-const BEFORE: &[&str] = &[
-    "SET",
-    "ENTER",
-    "IN",
-    "INTO",
-    "TO",
-    "VARIABLE",
-    "VARIABLES",
-    "VAR",
-    "REGISTER",
-    "MACRO",
-    "IF",
-    "WHEN",
-    "CHECK",
-    "CHANGE",
-    "EDIT",
-    "USES",
-    "USE",
-    "VALUE",
-    "OF",
-    "BY",
-    "FROM",
-    "LESS",
-    "THAN",
-    "EQ",
-    "NE",
-    "GT",
-    "LT",
-    "GE",
-    "LE",
+/// What stands before other numbers too: a radius (`A CORNER OF R5`), what is counted (`PARTS IN #2 VISE`).
+const OTHERWISE: &[&str] = &["R", "#"];
+
+/// Words before a name that stand before variables alone.
+const BEFORE: &[&str] =
+    &["SET", "ENTER", "VARIABLE", "VARIABLES", "VAR", "REGISTER", "MACRO", "IF", "WHEN", "EDIT", "USES"];
+
+/// Those that stand before the values of a drawing too, and not before what is counted.
+const BEFORE_VALUES: &[&str] = &[
+    "IN", "INTO", "TO", "CHECK", "CHANGE", "USE", "VALUE", "OF", "BY", "FROM", "LESS", "THAN", "EQ", "NE",
+    "GT", "LT", "GE", "LE",
 ];
 
-/// Words after a name that say something of a value.
-const AFTER: &[&str] =
-    &["IS", "ARE", "EQ", "NE", "GT", "LT", "GE", "LE", "HOLDS", "MUST", "NOT", "MISSING", "VACANT", "NULL"];
+/// Words after a name that stand after variables alone.
+const AFTER: &[&str] = &["HOLDS", "MISSING", "VACANT", "NULL"];
+
+/// Those that say something of any value.
+const AFTER_VALUES: &[&str] = &["IS", "ARE", "EQ", "NE", "GT", "LT", "GE", "LE", "MUST", "NOT"];
 
 /// What may be the name of a variable in a text.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +64,7 @@ pub fn variable_names(text: &str, prefixes: &[&str]) -> Vec<VariableName> {
         if goes_on || sign.is_ascii_digit() {
             continue;
         }
-        let is_one = digits.trim_start_matches('0').len() >= MANY_DIGITS || told(before, rest);
+        let is_one = digits.trim_start_matches('0').len() >= MANY_DIGITS || told(before, rest, prefix);
         let sure = is_one && !counts(before, rest, prefix);
         let at = at..at + prefix.len() + digits.len();
         out.push(VariableName { at, prefix: (*prefix).to_owned(), number, sure });
@@ -101,12 +83,14 @@ pub fn variable_to_set(text: &str, prefixes: &[&str]) -> Option<VariableName> {
 }
 
 /// True where what stands beside a name says that it is one.
-fn told(before: &str, rest: &str) -> bool {
+fn told(before: &str, rest: &str, prefix: &str) -> bool {
     let is_word = |sign: char| sign.is_alphanumeric();
     let last = before.trim_end().rsplit(|sign| !is_word(sign)).next().unwrap_or_default();
     let next = rest.trim_start().split(|sign| !is_word(sign)).next().unwrap_or_default();
     let among = |words: &[&str], word: &str| words.iter().any(|known| known.eq_ignore_ascii_case(word));
-    rest.trim_start().starts_with(['=', '<', '>']) || among(BEFORE, last) || among(AFTER, next)
+    let sure = rest.trim_start().starts_with(['=', '<', '>']) || among(BEFORE, last) || among(AFTER, next);
+    let otherwise = among(OTHERWISE, prefix);
+    sure || (!otherwise && (among(BEFORE_VALUES, last) || among(AFTER_VALUES, next)))
 }
 
 /// True at the ends of a range (`#500-#510`): of what lies between nothing is known.
@@ -147,6 +131,12 @@ mod tests {
         one("TOOL #5", "#5", false);
         one("OP #1 OF 3", "#1", false);
         one("R5 BALL NOSE", "R5", false);
+        one("A CORNER OF R5", "R5", false);
+        one("R5 IS THE FILLET", "R5", false);
+        one("SET R5 FIRST", "R5", true);
+        one("R9=ABSOLUTE Z DEPTH", "R9", true);
+        one("A VALUE OF V5", "V5", true);
+        one("PARTS IN #2 VISE", "#2", false);
         one("#1 OF 3 HOLES", "#1", false);
     }
 

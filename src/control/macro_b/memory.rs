@@ -61,12 +61,17 @@ impl Memory {
             let Some(number) = name.trim().strip_prefix('#').and_then(|digits| digits.parse().ok()) else {
                 continue;
             };
-            match number {
-                1..=33 => memory.set_local(number as usize, Some(*value), 0.0),
-                _ => memory.set(number, Some(*value), 0.0),
-            }
+            memory.put(number, *value);
         }
         memory
+    }
+
+    /// Sets a variable by hand; a local in the level that runs.
+    pub fn put(&mut self, number: u32, value: f64) {
+        match number {
+            1..=33 => self.set_local(number as usize, Some(value), 0.0),
+            _ => self.set(number, Some(value), 0.0),
+        }
     }
 
     pub fn local(&self, number: usize) -> Value {

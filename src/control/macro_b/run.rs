@@ -305,7 +305,7 @@ impl<'c> Runner<'c> {
         let named = variable_to_set(text, &["#"]).map(|name| name.number);
         if let Some(number) = named.filter(|_| self.session.has_answer()) {
             let answer = self.session.answer();
-            self.memory.set(number, Some(answer), 0.0);
+            self.memory.put(number, answer);
         }
     }
 

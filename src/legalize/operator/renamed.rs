@@ -6,11 +6,11 @@
 
 use crate::canon::Sys;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var};
+use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var, flag_of};
 use crate::legalize::Context;
 use crate::legalize::registers::names::numbered_name;
 use crate::text::{Span, variable_names};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the registers of variables are called, by prefix and number on the source.
 type Names = BTreeMap<(String, u32), String>;
@@ -28,8 +28,15 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         if names.is_empty() {
             continue;
         }
-        let mut writer =
-            Writer { names: &names, prefixes: &prefixes, context, index, span: program.site.span };
+        let flagged = with_flags(program, &names, &prefixes, context);
+        let mut writer = Writer {
+            names: &names,
+            flagged: &flagged,
+            prefixes: &prefixes,
+            context,
+            index,
+            span: program.site.span,
+        };
         writer.comments(&mut program.site.comments);
         for block in &mut program.blocks {
             let asks = before_questions(&block.stmts);
@@ -64,6 +71,20 @@ fn of_program(program: &Program, shared: &Names, prefixes: &[&str], context: &Co
     shared.iter().map(|(key, name)| (key.clone(), name.clone())).chain(locals).collect()
 }
 
+/// The registers of variables that may be vacant on the source, and have flags.
+fn with_flags(
+    program: &Program,
+    names: &Names,
+    prefixes: &[&str],
+    context: &Context<'_>,
+) -> BTreeSet<String> {
+    let shared =
+        context.registers.of.iter().filter(|(var, _)| context.registers.of.contains_key(&var.flag()));
+    let shared = shared.map(|(_, register)| format!("{}{}", register.name, register.number));
+    let held = program.held.iter().filter_map(|(_, name)| key(name.strip_prefix(&flag_of(""))?, prefixes));
+    shared.chain(held.filter_map(|key| names.get(&key).cloned())).collect()
+}
+
 /// A name, where it is nothing more than that.
 fn key(name: &str, prefixes: &[&str]) -> Option<(String, u32)> {
     let one = variable_names(name, prefixes).into_iter().next()?;
@@ -85,6 +106,8 @@ fn before_questions(stmts: &[Stmt]) -> Vec<bool> {
 
 struct Writer<'w, 'c> {
     names: &'w Names,
+    /// The registers whose variables have flags.
+    flagged: &'w BTreeSet<String>,
     prefixes: &'w [&'w str],
     context: &'w mut Context<'c>,
     index: usize,
@@ -102,10 +125,13 @@ impl Writer<'_, '_> {
             StmtKind::Alarm { text, .. } => drop(self.take_boxed(text)),
             StmtKind::StopMessage { text, .. } => {
                 if let Some(register) = self.take_boxed(text).filter(|_| sets) {
-                    let what = format!(
-                        "the message names a variable: the operator must set it in {register} at the stop, before cycle \
-                         start"
-                    );
+                    let set = "the message names a variable: the operator must set it in";
+                    let vacant = if self.flagged.contains(&register) {
+                        "; it is no longer vacant then, but 0 if nothing is entered"
+                    } else {
+                        ""
+                    };
+                    let what = format!("{set} {register} at the stop, before cycle start{vacant}");
                     self.context.add(self.index, Diagnostic::new(Code::Conditional, self.span, what));
                 }
             }

@@ -37,7 +37,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     marks.refuse(module, context);
     name(module, &marks, context);
     for index in 0..module.programs.len() {
-        write::program(index, &mut module.programs[index], &marks);
+        write::program(index, &mut module.programs[index], &marks, context.source);
     }
 }
 

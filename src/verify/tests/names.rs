@@ -28,3 +28,11 @@ fn a_stop_that_names_a_variable_asks_for_it_on_both_sides() {
     assert_eq!(found("#525", "#526"), Outcome::Different);
     assert_eq!(found("V10", "#525"), Outcome::Different);
 }
+
+/// A local is set in the level that runs: 7 comes from the operator, or 5 from the program.
+#[test]
+fn a_local_is_set_by_hand() {
+    let program = |x: &str| format!("O1\nG90\n#1=5.\n#3006=1 (SET #1)\n#2=5.\nG0X{x}\nM30\n");
+    assert_eq!(run("fanuc", &program("#1"), "fanuc", &program("#2"), &[]).outcome, Outcome::Different);
+    assert_ne!(run("fanuc", &program("#1"), "fanuc", &program("#1"), &[]).outcome, Outcome::Different);
+}

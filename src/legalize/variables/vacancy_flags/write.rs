@@ -2,24 +2,27 @@
 
 use super::conditions::{rewritten, settled};
 use super::marks::{At, Marks, unsigned};
+use crate::canon::Op;
+use crate::dialect::{Control, Question};
 use crate::ir::{
     Argument, BlockId, Builder, Call, Callee, Class, Cond, Expr, Nc, NcItem, Place, Program, Relation,
     SourceInfo, Stmt, StmtKind, TermKind, Terminator, Var,
 };
+use crate::legalize::registers::names::numbered_name;
 use crate::legalize::rewrite::{Part, rebuild, unless_skipped};
-use crate::text::Span;
+use crate::text::{Span, variable_to_set};
 
 /// Rewrites one program.
-pub(super) fn program(index: usize, program: &mut Program, marks: &Marks) {
+pub(super) fn program(index: usize, program: &mut Program, marks: &Marks, source: &Control) {
     let mut at: At = (BlockId(0), 0);
     rebuild(program, &mut |builder, part| match part {
         Part::Start(id) => at = (id, 0),
         Part::Stmt(_) if marks.needless(index, at.0) => {}
         Part::Stmt(stmt) => {
-            Here { index, at, marks }.stmt(stmt, builder);
+            Here { index, at, marks, source }.stmt(stmt, builder);
             at.1 += 1;
         }
-        Part::Term(term) => Here { index, at, marks }.end(term, builder),
+        Part::Term(term) => Here { index, at, marks, source }.end(term, builder),
     });
 }
 
@@ -28,6 +31,7 @@ struct Here<'h> {
     index: usize,
     at: At,
     marks: &'h Marks,
+    source: &'h Control,
 }
 
 impl Here<'_> {
@@ -58,10 +62,11 @@ impl Here<'_> {
         let written = match &stmt.kind {
             StmtKind::Assign { target: Place::Var(var), value } => Some((*var, self.value_flag(value))),
             StmtKind::Input { target: Place::Var(var), .. } => Some((*var, Expr::Number(1.0))),
-            _ => None,
+            // The operator sets what the message names.
+            _ => self.set_by_hand(&stmt).map(|var| (var, Expr::Number(1.0))),
         };
         match stmt.kind {
-            StmtKind::Nc(nc) => return self.nc(nc, stmt.site, builder),
+            StmtKind::Nc(nc) => self.nc(nc, stmt.site, builder),
             StmtKind::ModalCall(mut call) => {
                 self.call(&mut call);
                 builder.push(StmtKind::ModalCall(call), stmt.site);
@@ -75,6 +80,25 @@ impl Here<'_> {
         {
             builder.push(StmtKind::Assign { target: Place::Var(flag), value }, extra);
         }
+    }
+
+    /// The variable with a flag that the message of a stop names.
+    fn set_by_hand(&self, stmt: &Stmt) -> Option<Var> {
+        let text = match &stmt.kind {
+            StmtKind::StopMessage { text, .. } => text,
+            StmtKind::Nc(nc) if nc.has(Op::Stop) && self.source.is(Question::MessageShowsComment) => {
+                &*stmt.site.comments.first()?.text
+            }
+            _ => return None,
+        };
+        let named = variable_to_set(text, &[self.source.numbered()?])?;
+        let name = format!("{}{}", named.prefix, named.number);
+        let classes = [Class::Local, Class::Common, Class::Retained, Class::Global, Class::Parametric];
+        let mut vars = classes.map(|class| Var { class, number: named.number }).into_iter();
+        vars.find(|var| {
+            self.marks.flag(self.index, *var).is_some()
+                && numbered_name(*var, self.source).as_deref() == Some(&*name)
+        })
     }
 
     /// What the flag of a variable becomes that gets this value.
