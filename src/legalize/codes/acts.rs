@@ -84,7 +84,7 @@ fn replace(mut stmt: Stmt, index: usize, out: &mut Stmts, context: &mut Context<
     }
 }
 
-/// What stands for a code that the target has not; none where nothing does.
+/// What takes the place of a code that the target does not have; none if nothing does.
 fn stands_for(
     act: Act,
     site: Option<&SiteCode>,

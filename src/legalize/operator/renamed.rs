@@ -4,13 +4,15 @@
 //! sets, the same value. Side condition: the text leaves no doubt that a variable is meant; else it stays as it is, and a
 //! note says so. Counter-example: `(TOOL #5)`, where #5 is a variable too.
 
-use crate::canon::Sys;
+use crate::canon::{Op, Sys};
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Question;
 use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var, flag_of};
 use crate::legalize::Context;
 use crate::legalize::registers::names::numbered_name;
-use crate::text::{Span, variable_names};
+use crate::text::{Span, variable_names, variable_to_set};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// What the registers of variables are called, by prefix and number on the source.
 type Names = BTreeMap<(String, u32), String>;
@@ -23,6 +25,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let shared = of_library(&prefixes, context);
     // Where no message stops the machine, the operator is shown a text, stopped, and sets the register there.
     let sets = context.target.system_runs(Sys::StopMessage).next().is_none();
+    // At a stop too, where its comment is shown.
+    let stops = source.is(Question::MessageShowsComment);
     for (index, program) in module.programs.iter_mut().enumerate() {
         let names = of_program(program, &shared, &prefixes, context);
         if names.is_empty() {
@@ -42,8 +46,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let asks = before_questions(&block.stmts);
             for (stmt, asks) in block.stmts.iter_mut().zip(asks) {
                 writer.span = stmt.site.span;
-                writer.comments(&mut stmt.site.comments);
+                let named = writer.comments(&mut stmt.site.comments);
                 writer.texts(&mut stmt.kind, sets, asks);
+                if sets && stops && matches!(&stmt.kind, StmtKind::Nc(nc) if nc.has(Op::Stop)) {
+                    let set = named.filter(|register| writer.flagged.contains(register));
+                    set.iter().for_each(|register| writer.set(register));
+                }
             }
             writer.span = block.term.site.span;
             writer.comments(&mut block.term.site.comments);
@@ -115,24 +123,21 @@ struct Writer<'w, 'c> {
 }
 
 impl Writer<'_, '_> {
-    fn comments(&mut self, comments: &mut [Comment]) {
-        comments.iter_mut().for_each(|comment| drop(self.take(&mut comment.text)));
+    /// The register that the first comment names first.
+    fn comments(&mut self, comments: &mut [Comment]) -> Option<String> {
+        let named: Vec<_> = comments.iter_mut().map(|comment| self.take(&mut comment.text, None)).collect();
+        named.into_iter().next().flatten()
     }
 
     /// `sets` where the operator sets a variable at any stop, `asks` for what stands before a question.
     fn texts(&mut self, kind: &mut StmtKind, sets: bool, asks: bool) {
         match kind {
-            StmtKind::Alarm { text, .. } => drop(self.take_boxed(text)),
+            StmtKind::Alarm { text, .. } => drop(self.take_boxed(text, None)),
             StmtKind::StopMessage { text, .. } => {
-                if let Some(register) = self.take_boxed(text).filter(|_| sets) {
-                    let set = "the message names a variable: the operator must set it in";
-                    let vacant = if self.flagged.contains(&register) {
-                        "; it is no longer vacant then, but 0 if nothing is entered"
-                    } else {
-                        ""
-                    };
-                    let what = format!("{set} {register} at the stop, before cycle start{vacant}");
-                    self.context.add(self.index, Diagnostic::new(Code::Conditional, self.span, what));
+                // A message that begins with a name asks for it: `#5 DEPTH`.
+                let asked = variable_to_set(text, self.prefixes).map(|name| name.at);
+                if let Some(register) = self.take_boxed(text, asked).filter(|_| sets) {
+                    self.set(&register);
                 }
             }
             // What goes to a port may be read by a program, and comes back as it is.
@@ -141,7 +146,7 @@ impl Writer<'_, '_> {
             {
                 parts.iter_mut().for_each(|part| {
                     if let PrintPart::Text(text) = part {
-                        self.take(text);
+                        self.take(text, None);
                     }
                 });
             }
@@ -149,20 +154,32 @@ impl Writer<'_, '_> {
         }
     }
 
+    /// Tells that the operator must set a register.
+    fn set(&mut self, register: &str) {
+        let set = "the message names a variable: the operator must set it in";
+        let vacant = if self.flagged.contains(register) {
+            "; it is no longer vacant then, but 0 if nothing is entered"
+        } else {
+            ""
+        };
+        let what = format!("{set} {register} at the stop, before cycle start{vacant}");
+        self.context.add(self.index, Diagnostic::new(Code::Conditional, self.span, what));
+    }
+
     /// The same for a text that never grows.
-    fn take_boxed(&mut self, text: &mut Box<str>) -> Option<String> {
+    fn take_boxed(&mut self, text: &mut Box<str>, asked: Option<Range<usize>>) -> Option<String> {
         let mut whole = String::from(std::mem::take(text));
-        let first = self.take(&mut whole);
+        let first = self.take(&mut whole, asked);
         *text = whole.into();
         first
     }
 
-    /// Puts the target's names into a text; gives the first of them.
-    fn take(&mut self, text: &mut String) -> Option<String> {
+    /// Puts the target's names into a text; gives the first of them. The name at `asked` counts as sure.
+    fn take(&mut self, text: &mut String, asked: Option<Range<usize>>) -> Option<String> {
         let mut first = None;
         for found in variable_names(text, self.prefixes).into_iter().rev() {
             let Some(name) = self.names.get(&(found.prefix, found.number)) else { continue };
-            if found.sure {
+            if found.sure || asked.as_ref() == Some(&found.at) {
                 text.replace_range(found.at, name);
                 first = Some(name.clone());
             } else {
