@@ -40,7 +40,12 @@ pub struct VariableName {
 /// The names of variables in a text, where these stand before their numbers: `#`, `V`.
 pub fn variable_names(text: &str, prefixes: &[&str]) -> Vec<VariableName> {
     let mut out = Vec::new();
-    for (at, sign) in text.char_indices() {
+    let may_begin = |sign: char| {
+        let mut firsts = prefixes.iter().filter_map(|prefix| prefix.chars().next());
+        firsts.any(|first| first.eq_ignore_ascii_case(&sign))
+    };
+    // Stops and messages are read at each run of a program: most signs are passed by at a glance.
+    for (at, sign) in text.char_indices().filter(|(_, sign)| may_begin(*sign)) {
         let before = text.get(..at).unwrap_or_default();
         if before.ends_with(|sign: char| sign.is_alphanumeric() || sign == '_') {
             continue;
