@@ -64,6 +64,8 @@ pub struct Session<'r, 'f> {
     digits: FewerDigits,
     programs: Vec<Program>,
     numbers: HashMap<usize, u32>,
+    /// The section that was asked for last, and its number.
+    last_number: Option<(usize, u32)>,
     answered: usize,
     steps: u64,
     deadline: Option<Instant>,
@@ -93,6 +95,7 @@ impl<'r, 'f> Session<'r, 'f> {
             digits: FewerDigits::of(scenario, None),
             programs: Vec::new(),
             numbers: HashMap::new(),
+            last_number: None,
             answered: 0,
             steps: 0,
             deadline,
@@ -128,9 +131,18 @@ impl<'r, 'f> Session<'r, 'f> {
 
     /// The number that places give a section; it is listed from its first block on.
     pub fn program_number(&mut self, section: usize) -> u32 {
-        if let Some(number) = self.numbers.get(&section) {
-            return *number;
+        if let Some((last, number)) = self.last_number
+            && last == section
+        {
+            return number;
         }
+        let number = self.numbers.get(&section).copied().unwrap_or_else(|| self.list(section));
+        self.last_number = Some((section, number));
+        number
+    }
+
+    /// Lists a section that did not run before.
+    fn list(&mut self, section: usize) -> u32 {
         let found = self.sections.all().get(section);
         let name = match found.and_then(|section| section.name.as_ref()) {
             Some(ProgramName::Number(number)) => format!("O{number}"),

@@ -16,7 +16,7 @@ use crate::canon::{Func, Op};
 use crate::dialect::Row;
 use crate::text::Span;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// One event and the block that caused it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -143,7 +143,8 @@ pub struct Trace {
     /// Bytes of messages and outputs that are still kept.
     room: usize,
     full: bool,
-    doubted: HashSet<(String, Place)>,
+    /// Where each fact that nobody confirmed mattered.
+    doubted: HashMap<String, HashSet<Place>>,
     /// Codes whose number was computed, with their letter, and how many events came before each.
     computed_codes: BTreeMap<(char, u64, Place), usize>,
     /// Numbers of variables that were computed, and how many events came before each.
@@ -170,7 +171,7 @@ impl Trace {
             limit,
             room: MOST_TEXT,
             full: false,
-            doubted: HashSet::new(),
+            doubted: HashMap::new(),
             computed_codes: BTreeMap::new(),
             computed_numbers: BTreeMap::new(),
             arguments: BTreeMap::new(),
@@ -297,10 +298,15 @@ impl Trace {
 
     /// Records that a fact mattered that nobody confirmed; once for each block.
     pub fn doubt(&mut self, fact: &str) {
-        if !self.full
-            && !self.confirmed.iter().any(|name| name == fact)
-            && self.doubted.insert((fact.into(), self.at))
-        {
+        if self.full || self.confirmed.iter().any(|name| name == fact) {
+            return;
+        }
+        // Most were noted here before: a loop comes by again and again.
+        let is_new = match self.doubted.get_mut(fact) {
+            Some(places) => places.insert(self.at),
+            None => self.doubted.insert(fact.into(), HashSet::from([self.at])).is_none(),
+        };
+        if is_new {
             self.push(EventKind::Unsure { fact: fact.into() });
         }
     }

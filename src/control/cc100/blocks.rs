@@ -92,8 +92,10 @@ impl<'r> Interpreter<'r, '_> {
 
     /// An operator who reads the name of a variable in a message enters the next answer into it.
     fn answer_in(&mut self, text: &str) {
-        let cell = variable_to_set(text, &["V"]).and_then(|name| Cell::numbered(name.number));
-        if let Some(cell) = cell.filter(|_| self.session.has_answer()) {
+        if !self.session.has_answer() {
+            return;
+        }
+        if let Some(cell) = variable_to_set(text, &["V"]).and_then(|name| Cell::numbered(name.number)) {
             let answer = self.session.answer();
             self.store.set(cell, answer);
             self.stood = None;

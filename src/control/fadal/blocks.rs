@@ -121,9 +121,9 @@ impl<'r> Interpreter<'r, '_> {
 
     /// An operator who reads the name of a variable at a stop enters the next answer into it.
     fn answer_in(&mut self, text: Option<&str>) {
-        let named = text.and_then(|text| variable_to_set(text, &["V", "R"]));
-        let register = named.and_then(|name| Register::new(&name.prefix, name.number));
-        if let Some(register) = register.filter(|_| self.session.has_answer()) {
+        let Some(text) = text.filter(|_| self.session.has_answer()) else { return };
+        let named = variable_to_set(text, &["V", "R"]);
+        if let Some(register) = named.and_then(|name| Register::new(&name.prefix, name.number)) {
             let answer = self.session.answer();
             self.keep(register, answer);
         }

@@ -68,7 +68,16 @@ fn acts_late(machine: &Machine, command: &Command, kind: Auxiliary) -> bool {
     waits || late(kind)
 }
 
+/// True where a block only moves: most do.
+fn only_moves(command: &Command) -> bool {
+    let acts = |(role, _): &(Role, f64)| matches!(role, Role::Speed | Role::Tool);
+    command.ops.is_empty() && command.own_code.is_none() && !command.words.iter().any(acts)
+}
+
 fn act(machine: &mut Machine, command: &Command, late: bool, trace: &mut Trace) {
+    if only_moves(command) {
+        return;
+    }
     for kind in kinds(machine, command) {
         if acts_late(machine, command, kind) != late {
             continue;
@@ -162,6 +171,9 @@ fn doubt(machine: &mut Machine, command: &Command, before: &Before, trace: &mut 
     }
     if cuts {
         machine.running_matters(trace);
+    }
+    if only_moves(command) {
+        return;
     }
     for kind in kinds(machine, command) {
         let matters = match kind {

@@ -302,10 +302,12 @@ impl<'c> Runner<'c> {
 
     /// An operator who reads the name of a variable in a message enters the next answer into it.
     pub(super) fn answer_in(&mut self, text: &str) {
-        let named = variable_to_set(text, &["#"]).map(|name| name.number);
-        if let Some(number) = named.filter(|_| self.session.has_answer()) {
+        if !self.session.has_answer() {
+            return;
+        }
+        if let Some(name) = variable_to_set(text, &["#"]) {
             let answer = self.session.answer();
-            self.memory.put(number, answer);
+            self.memory.put(name.number, answer);
         }
     }
 
