@@ -17,6 +17,13 @@ use crate::verify::entry::{Start, UNIT, starts};
 use crate::verify::sides::{Side, SymbolMap};
 use std::collections::BTreeSet;
 
+/// Blocks from which on a run is a long one: what each state does alone is then looked at only as far as all together
+/// differ.
+const LONG: u64 = 20_000;
+
+/// Events that are looked at besides.
+const BESIDES: usize = 100;
+
 /// What runs from another state show.
 enum Found {
     /// They came to their ends and did the same.
@@ -63,35 +70,43 @@ impl Verifier<'_, '_> {
         there: ProgramRef,
     ) -> BTreeSet<&'static str> {
         let mut settled = BTreeSet::new();
-        let together = match all {
-            [] => return settled,
-            all => self.started_in(all, scenario, there),
-        };
-        let kept = (self.witness.take(), std::mem::take(&mut self.shown));
-        if matches!(together, Found::Same) {
-            return settled;
-        }
-        for state in all {
-            match self.started_in(&[state], scenario, there) {
-                Found::Same | Found::Nothing => {}
-                Found::Fault => return settled,
-                Found::Granted => {
-                    settled.insert(state.name);
-                }
-                Found::Rests(what) => {
-                    self.rests(&[state], &what);
-                    settled.insert(state.name);
+        loop {
+            let is_open = |state: &&&Start| !settled.contains(state.name);
+            let open: Vec<&'static Start> = all.iter().filter(is_open).copied().collect();
+            if open.is_empty() {
+                return settled;
+            }
+            let (together, upto) = self.started_in(&open, scenario, there, None);
+            let kept = (self.witness.take(), std::mem::take(&mut self.shown));
+            if matches!(together, Found::Same) {
+                return settled;
+            }
+            let before = settled.len();
+            for state in &open {
+                match self.started_in(&[state], scenario, there, upto).0 {
+                    Found::Same | Found::Nothing => {}
+                    Found::Fault => return settled,
+                    Found::Granted => {
+                        settled.insert(state.name);
+                    }
+                    Found::Rests(what) => {
+                        self.rests(&[state], &what);
+                        settled.insert(state.name);
+                    }
                 }
             }
-        }
-        if settled.is_empty() {
-            (self.witness, self.shown) = kept;
-            if let Found::Rests(what) = together {
-                self.rests(all, &what);
-                settled.extend(all.iter().map(|state| state.name));
+            if settled.len() == before {
+                (self.witness, self.shown) = kept;
+                if let Found::Rests(what) = together {
+                    self.rests(&open, &what);
+                    settled.extend(open.iter().map(|state| state.name));
+                }
+                return settled;
+            }
+            if upto.is_none() {
+                return settled;
             }
         }
-        settled
     }
 
     /// Notes that the source rests on states in which the target does something else.
@@ -110,9 +125,18 @@ impl Verifier<'_, '_> {
         self.because(Why::EntryState, &text);
     }
 
-    /// Runs both sides from states of the machine.
-    fn started_in(&mut self, states: &[&'static Start], scenario: &Scenario, there: ProgramRef) -> Found {
+    /// Runs both sides from states of the machine, to the end or up to so many events; and tells how many events of a
+    /// long run show what differs.
+    fn started_in(
+        &mut self,
+        states: &[&'static Start],
+        scenario: &Scenario,
+        there: ProgramRef,
+        upto: Option<usize>,
+    ) -> (Found, Option<usize>) {
         let target = self.job.target;
+        let is_part = upto.is_some();
+        let scenario = &Scenario { events: upto.unwrap_or(scenario.events), ..scenario.clone() };
         let mut begun = scenario.clone();
         states.iter().for_each(|state| state.put(&mut begun));
         let with_unit = states.iter().any(|state| state.name == UNIT.name);
@@ -126,11 +150,16 @@ impl Verifier<'_, '_> {
             circumstances.inch = Some(theirs);
         }
         let other = target.run(there, &circumstances);
-        if is_cut(&run) || is_cut(&other) || stopped(&run) {
-            return Found::Nothing;
+        if !is_part && (is_cut(&run) || is_cut(&other)) || stopped(&run) {
+            return (Found::Nothing, None);
         }
         let pair = Pair { scenario: &begun, run: &run, there, circumstances: &circumstances, other: &other };
-        match self.fault(&pair) {
+        let fault = self.fault(&pair);
+        let event = fault.as_ref().err().and_then(Option::as_ref).and_then(|difference| difference.source);
+        let at = event.and_then(|event| run.events.iter().position(|other| std::ptr::eq(event, other)));
+        let upto = at.filter(|_| run.steps > LONG && !is_part).map(|at| at + BESIDES);
+        let found = match fault {
+            Ok(()) if is_part => Found::Same,
             Ok(()) => {
                 self.coverage.add(&run);
                 self.target_coverage.add(&other);
@@ -153,7 +182,8 @@ impl Verifier<'_, '_> {
                 }
                 Found::Fault
             }
-        }
+        };
+        (found, upto)
     }
 
     /// True where the source does something else than after power-on, before or when a difference shows.
