@@ -11,6 +11,9 @@ use std::ops::Range;
 
 /// Less than a conversion is given: both ways are verified elsewhere, and what a round changes shows early.
 const EFFORT: Effort = Effort {
+    fewest: 6,
+    telling: 32,
+    drawn: 3,
     scenarios: 32,
     tries: 80,
     steps: 5_000,

@@ -16,12 +16,14 @@ impl Verifier<'_, '_> {
 
     /// True where the target does something else with fewer digits: rounded, and off by errors that are drawn, and their
     /// opposites, for where rounding hits a tie other errors miss it. What comes after an event where the source says
-    /// nothing of what the target should do counts for nothing: `upto`.
+    /// nothing of what the target should do counts for nothing: `upto`. Errors are drawn if the run is one of the first, or
+    /// went a new way.
     pub(super) fn is_sensitive(
         &self,
         of: (ProgramRef, &Scenario),
         run: &Run,
         upto: Option<Option<&Event>>,
+        went_new_way: bool,
     ) -> bool {
         // With fewer digits it would be the same run.
         if !run.lacked_digits {
@@ -40,7 +42,8 @@ impl Verifier<'_, '_> {
         let rounded = self.nudged(of, None);
         let seed = 2 * self.compared as u64;
         let mut drawn = [seed, seed + 1].into_iter().map(|seed| self.nudged(of, Some(seed)));
-        differs(&rounded) || (rounded.lacked_digits && drawn.any(|nudged| differs(&nudged)))
+        let is_drawn = rounded.lacked_digits && (went_new_way || self.compared <= self.job.effort.drawn);
+        differs(&rounded) || (is_drawn && drawn.any(|nudged| differs(&nudged)))
     }
 
     /// True where the target goes elsewhere, by however little, with fewer digits.

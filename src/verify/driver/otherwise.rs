@@ -16,7 +16,7 @@ impl Verifier<'_, '_> {
             return;
         }
         let switches: BTreeSet<u32> = self.skips.iter().copied().collect();
-        let (ours, theirs) = (commons(self.job.source), self.registers());
+        let [ours, theirs] = [commons(self.job.source), self.registers()].map(|all| self.may_be_meant(all));
         for (scenario, registers) in self.telling.clone() {
             if self.is_out_of_time() {
                 break;
@@ -56,26 +56,37 @@ impl Verifier<'_, '_> {
     }
 
     /// The common registers of the target that hold no variable of the source and that the conversion did not name.
-    fn registers(&self) -> Vec<String> {
+    fn registers(&self) -> Vec<(String, u32)> {
         let (source, target, names) = (self.job.source.control, self.job.target.control, self.job.names);
         if self.called {
             return Vec::new();
         }
         let mut all = commons(self.job.target);
-        all.retain(|name| !names.is_named(name, target) && names.of_source(name, source, target).is_none());
+        all.retain(|(name, _)| {
+            !names.is_named(name, target) && names.of_source(name, source, target).is_none()
+        });
         all
+    }
+
+    /// Those of some variables that a text of either side may mean, with a value of its own for each. Where nobody can, it
+    /// makes no difference what they hold.
+    fn may_be_meant(&self, all: Vec<(String, u32)>) -> Vec<(String, f64)> {
+        let sides = [self.job.source, self.job.target].map(Side::numbers);
+        let all = all.into_iter().enumerate();
+        let meant = all.filter(|(at, (_, number))| sides.iter().any(|side| side.may_mean(*number, *at)));
+        meant.map(|(at, (name, _))| (name, 1.5 + 0.25 * at as f64)).collect()
     }
 }
 
 /// The names of the variables that outlive a program and may hold what another one left.
-fn commons(side: &Side<'_>) -> Vec<String> {
+fn commons(side: &Side<'_>) -> Vec<(String, u32)> {
     let classes = side.control.classes().iter();
     let shared = classes.filter(|row| matches!(row.class.as_str(), "common" | "retained"));
-    shared.flat_map(|row| (row.first..=row.last).map(|number| format!("{}{number}", row.name))).collect()
+    let all = shared.flat_map(|row| (row.first..=row.last).map(move |number| (&row.name, number)));
+    all.map(|(name, number)| (format!("{name}{number}"), number)).collect()
 }
 
-/// Something in each of these variables, a value of its own, but for those that hold something already.
-fn filled(names: &[String], held: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
-    let values = names.iter().enumerate().map(|(at, name)| (name.clone(), 1.5 + 0.25 * at as f64));
-    values.chain(held.iter().map(|(name, value)| (name.clone(), *value))).collect()
+/// These values in these variables, but for those that hold something already.
+fn filled(values: &[(String, f64)], held: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
+    values.iter().cloned().chain(held.iter().map(|(name, value)| (name.clone(), *value))).collect()
 }

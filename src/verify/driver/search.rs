@@ -10,11 +10,9 @@ use crate::verify::explore::{Circumstances, Proposals, inputs_of_both, unit};
 use crate::verify::sides::{Effort, Job, Side};
 use crate::verify::triage::telling_numbers;
 
-/// How much longer the first run may be where it comes to no end.
-const LONGER: u64 = 10;
-
-/// Scenarios that are compared even where nothing is left to be reached.
-const FEWEST: usize = 16;
+/// How much longer the first run may be where it comes to no end, and how much shorter the others are while none does.
+const LONGER: u64 = 5;
+const SHORTER: u64 = 5;
 
 /// Runs of which none can be compared to its end before a program with no ways left is given up.
 const BARREN: usize = 48;
@@ -54,7 +52,7 @@ impl Verifier<'_, '_> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
-        let mut starts = Vec::new();
+        let (mut starts, mut hopeless, mut long) = (Vec::new(), false, false);
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
                 break;
@@ -66,7 +64,12 @@ impl Verifier<'_, '_> {
             at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
             self.theirs = proposals.theirs().clone();
+            if hopeless {
+                scenario.steps /= SHORTER;
+            }
             let run = self.run_longer(&mut scenario);
+            long |= self.tried == 0 && !is_cut(&run) && run.steps > steps;
+            hopeless = is_cut(&run) && (hopeless || self.tried == 0);
             self.tried += 1;
             self.steps += run.steps;
             let new = self.coverage.add(&run);
@@ -77,7 +80,7 @@ impl Verifier<'_, '_> {
             if starts.len() < STARTS || new && starts.len() < 2 * STARTS {
                 starts.push(Circumstances { scenario: scenario.clone(), theirs: self.theirs.clone() });
             }
-            let spare = self.compared < FEWEST && self.tried.is_multiple_of(2);
+            let spare = self.compared < effort.fewest && self.tried.is_multiple_of(2);
             let wanted = !self.target_coverage.is_complete() && for_target < FOR_THE_TARGET;
             if new || telling || spare || wanted {
                 for_target += usize::from(!new && !telling && !spare);
@@ -86,7 +89,10 @@ impl Verifier<'_, '_> {
             }
             let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
             let barren = self.compared == 0 && self.tried >= BARREN;
-            let done = self.coverage.is_complete() && gone && !telling && (self.compared >= FEWEST || barren);
+            // One run that is so long tells as much as many.
+            let told = !telling || self.compared >= effort.telling;
+            let enough = long || told && (self.compared >= effort.fewest || barren);
+            let done = self.coverage.is_complete() && gone && enough;
             if self.witness.is_some()
                 || done
                 || endless >= ENDLESS

@@ -73,7 +73,7 @@ impl Verifier<'_, '_> {
             }
         }
         if self.witness.is_none() && self.sensitive != Some(true) && !is_cut(&other) {
-            self.sensitive = Some(self.is_sensitive((there, &circumstances), &other, upto));
+            self.sensitive = Some(self.is_sensitive((there, &circumstances), &other, upto, new_there));
         }
         new_there
     }

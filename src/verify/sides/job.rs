@@ -32,6 +32,12 @@ pub struct Job<'j> {
 pub struct Effort {
     /// Scenarios that are compared, at the most.
     pub scenarios: usize,
+    /// Scenarios that are compared even if nothing is left to be reached.
+    pub fewest: usize,
+    /// Scenarios that are compared in all while the telling ones come, if nothing is left to be reached.
+    pub telling: usize,
+    /// Of the scenarios that go no new way, those that are also run with errors of the last digits that are drawn.
+    pub drawn: usize,
     /// Scenarios that the source is tried with in search of new branches, at the most.
     pub tries: usize,
     /// Blocks that a run executes, at the most.
@@ -52,6 +58,9 @@ impl Default for Effort {
     fn default() -> Self {
         Self {
             scenarios: 160,
+            fewest: 16,
+            telling: usize::MAX,
+            drawn: usize::MAX,
             tries: 400,
             steps: 50_000,
             all_steps: 1_000_000,

@@ -9,6 +9,7 @@ mod hash;
 mod job;
 mod links;
 mod names;
+mod numbers;
 mod program_texts;
 mod side;
 mod stands;

@@ -4,6 +4,7 @@ use super::edited_text::EditedText;
 use super::entry_state::EntryState;
 use super::hash::sha256;
 use super::links::Links;
+use super::numbers::Numbers;
 use super::program_texts::ProgramTexts;
 use super::stands::stands;
 use crate::canon::Op;
@@ -32,6 +33,8 @@ pub struct Side<'a> {
     links: OnceLock<Arc<Links>>,
     /// Of the target: the programs that those of the source became, where anybody asked.
     pub(in crate::verify) became: OnceLock<Arc<BTreeSet<ProgramRef>>>,
+    /// The numbers in its texts, where anybody asked.
+    numbers: OnceLock<Numbers>,
     /// Of each file what reports say of it, where anybody asked.
     reported: Arc<Vec<Reported>>,
     /// The text of a program that was edited since, and its file.
@@ -70,6 +73,7 @@ impl<'a> Side<'a> {
             entered: OnceLock::new(),
             links: OnceLock::new(),
             became: OnceLock::new(),
+            numbers: OnceLock::new(),
             reported,
             edited: None,
         }
@@ -129,6 +133,11 @@ impl<'a> Side<'a> {
 
     fn all_links(&self) -> &Arc<Links> {
         self.links.get_or_init(|| Arc::new(Links::new(&self.texts())))
+    }
+
+    /// The numbers that stand in its texts.
+    pub(in crate::verify) fn numbers(&self) -> &Numbers {
+        self.numbers.get_or_init(|| Numbers::of(self.control, self.files))
     }
 
     /// The texts of its programs.

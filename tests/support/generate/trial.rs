@@ -17,6 +17,9 @@ use std::time::{Duration, Instant};
 
 /// Enough for small programs; a nightly run makes up for it in number.
 pub const EFFORT: Effort = Effort {
+    fewest: 16,
+    telling: 16,
+    drawn: 16,
     scenarios: 16,
     tries: 40,
     steps: 2000,
