@@ -241,6 +241,11 @@ impl Control {
         self.dialect.names.numbered.as_deref()
     }
 
+    /// What may stand before the number of a variable.
+    pub fn prefixes(&self) -> Vec<&str> {
+        self.numbered().into_iter().chain(self.classes().iter().map(|row| row.name.as_str())).collect()
+    }
+
     /// The class of a free variable of that space.
     pub fn numbered_class(&self, number: u32) -> Option<&VariableClass> {
         self.variable_class(self.numbered()?, number)

@@ -18,10 +18,11 @@ use crate::legalize::calls::inlined;
 use crate::legalize::context::Copied;
 use crate::legalize::layout::heads::counts;
 use crate::legalize::registers::frames::repeats;
+use crate::legalize::registers::names::OF;
 use crate::legalize::rewrite::highest_temp;
 use crate::legalize::{Context, calls_of};
 use crate::syntax::ProgramName;
-use crate::text::Span;
+use crate::text::{Span, VariableName, variable_names, variable_to_set};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// True if calls on the target reach parts of the same program alone.
@@ -40,7 +41,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
     let calls: Vec<BTreeMap<usize, Span>> =
         module.programs.iter().map(|program| called(program, &names)).collect();
-    let before = module.programs.clone();
+    let mut before = module.programs.clone();
+    before.iter_mut().for_each(|body| name_locals(body, context.source));
     for (index, program) in module.programs.iter_mut().enumerate() {
         let all = reached(index, &calls);
         if all.contains_key(&index) {
@@ -116,10 +118,9 @@ fn merge(
             headline(body, span).into_iter().for_each(|line| first.stmts.insert(0, line));
         }
         program.blocks.extend(blocks);
-        let of = body.name.as_ref().map(|name| name.short().into_owned()).unwrap_or_default();
         let known: BTreeSet<Var> = program.held.iter().map(|(var, _)| *var).collect();
         let held = body.held.iter().filter(|(var, _)| !known.contains(var));
-        program.held.extend(held.map(|(var, name)| (*var, format!("{name} of {of}"))));
+        program.held.extend(held.map(|(var, name)| (*var, format!("{name}{}", of(body)))));
     }
     for block in &mut program.blocks {
         if let TermKind::Call { call, .. } = &mut block.term.kind
@@ -127,6 +128,37 @@ fn merge(
             && let Some(entry) = names.get(name).and_then(|callee| entries.get(callee))
         {
             call.callee = Callee::Block(*entry);
+        }
+    }
+}
+
+/// What comes after the name of a local of a program where it is a part of another one.
+fn of(body: &Program) -> String {
+    format!("{OF}{}", body.name.as_ref().map(|name| name.short()).unwrap_or_default())
+}
+
+/// Says in texts that name a local of the program whose it is: the caller may have one of the same number.
+fn name_locals(body: &mut Program, source: &Control) {
+    let prefixes = source.prefixes();
+    let (of, held) = (of(body), &body.held);
+    let is_held = |name: &VariableName| {
+        let name = format!("{}{}", name.prefix, name.number);
+        held.iter().any(|(_, held)| *held == name)
+    };
+    let told = |text: &mut String, asked: Option<VariableName>| {
+        for name in variable_names(text, &prefixes).into_iter().rev() {
+            if is_held(&name) && (name.sure || asked.as_ref().is_some_and(|asked| asked.at == name.at)) {
+                text.insert_str(name.at.end, &of);
+            }
+        }
+    };
+    for stmt in body.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+        stmt.site.comments.iter_mut().for_each(|comment| told(&mut comment.text, None));
+        if let StmtKind::StopMessage { text, .. } | StmtKind::Alarm { text, .. } = &mut stmt.kind {
+            let mut whole = String::from(std::mem::take(text));
+            let asked = variable_to_set(&whole, &prefixes);
+            told(&mut whole, asked);
+            *text = whole.into();
         }
     }
 }

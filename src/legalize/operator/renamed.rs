@@ -9,19 +9,19 @@ use crate::diag::{Code, Diagnostic};
 use crate::dialect::Question;
 use crate::ir::{Class, Comment, Module, PrintPart, Program, Stmt, StmtKind, Var, flag_of};
 use crate::legalize::Context;
-use crate::legalize::registers::names::numbered_name;
+use crate::legalize::registers::names::{OF, numbered_name, whose};
 use crate::text::{Span, variable_names, variable_to_set};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// What the registers of variables are called, by prefix and number on the source.
-type Names = BTreeMap<(String, u32), String>;
+/// What the registers of variables are called, by prefix and number on the source, and by whose they are where a text says
+/// it: `#1 of O9010`.
+type Names = BTreeMap<(String, u32, String), String>;
 
 /// Puts the target's names into texts.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let source = context.source;
-    let prefixes: Vec<&str> =
-        source.numbered().into_iter().chain(source.classes().iter().map(|row| row.name.as_str())).collect();
+    let prefixes = source.prefixes();
     let shared = of_library(&prefixes, context);
     // Where no message stops the machine, the operator is shown a text, stopped, and sets the register there.
     let sets = context.target.system_runs(Sys::StopMessage).next().is_none();
@@ -75,7 +75,11 @@ fn of_library(prefixes: &[&str], context: &Context<'_>) -> Names {
 /// Those and the locals of a program, on a target without locals.
 fn of_program(program: &Program, shared: &Names, prefixes: &[&str], context: &Context<'_>) -> Names {
     let register = |var: &Var| context.registers.of.get(var).map(|r| format!("{}{}", r.name, r.number));
-    let locals = program.held.iter().filter_map(|(var, name)| Some((key(name, prefixes)?, register(var)?)));
+    let locals = program.held.iter().filter_map(|(var, name)| {
+        let whose = name.find(OF).map_or("", |at| &name[at..]);
+        let (prefix, number, _) = key(name.strip_suffix(whose)?, prefixes)?;
+        Some(((prefix, number, whose.to_owned()), register(var)?))
+    });
     shared.iter().map(|(key, name)| (key.clone(), name.clone())).chain(locals).collect()
 }
 
@@ -94,9 +98,9 @@ fn with_flags(
 }
 
 /// A name, where it is nothing more than that.
-fn key(name: &str, prefixes: &[&str]) -> Option<(String, u32)> {
+fn key(name: &str, prefixes: &[&str]) -> Option<(String, u32, String)> {
     let one = variable_names(name, prefixes).into_iter().next()?;
-    (one.at == (0..name.len())).then_some((one.prefix, one.number))
+    (one.at == (0..name.len())).then_some((one.prefix, one.number, String::new()))
 }
 
 /// For each statement, whether a question comes next.
@@ -178,7 +182,14 @@ impl Writer<'_, '_> {
     fn take(&mut self, text: &mut String, asked: Option<Range<usize>>) -> Option<String> {
         let mut first = None;
         for found in variable_names(text, self.prefixes).into_iter().rev() {
-            let Some(name) = self.names.get(&(found.prefix, found.number)) else { continue };
+            let whose = whose(&text[found.at.end..]).to_owned();
+            let told = self.names.get(&(found.prefix.clone(), found.number, whose.clone()));
+            if let Some(name) = told.filter(|_| !whose.is_empty()) {
+                text.replace_range(found.at.start..found.at.end + whose.len(), name);
+                first = Some(name.clone());
+                continue;
+            }
+            let Some(name) = self.names.get(&(found.prefix, found.number, String::new())) else { continue };
             if found.sure || asked.as_ref() == Some(&found.at) {
                 text.replace_range(found.at, name);
                 first = Some(name.clone());

@@ -4,6 +4,17 @@ use crate::dialect::{Control, Question};
 use crate::ir::{Bank, Class, Module, Var};
 use crate::legalize::Context;
 
+/// What stands between the name of a local and the program whose it is, where another one may have a local of the same
+/// name: `#1 of O9010`.
+pub(in crate::legalize) const OF: &str = " of ";
+
+/// Whose a variable is, as a text goes on after its name: ` of O9010`; nothing if the text does not say it.
+pub(in crate::legalize) fn whose(rest: &str) -> &str {
+    let program = rest.strip_prefix(OF).unwrap_or_default();
+    let end = program.find(|sign: char| !sign.is_alphanumeric()).unwrap_or(program.len());
+    if end == 0 { "" } else { &rest[..OF.len() + end] }
+}
+
 /// The class that a bank counts in.
 pub(super) fn class_of(bank: Bank) -> Class {
     if bank == Bank::Parametric { Class::Parametric } else { Class::Global }

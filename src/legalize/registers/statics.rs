@@ -1,7 +1,11 @@
-//! Colours statics: two share a register if neither is written, by whatever program, while the other is live.
+//! Colours statics: two share a register if neither is written, by whatever program or by an operator whom a stop asks for
+//! it, while the other is live.
 
+use crate::canon::Op;
 use crate::ir::analysis::{BitRow, LiveStatics, Temps};
 use crate::ir::{Block, BlockId, Class, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
+use crate::legalize::registers::names::whose;
+use crate::text::variable_names;
 
 /// The colours of a library's statics.
 pub(super) struct Statics {
@@ -21,7 +25,9 @@ struct Interference {
 
 impl Statics {
     /// Of a library; none if it has no statics.
-    pub fn of(module: &Module) -> Option<Self> {
+    ///
+    /// `prefixes` are what stands before the numbers of variables on the source.
+    pub fn of(module: &Module, prefixes: &[&str]) -> Option<Self> {
         let mut any = false;
         for program in &module.programs {
             program.variables(&mut |var| any |= var.class == Class::Static);
@@ -30,7 +36,7 @@ impl Statics {
             return None;
         }
         let live = LiveStatics::of(module);
-        let colours = Interference::of(module, &live).colours();
+        let colours = Interference::of(module, &live, prefixes).colours();
         let through = live.through(module);
         Some(Self { live, colours, through })
     }
@@ -84,7 +90,7 @@ impl Statics {
 }
 
 impl Interference {
-    fn of(module: &Module, live: &LiveStatics) -> Self {
+    fn of(module: &Module, live: &LiveStatics, prefixes: &[&str]) -> Self {
         let universe = live.universe();
         let apart = vec![universe.none(); universe.vars().len()];
         let mut found = Self { apart, copies: Vec::new() };
@@ -96,7 +102,13 @@ impl Interference {
                     }
                 }
                 live.backward(index, block, &mut end.clone(), &mut |_, stmt, after| {
-                    found.write(stmt, after, live)
+                    found.write(stmt, after, live);
+                    for name in asked(stmt, prefixes) {
+                        let held = program.held.iter().find(|(_, held)| *held == name);
+                        if let Some(at) = held.and_then(|(var, _)| live.universe().place(*var)) {
+                            found.apart[at].join(after);
+                        }
+                    }
                 });
             });
         }
@@ -157,6 +169,21 @@ impl Interference {
         }
         colours
     }
+}
+
+/// The variables that a stop's text names: whoever reads it may set them.
+fn asked(stmt: &Stmt, prefixes: &[&str]) -> Vec<String> {
+    let comments = || stmt.site.comments.iter().map(|comment| &*comment.text).collect();
+    let texts: Vec<&str> = match &stmt.kind {
+        StmtKind::StopMessage { text, .. } => vec![text],
+        StmtKind::Nc(nc) if nc.has(Op::Stop) => comments(),
+        _ => Vec::new(),
+    };
+    let names = |text| {
+        let names = variable_names(text, prefixes).into_iter();
+        names.map(move |name| format!("{}{}{}", name.prefix, name.number, whose(&text[name.at.end..])))
+    };
+    texts.into_iter().flat_map(names).collect()
 }
 
 /// The lowest colour after `first` that is not taken.

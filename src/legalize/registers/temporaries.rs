@@ -27,7 +27,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let stmts = || module.programs.iter().flat_map(|program| &program.blocks).flat_map(|block| &block.stmts);
     let modal = stmts().any(|stmt| matches!(stmt.kind, StmtKind::ModalCall(_)));
     // Only for a target without locals are there any.
-    let statics = if has_locals(context.target) { None } else { Statics::of(module) };
+    let prefixes = context.source.prefixes();
+    let statics = if has_locals(context.target) { None } else { Statics::of(module, &prefixes) };
     let mut plans: Vec<Plan> = Vec::with_capacity(module.programs.len());
     for (at, program) in module.programs.iter_mut().enumerate() {
         let first = first_colours(program, context.target);

@@ -170,11 +170,10 @@ impl<'r> Observer<'_, 'r> {
 /// The question in a message that names the variable of the answer first: `#100 DEPTH`, `SET #100`.
 pub(super) fn prompt<'t>(text: &'t str, control: &Control) -> &'t str {
     let rest = text.trim().trim_start_matches("SET ").trim_start();
-    let names = control.classes().iter().map(|row| row.name.as_str());
     let numbered = |name: &str| {
         rest.strip_prefix(name).filter(|rest| rest.starts_with(|sign: char| sign.is_ascii_digit()))
     };
-    match control.numbered().into_iter().chain(names).find_map(numbered) {
+    match control.prefixes().into_iter().find_map(numbered) {
         Some(rest) => rest.trim_start_matches(|sign: char| sign.is_ascii_digit()).trim_start(),
         None => rest,
     }

@@ -34,7 +34,7 @@ impl Renaming<'_> {
 
     /// Only what the target's text has in its place among the names is taken over: another register is a difference.
     fn text(&self, text: &str, other: &str) -> Option<String> {
-        let (ours, theirs) = (prefixes(self.source), prefixes(self.target));
+        let (ours, theirs) = (self.source.prefixes(), self.target.prefixes());
         let found = variable_names(text, &ours);
         // Formatted output has no sign for a variable: it spells `NO.`.
         let spelled = variable_names(other, &["NO."]).into_iter();
@@ -68,8 +68,4 @@ impl Renaming<'_> {
         self.names.of_words.contains(register)
             || digits.parse().is_ok_and(|number: u32| self.names.scratch.contains(&number))
     }
-}
-
-fn prefixes(control: &Control) -> Vec<&str> {
-    control.numbered().into_iter().chain(control.classes().iter().map(|row| row.name.as_str())).collect()
 }

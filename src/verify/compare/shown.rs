@@ -23,7 +23,13 @@ pub fn as_messages<'r>(acts: Vec<Act<'r>>, control: &Control) -> Vec<Act<'r>> {
         if let (EventKind::Asked { .. }, Some(last)) = (&*act.what, out.last_mut())
             && let EventKind::Message { text } = &*last.what
         {
-            last.what = Cow::Owned(EventKind::Output { text: prompt(text, control).to_owned() });
+            let text = prompt(text, control).to_owned();
+            if text.is_empty() {
+                // It says nothing but which variable is asked for.
+                out.pop();
+            } else {
+                last.what = Cow::Owned(EventKind::Output { text });
+            }
         }
         let text = out.iter().rposition(|earlier| !is_switched_off(&earlier.what));
         let shown = text.and_then(|at| match &*out[at].what {
