@@ -52,7 +52,7 @@ impl Verifier<'_, '_> {
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
-        let (mut starts, mut hopeless, mut long) = (Vec::new(), false, false);
+        let (mut starts, mut is_long) = (Vec::new(), false);
         while let Some(mut scenario) = proposals.next() {
             if self.is_out_of_time() {
                 break;
@@ -64,12 +64,11 @@ impl Verifier<'_, '_> {
             at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
             self.theirs = proposals.theirs().clone();
-            if hopeless {
+            if is_long {
                 scenario.steps /= SHORTER;
             }
             let run = self.run_longer(&mut scenario);
-            long |= self.tried == 0 && !is_cut(&run) && run.steps > steps;
-            hopeless = is_cut(&run) && (hopeless || self.tried == 0);
+            is_long = run.steps > steps || is_long && is_cut(&run);
             self.tried += 1;
             self.steps += run.steps;
             let new = self.coverage.add(&run);
@@ -89,9 +88,8 @@ impl Verifier<'_, '_> {
             }
             let gone = self.target_coverage.is_complete() || for_target >= FOR_THE_TARGET;
             let barren = self.compared == 0 && self.tried >= BARREN;
-            // One run that is so long tells as much as many.
             let told = !telling || self.compared >= effort.telling;
-            let enough = long || told && (self.compared >= effort.fewest || barren);
+            let enough = told && (self.compared >= effort.fewest || barren);
             let done = self.coverage.is_complete() && gone && enough;
             if self.witness.is_some()
                 || done

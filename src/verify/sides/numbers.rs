@@ -20,21 +20,15 @@ pub struct Numbers {
 impl Numbers {
     /// Those of files.
     pub fn of(control: &Control, files: &[LoadedFile<'_>]) -> Self {
-        let mut named = BTreeSet::new();
-        for file in files {
-            let text = file.parsed.source;
-            if control.classes().iter().any(|class| computes(text, class.name.as_bytes())) {
-                return Self { named: None };
-            }
-            for digits in text.split(|sign| !sign.is_ascii_digit()).filter(|digits| !digits.is_empty()) {
-                // What has more digits than a number of a variable is none.
-                let number = digits.iter().try_fold(0_u32, |number, sign| {
-                    number.checked_mul(10)?.checked_add(u32::from(sign - b'0'))
-                });
-                named.extend(number);
-            }
+        let texts = || files.iter().map(|file| file.parsed.source);
+        let computes = |text| control.classes().iter().any(|class| computes(text, class.name.as_bytes()));
+        if texts().any(computes) {
+            return Self { named: None };
         }
-        Self { named: Some(named) }
+        // A builder's code may read and set variables that only the machine's profile names.
+        let sites = control.profile().site.iter();
+        let by_codes = sites.flat_map(|code| code.reads.keys().chain(code.sets.keys())).map(String::as_bytes);
+        Self { named: Some(texts().chain(by_codes).flat_map(numbers).collect()) }
     }
 
     /// True if a text may mean a variable of this number or of one beside it, as the ends of a range do, and for one of
@@ -46,12 +40,20 @@ impl Numbers {
     }
 }
 
-/// True where something follows the name of a variable that computes its number.
+/// The whole numbers that stand in a text; what has more digits than the number of a variable is none.
+fn numbers(text: &[u8]) -> impl Iterator<Item = u32> + '_ {
+    let all = text.split(|sign| !sign.is_ascii_digit()).filter(|digits| !digits.is_empty());
+    all.filter_map(|digits| str::from_utf8(digits).ok()?.parse().ok())
+}
+
+/// True where something follows the name of a variable, in letters of either case, that computes its number.
 fn computes(text: &[u8], name: &[u8]) -> bool {
     let Some(first) = name.first() else { return false };
-    memchr::memchr_iter(*first, text).any(|at| {
-        let after = text.get(at..).and_then(|rest| rest.strip_prefix(name)).unwrap_or_default();
-        after.trim_ascii_start().first().is_some_and(|sign| COMPUTED.contains(sign))
+    memchr::memchr2_iter(first.to_ascii_lowercase(), first.to_ascii_uppercase(), text).any(|at| {
+        let (name_there, after) =
+            text.get(at..).and_then(|rest| rest.split_at_checked(name.len())).unwrap_or_default();
+        name_there.eq_ignore_ascii_case(name)
+            && after.trim_ascii_start().first().is_some_and(|sign| COMPUTED.contains(sign))
     })
 }
 
@@ -61,9 +63,12 @@ mod tests {
     use crate::syntax::parse_file;
 
     fn of(text: &str) -> Numbers {
-        let control = Control::plain("fanuc").unwrap();
+        on(&Control::plain("fanuc").unwrap(), text)
+    }
+
+    fn on(control: &Control, text: &str) -> Numbers {
         let parsed = parse_file(text.as_bytes(), control.entry().parse);
-        Numbers::of(&control, &[LoadedFile { name: "a.nc", parsed: &parsed }])
+        Numbers::of(control, &[LoadedFile { name: "a.nc", parsed: &parsed }])
     }
 
     #[test]
@@ -80,5 +85,18 @@ mod tests {
             assert!(of(text).may_mean(777, 1), "{text}");
         }
         assert!(!of("O1\n#1=[2]\nM30\n").may_mean(777, 1));
+        // A Fadal takes small letters.
+        let fadal = Control::plain("fadal").unwrap();
+        assert!(on(&fadal, "#v(r1)=1\nM2\n").may_mean(777, 1));
+        assert!(!on(&fadal, "#v1=1\nM2\n").may_mean(777, 1));
+    }
+
+    #[test]
+    fn a_builders_code_may_mean_what_the_profile_names() {
+        let profile = "dialect = \"fanuc\"\n[[site]]\ncode = \"M150\"\nname = \"air\"\ntext = \"reads the air\"\n\
+                       sets = { \"#777\" = \"pressure\" }\n";
+        let control = Control::from_profile(profile).unwrap();
+        assert!(on(&control, "O1\nM150\nM30\n").may_mean(777, 1));
+        assert!(!on(&control, "O1\nM150\nM30\n").may_mean(770, 1));
     }
 }

@@ -173,3 +173,11 @@ fn what_waits_at_an_alarm_of_the_source_shows_nowhere() {
     assert_eq!(found("#1=0"), Outcome::Undecided);
     assert_eq!(run("fanuc", &text(""), "haas", &text("G1X5.F100."), &[]).outcome, Outcome::Different);
 }
+
+/// The first run finds #1 vacant, where both sides go to 0, and takes over 60,000 blocks.
+#[test]
+fn a_long_program_is_compared_with_other_values_too() {
+    let program =
+        |by: u32| format!("O1\nG90\nG0X[#1*{by}.]\n#2=0\nWHILE[#2LT30000]DO1\n#2=#2+1\nEND1\nM30\n");
+    differs("fanuc", &program(2), &program(3), "the rapid move goes elsewhere");
+}
