@@ -94,16 +94,18 @@ fn reached(ways: &[BTreeSet<usize>], from: impl IntoIterator<Item = usize>) -> B
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
+impl Calls {
     /// Calls from and to.
-    fn calls(files: usize, all: &[(usize, usize)]) -> Calls {
-        let mut calls =
-            Calls { callees: vec![BTreeSet::new(); files], callers: vec![BTreeSet::new(); files] };
+    pub fn from_pairs(files: usize, all: &[(usize, usize)]) -> Self {
+        let mut calls = Self { callees: vec![BTreeSet::new(); files], callers: vec![BTreeSet::new(); files] };
         all.iter().for_each(|(from, to)| calls.add(*from, *to));
         calls
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
 
     fn groups(calls: &Calls, changed: &[usize]) -> Vec<(usize, Vec<usize>)> {
         let groups = calls.groups(&changed.iter().copied().collect());
@@ -113,7 +115,7 @@ mod tests {
     #[test]
     fn a_change_touches_what_calls_it_with_all_that_this_calls() {
         // 0 and 1 call 2, which calls 3; 1 calls 4; 5 stands alone.
-        let calls = calls(6, &[(0, 2), (1, 2), (2, 3), (1, 4)]);
+        let calls = Calls::from_pairs(6, &[(0, 2), (1, 2), (2, 3), (1, 4)]);
         assert_eq!(groups(&calls, &[3]), [(0, vec![0, 2, 3]), (1, vec![1, 2, 3, 4])]);
         assert_eq!(groups(&calls, &[4]), [(1, vec![1, 2, 3, 4])]);
         assert_eq!(groups(&calls, &[0]), [(0, vec![0, 2, 3])]);
@@ -122,13 +124,9 @@ mod tests {
 
     #[test]
     fn what_calls_itself_is_a_group() {
-        let calls = calls(4, &[(0, 1), (1, 0), (1, 2), (3, 0)]);
+        let calls = Calls::from_pairs(4, &[(0, 1), (1, 0), (1, 2), (3, 0)]);
         assert_eq!(groups(&calls, &[2]), [(3, vec![0, 1, 2, 3])]);
-        let alone = calls_alone();
+        let alone = Calls::from_pairs(2, &[(0, 1), (1, 0)]);
         assert_eq!(groups(&alone, &[1]), [(0, vec![0, 1])]);
-    }
-
-    fn calls_alone() -> Calls {
-        calls(2, &[(0, 1), (1, 0)])
     }
 }

@@ -6,12 +6,12 @@ use super::{Part, Request, Shelf};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::Control;
 use crate::ir::Module;
-use crate::library::{Conversion, Input, Lock, Options, Outcome, ProgramReport, convert, judge};
+use crate::library::{Conversion, Input, Lock, Options, Outcome, ProgramReport, convert, judge_telling};
 use crate::text::{LineIndex, Span};
 use crate::verify::{self, Effort};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a way there and back showed of a group, in a form that is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,13 +40,18 @@ pub fn findings(
     let told = calls.up(wanted.iter().copied());
     let groups = calls.groups(&wanted);
     let first = first_groups(&groups, &wanted);
-    let ways: Vec<(&Group, &(String, Control), usize)> = groups
+    let homes = homes(&calls, shelf.inputs.len());
+    let judged: Vec<[BTreeSet<usize>; 2]> = groups.iter().map(|group| judged(group, &homes, &told)).collect();
+    let ways: Vec<(&Group, &(String, Control), &[BTreeSet<usize>; 2], usize)> = groups
         .iter()
+        .zip(&judged)
         .zip(first)
-        .flat_map(|(group, files)| shelf.rounds.iter().map(move |round| (group, round, files)))
+        .flat_map(|((group, judged), files)| {
+            shelf.rounds.iter().map(move |round| (group, round, judged, files))
+        })
         .collect();
-    let walked = ways.par_iter().map(|(group, round, files)| {
-        let shown = known_or_found(shelf, group, round, request);
+    let walked = ways.par_iter().map(|(group, round, judged, files)| {
+        let shown = known_or_found(shelf, (group, judged), round, request);
         (request.done)(*files);
         shown
     });
@@ -78,10 +83,30 @@ fn first_groups(groups: &[Group], wanted: &BTreeSet<usize>) -> Vec<usize> {
     groups.iter().map(new).collect()
 }
 
+/// By file, the root of the first group of the whole library that holds it.
+fn homes(calls: &Calls, files: usize) -> BTreeMap<usize, usize> {
+    let mut homes = BTreeMap::new();
+    for group in calls.groups(&(0..files).collect()) {
+        for file in &group.files {
+            homes.entry(*file).or_insert(group.root);
+        }
+    }
+    homes
+}
+
+/// The files of a group whose programs are verified by themselves: all that ever are, and those that are told of. A program
+/// that several call is one of them in its first group; in the others the runs of its callers go through it.
+fn judged(group: &Group, homes: &BTreeMap<usize, usize>, told: &BTreeSet<usize>) -> [BTreeSet<usize>; 2] {
+    let here = |file: &&usize| homes.get(*file) == Some(&group.root);
+    let all: BTreeSet<usize> = group.files.iter().filter(here).copied().collect();
+    let some = all.intersection(told).copied().collect();
+    [all, some]
+}
+
 /// What the way of a group shows, and whether that was known.
 fn known_or_found(
     shelf: &Shelf,
-    group: &Group,
+    (group, [all, some]): (&Group, &[BTreeSet<usize>; 2]),
     (machine, away): &(String, Control),
     request: &Request<'_>,
 ) -> (Vec<Shown>, bool) {
@@ -92,13 +117,22 @@ fn known_or_found(
     for input in &inputs {
         parts.extend([input.name.as_bytes(), &input.bytes]);
     }
-    let key = request.cache.key(&parts);
-    if let Some(known) = request.cache.get(&key) {
+    let named = |judged: &BTreeSet<usize>| -> Vec<bool> {
+        group.files.iter().map(|file| judged.contains(file)).collect()
+    };
+    let key = |judged: &BTreeSet<usize>| {
+        let named: Vec<u8> = named(judged).into_iter().map(u8::from).collect();
+        request.cache.key(&[&parts[..], &[&named]].concat())
+    };
+    // What was found of more programs holds for some of them, too.
+    let known = request.cache.get(&key(all)).or_else(|| request.cache.get(&key(some)));
+    if let Some(known) = known {
         return (known, true);
     }
     let (home, away) = met(&shelf.control, away);
-    let shown = Way { machine, home: &home, away: &away, effort: request.effort }.walk(&inputs);
-    request.cache.put(&key, &shown);
+    let way = Way { machine, home: &home, away: &away, effort: request.effort };
+    let shown = way.walk(&inputs, &named(some));
+    request.cache.put(&key(some), &shown);
     (shown, false)
 }
 
@@ -120,14 +154,17 @@ struct Way<'a> {
 }
 
 impl Way<'_> {
-    /// Takes the files there and back, and there again.
-    fn walk(&self, inputs: &[Input]) -> Vec<Shown> {
+    /// Takes the files there and back, and there again; the programs of those that are `named` are verified by themselves.
+    fn walk(&self, inputs: &[Input], named: &[bool]) -> Vec<Shown> {
         let Self { machine, home, away, effort } = self;
         let mut first = plain(inputs, home, away);
-        judge(inputs, &mut first, home, away, *effort);
+        judge_telling(inputs, &mut first, (home, away), (*effort, named), &|_| ());
         let there = texts_of(inputs, &first);
         let mut second = plain(&there, away, home);
-        judge(&there, &mut second, away, home, *effort);
+        let is_named =
+            |name: &str| inputs.iter().zip(named).any(|(input, named)| *named && input.name == name);
+        let named_there: Vec<bool> = there.iter().map(|input| is_named(&input.name)).collect();
+        judge_telling(&there, &mut second, (away, home), (*effort, &named_there), &|_| ());
         let mut shown = Vec::new();
         let owners: Vec<Option<usize>> = second
             .programs
@@ -173,7 +210,7 @@ impl Way<'_> {
                 continue;
             }
             let open = [program].into_iter().chain(back).find(|program| undecided(program));
-            if let Some(open) = open {
+            if let Some(open) = open.filter(|_| named[program.file]) {
                 let why = open.diagnostics.iter().find(|d| d.code == Code::NotDecided);
                 let why = why.map_or("", |why| &*why.message);
                 let message = format!("no difference was found on the way to {machine} and back, but {why}");
@@ -276,7 +313,26 @@ fn first_difference(before: &[u8], after: &[u8]) -> Option<[String; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use super::{first_difference, owner};
+    use super::super::groups::Calls;
+    use super::{BTreeSet, first_difference, homes, judged, owner};
+
+    /// Programs 0 and 1 call 2; 3 stands alone.
+    #[test]
+    fn what_several_call_is_verified_by_itself_once() {
+        let calls = Calls::from_pairs(4, &[(0, 2), (1, 2)]);
+        let homes = homes(&calls, 4);
+        let of = |wanted: &[usize]| -> Vec<[Vec<usize>; 2]> {
+            let wanted: BTreeSet<usize> = wanted.iter().copied().collect();
+            let told = calls.up(wanted.iter().copied());
+            let groups = calls.groups(&wanted);
+            let judged = groups.iter().map(|group| judged(group, &homes, &told));
+            judged.map(|both| both.map(|files| files.into_iter().collect())).collect()
+        };
+        assert_eq!(of(&[0, 1, 2, 3]), [[vec![0, 2], vec![0, 2]], [vec![1], vec![1]], [vec![3], vec![3]]]);
+        assert_eq!(of(&[2]), [[vec![0, 2], vec![0, 2]], [vec![1], vec![1]]]);
+        assert_eq!(of(&[1]), [[vec![1], vec![1]]]);
+        assert_eq!(of(&[0]), [[vec![0, 2], vec![0]]]);
+    }
 
     /// The text begins with the frame of its file, and a refused program may say nothing of its place.
     #[test]
