@@ -12,6 +12,7 @@ use crate::verify::{self, Effort};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
 /// What a way there and back showed of a group, in a form that is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,16 +43,17 @@ pub fn findings(
     let first = first_groups(&groups, &wanted);
     let homes = homes(&calls, shelf.inputs.len());
     let judged: Vec<[BTreeSet<usize>; 2]> = groups.iter().map(|group| judged(group, &homes, &told)).collect();
-    let ways: Vec<(&Group, &(String, Control), &[BTreeSet<usize>; 2], usize)> = groups
+    let machines: Vec<Machines<'_>> = shelf.rounds.iter().map(|round| Machines::of(shelf, round)).collect();
+    let ways: Vec<(&Group, &Machines<'_>, &[BTreeSet<usize>; 2], usize)> = groups
         .iter()
         .zip(&judged)
         .zip(first)
         .flat_map(|((group, judged), files)| {
-            shelf.rounds.iter().map(move |round| (group, round, judged, files))
+            machines.iter().map(move |machines| (group, machines, judged, files))
         })
         .collect();
-    let walked = ways.par_iter().map(|(group, round, judged, files)| {
-        let shown = known_or_found(shelf, (group, judged), round, request);
+    let walked = ways.par_iter().map(|(group, machines, judged, files)| {
+        let shown = known_or_found(shelf, (group, judged), machines, request);
         (request.done)(*files);
         shown
     });
@@ -103,17 +105,35 @@ fn judged(group: &Group, homes: &BTreeMap<usize, usize>, told: &BTreeSet<usize>)
     [all, some]
 }
 
+/// The machine that programs are for, and one that they go to and come back from.
+struct Machines<'a> {
+    /// The name of the second.
+    name: &'a str,
+    home: &'a Control,
+    away: &'a Control,
+    /// What the profiles of both say.
+    profiles: String,
+    /// Both, when they know of each other.
+    met: OnceLock<(Control, Control)>,
+}
+
+impl<'a> Machines<'a> {
+    fn of(shelf: &'a Shelf, (name, away): &'a (String, Control)) -> Self {
+        let profiles = format!("{:?}\n{:?}", shelf.control.profile(), away.profile());
+        Self { name, home: &shelf.control, away, profiles, met: OnceLock::new() }
+    }
+}
+
 /// What the way of a group shows, and whether that was known.
 fn known_or_found(
     shelf: &Shelf,
     (group, [all, some]): (&Group, &[BTreeSet<usize>; 2]),
-    (machine, away): &(String, Control),
+    machines: &Machines<'_>,
     request: &Request<'_>,
 ) -> (Vec<Shown>, bool) {
     let inputs: Vec<Input> = group.files.iter().map(|file| shelf.inputs[*file].clone()).collect();
-    let profiles = format!("{:?}\n{:?}", shelf.control.profile(), away.profile());
-    let effort = format!("{machine}\n{:?}", request.effort);
-    let mut parts: Vec<&[u8]> = vec![b"round", profiles.as_bytes(), effort.as_bytes()];
+    let effort = format!("{}\n{:?}", machines.name, request.effort);
+    let mut parts: Vec<&[u8]> = vec![b"round", machines.profiles.as_bytes(), effort.as_bytes()];
     for input in &inputs {
         parts.extend([input.name.as_bytes(), &input.bytes]);
     }
@@ -129,8 +149,8 @@ fn known_or_found(
     if let Some(known) = known {
         return (known, true);
     }
-    let (home, away) = met(&shelf.control, away);
-    let way = Way { machine, home: &home, away: &away, effort: request.effort };
+    let (home, away) = machines.met.get_or_init(|| met(machines.home, machines.away));
+    let way = Way { machine: machines.name, home, away, effort: request.effort };
     let shown = way.walk(&inputs, &named(some));
     request.cache.put(&key(some), &shown);
     (shown, false)

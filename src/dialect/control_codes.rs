@@ -49,6 +49,11 @@ impl Control {
         self.codes.get(&head).into_iter().flatten().filter_map(|(at, _)| self.dialect.codes.get(*at))
     }
 
+    /// True where words beside a code may change what it means.
+    pub fn depends_on_words(&self, head: CodeHead) -> bool {
+        self.codes.get(&head).into_iter().flatten().any(|(_, beside)| !beside.is_empty())
+    }
+
     /// The setting, `name=value`, under which the control has a code that it has not as it is set.
     pub fn code_under(&self, letter: char, number: f64) -> Option<&str> {
         let head = CodeHead::new(letter, number)?;

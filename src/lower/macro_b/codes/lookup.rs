@@ -95,8 +95,7 @@ impl<'c> Codes<'c> {
     }
 
     fn add(&mut self, head: CodeHead) -> CodeId {
-        let same = self.control.dialect().codes.iter().filter(|row| row.head() == Some(head));
-        let depends = same.into_iter().any(|row| row.beside().is_none_or(|words| !words.is_empty()));
+        let depends = self.control.depends_on_words(head);
         let (letter, number) = (head.letter, head.number());
         self.list.push(Coded {
             head,
