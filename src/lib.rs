@@ -18,6 +18,7 @@ pub mod lint;
 pub mod lower;
 pub mod opt;
 pub mod report;
+pub mod survey;
 pub mod syntax;
 pub mod text;
 pub mod verify;

@@ -17,7 +17,7 @@ use support::{root, rust_files, text};
 /// outside, because it is the list of what each dialect has in every room.
 const ROOMS: &[&str] = &[
     "text", "canon", "assume", "diag", "dialect", "syntax", "ir", "lower", "opt", "legalize", "emit",
-    "control", "verify", "library", "lint", "diff", "check", "report", "cli",
+    "control", "verify", "library", "lint", "diff", "check", "report", "survey", "cli",
 ];
 
 /// The rooms inside folders, from left to right: none imports from one further right, nor what the folder offers others.

@@ -21,6 +21,7 @@ mod parse;
 mod run;
 mod shelves;
 mod streams;
+mod survey;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -36,6 +37,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Look over a library: what it is, and what must be known of its machines before it is converted
+    Survey(survey::Arguments),
     /// Convert programs, whole folders at once, for another control
     Convert(convert::Arguments),
     /// Check programs before they are committed: read, lint, round trips, fresh conversions
@@ -82,6 +85,7 @@ pub fn main() -> ExitCode {
         std::process::exit(INTERRUPTED);
     });
     let code = match cli.command {
+        Command::Survey(arguments) => survey::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Parse(arguments) => parse::run(&arguments),

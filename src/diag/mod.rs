@@ -34,18 +34,27 @@ pub struct Diagnostic {
     pub help: Option<Arc<str>>,
     /// What the conversion supposes there.
     pub assumes: Option<Arc<Predicate>>,
+    /// The code, letter and number, of which the source's machine profile may say what the builder made of it.
+    pub asks: Option<(char, f64)>,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
     pub fn new(code: Code, span: Span, message: impl Into<Arc<str>>) -> Self {
-        Self { code, span, message: message.into(), help: None, assumes: None }
+        Self { code, span, message: message.into(), help: None, assumes: None, asks: None }
     }
 
     /// Adds what to do about it.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<Arc<str>>) -> Self {
         self.help = Some(help.into());
+        self
+    }
+
+    /// Names the code whose meaning the source's machine profile may say.
+    #[must_use]
+    pub fn asking(mut self, letter: char, number: f64) -> Self {
+        self.asks = Some((letter, number));
         self
     }
 

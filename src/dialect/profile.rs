@@ -267,6 +267,20 @@ impl Profile {
     }
 }
 
+impl Profile {
+    /// Where an entry stands in the text that it was read from: `confirm`, or `settings:162`.
+    pub fn place(&self, entry: &str) -> Option<std::ops::Range<usize>> {
+        self.places.get(entry).cloned()
+    }
+
+    /// What it says, wherever that stood.
+    #[must_use]
+    pub fn without_places(mut self) -> Self {
+        self.places.clear();
+        self
+    }
+}
+
 /// `6004.0 = 1` reaches us as a table in a table: it is the parameter `6004.0`. So is `divide.by.zero = "alarm"`.
 fn flatten(table: &mut DeTable<'_>, depth: u32) {
     for (key, value) in std::mem::take(table) {

@@ -71,6 +71,13 @@ pub fn detect(inputs: &[Input]) -> Detected {
     }
 }
 
+/// By control, how much of the heads of the files it reads without fault and has the codes of: 1 is all. The best is first.
+pub fn likeness(inputs: &[Input]) -> Vec<(&'static Entry, f64)> {
+    let mut all = of_all(&scores(inputs, if inputs.len() <= FEW { HEAD } else { SHORT }));
+    all.sort_by(|a, b| b.0.share().total_cmp(&a.0.share()));
+    all.into_iter().map(|(score, entry)| (entry, score.share())).collect()
+}
+
 /// What programs look like that are said to be written for `named`: a sentence, where another control clearly reads
 /// more of them, or of one file.
 pub fn looks_like(inputs: &[Input], named: &str) -> Option<String> {

@@ -33,7 +33,7 @@ mod withdrawn;
 
 pub use callees::linked_files;
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
-pub use detect::{Detected, detect, looks_like};
+pub use detect::{Detected, detect, likeness, looks_like};
 pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};

@@ -17,6 +17,7 @@ mod text;
 mod totals;
 mod trace;
 
+pub use asked::asked;
 pub use certificate::certificate;
 pub use date::Date;
 pub use drawn::Drawings;
@@ -25,7 +26,7 @@ pub use json::{conversion as json, write_conversion as write_json};
 pub use markdown::conversion as markdown;
 pub use part::{Part, Place};
 pub use plot::{Coordinates, PairOfRuns, backplot, pair, png};
-pub use questions::Questions;
+pub use questions::{Fact, Machine, Question, Questions};
 pub use sarif::conversion as sarif;
 pub use text::{Sheet, explain, left_out_text, outcomes, summary};
 pub use totals::Totals;

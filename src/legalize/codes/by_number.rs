@@ -94,6 +94,13 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             Some(help) => told.with_help(help),
             None => told,
         };
+        let told = match finding {
+            Finding::Other(name) => match name.get(1..).and_then(|number| number.parse().ok()) {
+                Some(number) => told.asking(*letter, number),
+                None => told,
+            },
+            Finding::Read(_) | Finding::Any(_) => told,
+        };
         context.add_once(*index, &what, told);
     }
 }

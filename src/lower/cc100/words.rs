@@ -122,7 +122,8 @@ impl<'a> Lowering<'a> {
             };
             let Some(row) = self.control.code(word.letter, number, &letters) else {
                 let message = format!("no source names {}{number} for this control", word.letter);
-                let finding = Diagnostic::new(Code::NotUnderstood, *span, message);
+                let finding =
+                    Diagnostic::new(Code::NotUnderstood, *span, message).asking(word.letter, number);
                 self.findings.add(finding.with_help(self.answered_by(word.letter, number)));
                 return None;
             };
@@ -130,7 +131,8 @@ impl<'a> Lowering<'a> {
             if matches!(row.op, Op::Builder | Op::MachineSpecific | Op::CycleOther) {
                 let message = format!("what {}{number} does is not known", word.letter);
                 let help = self.answered_by(word.letter, number);
-                let finding = Diagnostic::new(Code::NotUnderstood, *span, message);
+                let finding =
+                    Diagnostic::new(Code::NotUnderstood, *span, message).asking(word.letter, number);
                 self.findings.add(finding.with_help(help));
                 return None;
             }

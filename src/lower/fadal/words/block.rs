@@ -208,7 +208,8 @@ impl<'b> Lowering<'b> {
         let Some(row) = reading.codes.row(item) else {
             let number = constant(value).unwrap_or_default();
             let message = format!("the table has no meaning for {}{number}", word.letter);
-            let help = match self.control.code_under(word.letter, number) {
+            let setting = self.control.code_under(word.letter, number);
+            let help = match setting {
                 Some(setting) => {
                     let setting = setting.trim_start_matches("setting.");
                     format!("it has one if the machine profile has {setting} under [settings]")
@@ -220,7 +221,8 @@ impl<'b> Lowering<'b> {
                 ),
             };
             let finding = Diagnostic::new(Code::NotUnderstood, item.span, message).with_help(help);
-            self.findings.add(finding);
+            let of_builder = setting.is_none();
+            self.findings.add(if of_builder { finding.asking(word.letter, number) } else { finding });
             return None;
         };
         self.findings.rest_on(row, item.span);

@@ -142,7 +142,9 @@ impl<'a> Lowering<'a> {
 
     fn unknown_code(&mut self, id: CodeId, span: Span) {
         let Some(code) = self.codes.get(id) else { return };
-        let name = format!("{}{}", code.head.letter, code.head.number());
+        let (letter, number) = (code.head.letter, code.head.number());
+        let name = format!("{letter}{number}");
+        let of_builder = code.alias.is_none() && !code.depends;
         let message = if code.alias.is_some() {
             format!(
                 "{name} calls a program elsewhere; in a program that a code calls it is a plain code, and \
@@ -157,7 +159,8 @@ impl<'a> Lowering<'a> {
             "say in the machine profile what the builder made of it: [[site]] with code = \"{name}\", a text, and name, \
              target or do; or calls, if it calls a program"
         );
-        self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
+        let finding = Diagnostic::new(Code::NotUnderstood, span, message).with_help(help);
+        self.findings.add(if of_builder { finding.asking(letter, number) } else { finding });
     }
 
     fn operation(

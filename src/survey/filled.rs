@@ -1,0 +1,159 @@
+//! A machine profile with what a survey asks of it, as lines to fill in.
+//!
+//! What stands in the profile stays, byte for byte. Each question is a comment that begins with `#?`: who answers it takes
+//! these signs away. The next survey takes the questions out that are left, and puts its own in.
+
+use super::Survey;
+use crate::dialect::{Control, Profile, Settled, Side};
+use crate::report::{Fact, Questions};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// What a line begins with that is a question.
+const ASKS: &str = "#?";
+
+/// Places that are named beside a question, and letters of its text.
+const LONGEST: usize = 140;
+
+/// Why a profile could not be filled.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the questions do not fit into this profile: {0}. Write it in the form of machines/*.toml, with [sections]"
+)]
+pub struct Unfit(String);
+
+/// The profile's text with the questions of the survey. An `old` text is kept; without one a new profile begins.
+///
+/// # Errors
+/// If the questions cannot be put in without a change of what the profile says.
+pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<String, Unfit> {
+    let control = match side {
+        Side::Source => survey.controls[0],
+        Side::Target => survey.controls[1],
+    };
+    let fresh = || format!("dialect = \"{}\"\n", control.name());
+    let kept = old.map_or_else(fresh, without_questions);
+    let before = read(&kept)?;
+    let asked = survey.with_questions(|questions| lines(questions, control));
+    let mut text = kept.clone();
+    for (section, lines) in &asked {
+        text = inserted(&text, section, lines)?;
+    }
+    if side == Side::Source {
+        codes(&mut text, survey);
+    }
+    match read(&text)? == before {
+        true => Ok(text),
+        false => Err(Unfit("they would change what it says".into())),
+    }
+}
+
+fn read(text: &str) -> Result<Profile, Unfit> {
+    let read = Profile::read(text);
+    read.map(Profile::without_places).map_err(|faults| {
+        let first = faults.first().map(|fault| fault.message.to_string());
+        Unfit(first.unwrap_or_default())
+    })
+}
+
+/// The text without the questions of an earlier survey.
+fn without_questions(text: &str) -> String {
+    text.split_inclusive('\n').filter(|line| !line.trim_start().starts_with(ASKS)).collect()
+}
+
+/// The questions of a machine as lines, by section of its profile; those of most programs first.
+fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str, String> {
+    let mut all: BTreeMap<&'static str, String> = BTreeMap::new();
+    let is_it = |of: &Control| of.name() == control.name() && of.profile().file == control.profile().file;
+    for fact in questions.machines.iter().filter(|machine| is_it(machine.control)).flat_map(|m| &m.facts) {
+        let (section, line) = match &fact.settled_by {
+            Settled::Confirmed(name) => ("confirm", format!("\"{name}\",")),
+            Settled::Setting { section, name, values } => (*section, choice(name, values)),
+            Settled::Answer { question, answers } => ("behaviours", format!("\"{question}\" = {answers}")),
+        };
+        let _ = writeln!(all.entry(section).or_default(), "{ASKS} {line} # {}", about(fact));
+    }
+    all
+}
+
+/// A setting with the first of its values, and the others beside it.
+fn choice(name: &str, values: &[String]) -> String {
+    format!("{name} = \"{}\"", values.join("\" or \""))
+}
+
+fn about(fact: &Fact<'_>) -> String {
+    let asked = &fact.asked;
+    let text: String = plain(asked.text).chars().take(LONGEST).collect();
+    let programs = if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
+    format!("{text} ({programs}{})", plain(&asked.places.join(", ")))
+}
+
+/// Text that stays on its line, and is a comment.
+fn plain(text: &str) -> String {
+    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+}
+
+/// The text with lines in a section: before what stands there, or in a section of their own.
+fn inserted(text: &str, section: &str, lines: &str) -> Result<String, Unfit> {
+    let profile = Profile::read(text).map_err(|_| Unfit("it cannot be read".into()))?;
+    if section == "confirm" {
+        let Some(list) = profile.place("confirm") else {
+            // It stands at the top, before all sections.
+            let head = profile.place("dialect").map(|place| place.end).unwrap_or_default();
+            let head =
+                text.get(head..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| head + end + 1);
+            return Ok(spliced(text, head, &format!("confirm = [\n{lines}]\n")));
+        };
+        return Ok(spliced(text, list.start + 1, &format!("\n{lines}")));
+    }
+    let header = format!("[{section}]");
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        at += line.len();
+        if line.trim_end() == header || line.trim_end().starts_with(&format!("{header} ")) {
+            let end = if line.ends_with('\n') { "" } else { "\n" };
+            return Ok(spliced(text, at, &format!("{end}{lines}")));
+        }
+    }
+    if profile.place(section).is_some() {
+        return Err(Unfit(format!("'{section}' is no section")));
+    }
+    // A section that holds only questions says nothing, and stands last but for the codes.
+    let end = if text.is_empty() || text.ends_with('\n') { "" } else { "\n" };
+    let first_site = text.find("\n[[").map_or(text.len(), |at| at + 1);
+    Ok(spliced(text, first_site, &format!("{end}\n{header}\n{lines}\n")))
+}
+
+fn spliced(text: &str, at: usize, more: &str) -> String {
+    let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
+    format!("{before}{more}{after}")
+}
+
+/// The codes of the machine's builder, each as a row to fill in.
+fn codes(text: &mut String, survey: &Survey<'_>) {
+    if survey.codes.is_empty() {
+        return;
+    }
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    let _ = writeln!(
+        text,
+        "{ASKS} What the machine's builder made of these codes: docs/builders-codes.md. Give each a name (and the"
+    );
+    let _ = writeln!(
+        text,
+        "{ASKS} target's code the same one), or target = \"M88\", or do = \"omit\", \"stop\", \"same\" or \"alarm\"."
+    );
+    for code in &survey.codes {
+        let programs =
+            if code.programs == 1 { String::new() } else { format!("{} programs: ", code.programs) };
+        let _ = writeln!(text, "{ASKS} [[site]] # {programs}{}", plain(&code.places.join(", ")));
+        let _ = writeln!(text, "{ASKS} code = \"{}\"", code.code);
+        let said = code.comment.as_ref().map_or(String::new(), |(comment, _)| comment.clone());
+        let said: String =
+            said.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
+        let _ = writeln!(text, "{ASKS} text = \"{said}\" # as in: {}", plain(&code.block));
+        let _ = writeln!(text, "{ASKS} name = \"\"");
+    }
+}

@@ -1,0 +1,81 @@
+//! A survey for programs. Its keys are a contract.
+
+use super::{AskedCode, Outcomes, Shape, Survey};
+use crate::diag::{Code, Severity};
+use crate::report::{Question, Questions};
+use serde::Serialize;
+
+#[derive(Serialize)]
+struct Report<'a> {
+    from: &'a str,
+    to: Option<&'a str>,
+    library: &'a Shape,
+    codes: &'a [AskedCode],
+    questions: Vec<Asked<'a>>,
+    now: Outcomes,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answered: Option<Outcomes>,
+    stays: Vec<Stays<'a>>,
+}
+
+#[derive(Serialize)]
+struct Asked<'a> {
+    code: Code,
+    severity: Severity,
+    message: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    help: Option<&'a str>,
+    programs: usize,
+    places: &'a [String],
+    /// The control whose profile answers it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    machine: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct Stays<'a> {
+    why: &'a str,
+    programs: usize,
+}
+
+/// The survey as JSON text.
+pub fn json(survey: &Survey<'_>) -> String {
+    let stays = survey.stays.iter().map(|(why, programs)| Stays { why, programs: *programs }).collect();
+    let [source, target] = survey.controls;
+    survey.with_questions(|questions| {
+        let report = Report {
+            from: source.name(),
+            to: survey.goes.then(|| target.name()),
+            library: &survey.shape,
+            codes: &survey.codes,
+            questions: all(questions),
+            now: survey.now,
+            answered: survey.answered,
+            stays,
+        };
+        // All keys are texts, and writing to memory cannot fail.
+        let mut text = serde_json::to_string_pretty(&report).unwrap_or_default();
+        text.push('\n');
+        text
+    })
+}
+
+fn all<'q>(questions: &'q Questions<'_>) -> Vec<Asked<'q>> {
+    let open = questions.open.iter().map(|question| asked(question, None));
+    let of = questions.machines.iter().flat_map(|machine| {
+        machine.facts.iter().map(|fact| asked(&fact.asked, Some(machine.control.name())))
+    });
+    open.chain(of).collect()
+}
+
+fn asked<'q>(question: &'q Question<'_>, machine: Option<&'q str>) -> Asked<'q> {
+    Asked {
+        code: question.code,
+        severity: question.code.severity(),
+        message: question.text,
+        help: question.help,
+        programs: question.programs,
+        places: &question.places,
+        machine,
+    }
+}

@@ -1,0 +1,179 @@
+//! One look over a library before it is converted: what it is, and what must be known of its machines.
+//!
+//! Nothing is written and nothing is run. What the conversion would ask stands here once each, with how many programs wait for
+//! it, and what would become of the library now, and once all of it is answered.
+
+mod answered;
+mod beside;
+mod codes;
+mod filled;
+mod json;
+mod shape;
+mod text;
+
+pub use codes::AskedCode;
+pub use filled::{Unfit, filled};
+pub use json::json;
+pub use shape::{Missing, Shape};
+pub use text::text;
+
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::dialect::Control;
+use crate::library::{
+    Conversion, Input, Lock, Options, Outcome, ProgramReport, Told, Understood, convert, understood,
+};
+use crate::report::{Part, Questions};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What a look over a library showed.
+pub struct Survey<'a> {
+    inputs: &'a [Input],
+    /// The machine that its programs are for, and the one that they are to go to; twice the first if no other was named.
+    controls: [&'a Control; 2],
+    /// True if a target was named.
+    goes: bool,
+    /// What the library is.
+    pub shape: Shape,
+    /// The codes of which a profile must say what the machine's builder made of them; what frees most programs is first.
+    pub codes: Vec<AskedCode>,
+    /// What is found in its programs, but for those codes and for calls of programs that are missing.
+    rest: Conversion,
+    /// What would become of it now.
+    pub now: Outcomes,
+    /// What would become of it once all that profiles can answer is answered; none if no target was named.
+    pub answered: Option<Outcomes>,
+    /// Why programs stay refused then, with how many of them say so; the most frequent first.
+    pub stays: Vec<(String, usize)>,
+}
+
+/// How many programs come out how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Outcomes {
+    /// Programs that need no look.
+    pub converted: usize,
+    /// Programs that a person must look at.
+    pub review: usize,
+    /// Programs without a conversion.
+    pub refused: usize,
+}
+
+impl Outcomes {
+    fn of(programs: &[ProgramReport]) -> Self {
+        let count = |outcome| programs.iter().filter(|program| program.outcome == outcome).count();
+        let [converted, review, refused] = [Outcome::Converted, Outcome::Review, Outcome::Refused].map(count);
+        Self { converted, review, refused }
+    }
+
+    /// Programs that are written.
+    pub fn written(self) -> usize {
+        self.converted + self.review
+    }
+}
+
+/// Looks over the library.
+pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a Control>) -> Survey<'a> {
+    let library = understood(inputs, source);
+    let shape = Shape::of(inputs, &library);
+    let mut conversion = match target {
+        Some(target) => plain(inputs, source, target),
+        None => as_read(inputs, source, library),
+    };
+    let now = Outcomes::of(&conversion.programs);
+    let codes = codes::asked(inputs, source, &conversion.programs);
+    for program in &mut conversion.programs {
+        program.diagnostics.retain(|finding| finding.asks.is_none() && finding.code != Code::OutsideLibrary);
+    }
+    let controls = [source, target.unwrap_or(source)];
+    let goes = target.is_some();
+    let mut survey = Survey {
+        inputs,
+        controls,
+        goes,
+        shape,
+        codes,
+        rest: conversion,
+        now,
+        answered: None,
+        stays: Vec::new(),
+    };
+    if target.is_some() {
+        let [source, target] = answered::controls(&survey);
+        let then = plain(inputs, &source, &target);
+        survey.answered = Some(Outcomes::of(&then.programs));
+        survey.stays = reasons(&then.programs);
+    }
+    survey
+}
+
+impl Survey<'_> {
+    /// What it asks beside the codes, each thing once.
+    pub fn with_questions<T>(&self, look: impl FnOnce(&Questions<'_>) -> T) -> T {
+        let part = Part {
+            from: self.controls[0].name(),
+            to: self.controls[1].name(),
+            controls: self.controls,
+            inputs: self.inputs,
+            named: &[],
+            conversion: &self.rest,
+            certificates: None,
+            targets: &[],
+            notes: &[],
+            advice: None,
+            folder: &Told::default(),
+            left_out: &[],
+            verbose: false,
+        };
+        look(&Questions::of(&[part]))
+    }
+}
+
+fn plain(inputs: &[Input], source: &Control, target: &Control) -> Conversion {
+    convert(inputs, source, target, Lock::new(source.name(), target.name()), Options::default())
+}
+
+/// A library that goes nowhere: what its own control understands of it.
+fn as_read(inputs: &[Input], source: &Control, library: Understood) -> Conversion {
+    let programs = library.module.programs.iter().zip(library.found).map(|(program, diagnostics)| {
+        let gravest = diagnostics.iter().map(Diagnostic::severity).max();
+        let outcome = match gravest {
+            Some(Severity::Error) => Outcome::Refused,
+            Some(Severity::Review) => Outcome::Review,
+            Some(Severity::Note) | None => Outcome::Converted,
+        };
+        let name = program.name.as_ref().map(ToString::to_string);
+        ProgramReport {
+            file: program.file,
+            name,
+            outcome,
+            verdict: None,
+            diagnostics,
+            map: Vec::new(),
+            range: 0..0,
+        }
+    });
+    Conversion {
+        programs: programs.collect(),
+        texts: vec![None; inputs.len()],
+        lock: Lock::new(source.name(), source.name()),
+        taken: String::new(),
+        states_reserved: false,
+        links: Vec::new(),
+    }
+}
+
+/// The errors of refused programs, each text once with how many programs have it.
+fn reasons(programs: &[ProgramReport]) -> Vec<(String, usize)> {
+    let mut all: BTreeMap<String, usize> = BTreeMap::new();
+    for program in programs.iter().filter(|program| program.outcome == Outcome::Refused) {
+        let errors = program.diagnostics.iter().filter(|finding| finding.severity() == Severity::Error);
+        let mut told: Vec<String> =
+            errors.map(|finding| format!("{} {}", finding.code.number(), finding.message)).collect();
+        told.sort();
+        told.dedup();
+        told.into_iter().for_each(|text| *all.entry(text).or_default() += 1);
+    }
+    let mut all: Vec<(String, usize)> = all.into_iter().collect();
+    all.sort_by_key(|(_, programs)| std::cmp::Reverse(*programs));
+    all
+}

@@ -1,0 +1,115 @@
+//! A survey for people.
+
+use super::{AskedCode, Missing, Outcomes, Shape, Survey};
+use crate::report::asked;
+use crate::text::shown;
+use std::fmt::Write;
+
+/// Things of one kind that are named before the rest is counted.
+const LISTED: usize = 20;
+
+/// The survey as text.
+pub fn text(survey: &Survey<'_>) -> String {
+    let mut out = String::new();
+    shape(&mut out, &survey.shape);
+    if !survey.codes.is_empty() {
+        codes(&mut out, &survey.codes);
+    }
+    out.push_str(&survey.with_questions(asked));
+    ends(&mut out, survey);
+    out
+}
+
+fn shape(out: &mut String, shape: &Shape) {
+    let Shape { files, programs, reads, lathe, lathe_sign, called, missing, twice, folders } = shape;
+    let _ = writeln!(out, "programs  {programs} in {files} files");
+    let reads: Vec<String> = reads.iter().map(|(title, share)| format!("{title} {share} %")).collect();
+    let _ = writeln!(out, "control   how much of its text each control reads: {}", reads.join(", "));
+    if let Some((sign, place)) = lathe_sign {
+        let mill = programs - lathe;
+        let (sign, place) = (shown(sign), shown(place));
+        let _ = writeln!(out, "machine   {mill} for a mill, {lathe} look like a lathe's ({sign}: {place})");
+    }
+    let _ = writeln!(out, "calls     {called} programs of it are called by others of it");
+    for Missing { name, programs, places } in missing.iter().take(LISTED) {
+        let (name, places) = (shown(name), shown(&places.join(", ")).into_owned());
+        let _ = writeln!(out, "missing   {name}, which {} call: {places}", count(*programs));
+    }
+    more(out, "missing", missing.len());
+    for (name, files) in twice.iter().take(LISTED) {
+        let _ = writeln!(out, "twice     {}: {}", shown(name), shown(&files.join(", ")));
+    }
+    more(out, "twice", twice.len());
+    if !folders.is_empty() {
+        let folders: Vec<&str> =
+            folders.iter().map(|folder| if folder.is_empty() { "." } else { folder.as_str() }).collect();
+        let _ = writeln!(
+            out,
+            "          If {} are libraries of several machines, survey and convert each by itself.",
+            shown(&folders.join(", "))
+        );
+    }
+}
+
+fn more(out: &mut String, kind: &str, all: usize) {
+    match all.saturating_sub(LISTED) {
+        0 => {}
+        more => _ = writeln!(out, "{kind:<9} and {more} more; --format json has all"),
+    }
+}
+
+fn count(programs: usize) -> String {
+    if programs == 1 { "1 program".into() } else { format!("{programs} programs") }
+}
+
+fn codes(out: &mut String, codes: &[AskedCode]) {
+    out.push_str(
+        "\nCodes that the control's table does not know: what did the machine's builder make of them?\n",
+    );
+    out.push_str(
+        "The source's profile says it in [[site]]; the manual of the machine, not of the control, knows.\n",
+    );
+    for AskedCode { code, programs, frees, places, comment, block } in codes {
+        let frees = if *frees > 0 { format!(", {frees} wait for nothing else") } else { String::new() };
+        let places = places.join(", ");
+        let _ = writeln!(out, "  {code:<6} {}{frees}: {}", count(*programs), shown(&places));
+        let _ = match comment {
+            Some((comment, times)) => {
+                writeln!(out, "         ({}) stands beside it, {times} x", shown(comment))
+            }
+            None => writeln!(out, "         {}", shown(block)),
+        };
+    }
+}
+
+fn ends(out: &mut String, survey: &Survey<'_>) {
+    let line = |what: &str, outcomes: &Outcomes| {
+        let Outcomes { converted, review, refused } = outcomes;
+        format!("{what:<9} {converted} converted, {review} for review, {refused} refused\n")
+    };
+    out.push('\n');
+    if !survey.goes {
+        let Outcomes { refused, .. } = survey.now;
+        let _ =
+            writeln!(out, "{} not understood; --to says what they would be on another control", are(refused));
+        return;
+    }
+    out.push_str(&line("now", &survey.now));
+    if let Some(answered) = &survey.answered {
+        out.push_str(&line("answered", answered));
+    }
+    if !survey.stays.is_empty() {
+        out.push_str("\nWhat no profile answers:\n");
+    }
+    for (why, programs) in survey.stays.iter().take(LISTED) {
+        let _ = writeln!(out, "  {}: {}", count(*programs), shown(why));
+    }
+    let left = survey.stays.len().saturating_sub(LISTED);
+    if left > 0 {
+        let _ = writeln!(out, "  and {left} more; --format json has all");
+    }
+}
+
+fn are(programs: usize) -> String {
+    if programs == 1 { "1 program is".into() } else { format!("{programs} programs are") }
+}
