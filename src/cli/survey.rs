@@ -1,8 +1,8 @@
 //! `macroglot survey PATH...`.
 
+use super::WELL;
 use super::common::{self, control, controls, dialect_of, doubt, own_profile, read};
 use super::streams::{self, complain, remark};
-use super::WELL;
 use crate::dialect::Side;
 use crate::library::{Files, write_file};
 use crate::survey::{self, Survey};

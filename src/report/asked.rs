@@ -9,8 +9,9 @@ use std::fmt::Write;
 /// Questions of one code that concern one program each, before the rest of them is counted.
 const ALONE: usize = 3;
 
-/// What a person must look at, and the lines of machine profiles that answer what they can.
-pub fn asked(questions: &Questions<'_>) -> String {
+/// What a person must look at, and the lines of machine profiles that answer what they can. `all_by` is what shows the rest of
+/// what is counted alone: `--verbose draws`.
+pub fn asked(questions: &Questions<'_>, all_by: &str) -> String {
     let mut out = String::new();
     for all in questions.open.chunk_by(|a, b| a.code == b.code) {
         let Some(Question { code, .. }) = all.first() else { continue };
@@ -19,8 +20,8 @@ pub fn asked(questions: &Questions<'_>) -> String {
         shared.iter().chain(alone.iter().take(ALONE)).for_each(|question| open(&mut out, question));
         match alone.len().saturating_sub(ALONE) {
             0 => {}
-            1 => out.push_str("  and one more, in one program; --verbose draws it\n"),
-            more => _ = writeln!(out, "  and {more} more, each in one program; --verbose draws them"),
+            1 => _ = writeln!(out, "  and one more, in one program; {all_by} it"),
+            more => _ = writeln!(out, "  and {more} more, each in one program; {all_by} them"),
         }
     }
     if !questions.machines.is_empty() {
@@ -29,8 +30,8 @@ pub fn asked(questions: &Questions<'_>) -> String {
     questions.machines.iter().for_each(|machine| profile(&mut out, machine));
     match questions.notes {
         0 => {}
-        1 => out.push_str("\n1 note, which asks nothing; --verbose draws it\n"),
-        more => _ = writeln!(out, "\n{more} notes, which ask nothing; --verbose draws them"),
+        1 => _ = writeln!(out, "\n1 note, which asks nothing; {all_by} it"),
+        more => _ = writeln!(out, "\n{more} notes, which ask nothing; {all_by} them"),
     }
     out
 }

@@ -220,7 +220,7 @@ fn told(parts: &[Part<'_>], asks: bool) -> String {
         out.push_str(&left_out_text(part.left_out, part.verbose));
     }
     if asks {
-        let questions = asked(&Questions::of(parts));
+        let questions = asked(&Questions::of(parts), "--verbose draws");
         if !questions.is_empty() {
             let _ = writeln!(out, "{questions}");
         }

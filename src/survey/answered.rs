@@ -1,10 +1,10 @@
 //! The machines of a survey, as they are once all that is asked of their profiles is answered.
 //!
-//! What the answers will be nobody knows yet: a code does the same there, a setting has its first value, and what no manual
-//! confirms is so. How many programs are written then does not hang on which answer it is, as far as one more look can tell.
+//! What the answers will be nobody knows yet. A code is taken to be left out, what no manual confirms to be so, and a question
+//! to have the answer of the other machine, or else its first one: so many programs are written at the most.
 
 use super::Survey;
-use crate::dialect::{Control, Plain, Profile, Settled, SiteCode, Without};
+use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Without};
 use crate::report::Questions;
 use std::collections::BTreeMap;
 
@@ -14,18 +14,20 @@ type Answer = Box<dyn Fn(&mut Profile)>;
 /// Both machines.
 pub(super) fn controls(survey: &Survey<'_>) -> [Control; 2] {
     let [source, target] = survey.controls;
-    let asked = |control: &Control| survey.with_questions(|questions| facts(questions, control));
+    let asked = |control: &Control, other: &Control| {
+        survey.with_questions(|questions| facts(questions, control, other))
+    };
     let codes = survey.codes.iter().map(|asked| -> Answer {
         let code = asked.code.clone();
         Box::new(move |profile| profile.site.push(site(&code)))
     });
-    let source = with(source, codes.chain(asked(source)).collect());
-    let target = with(target, asked(target));
-    let as_they_are = [source.clone(), target.clone()];
-    Control::meeting(source, target).map_or(as_they_are, |(source, target)| [source, target])
+    let answered = with(source, codes.chain(asked(source, target)).collect());
+    let target = with(target, asked(target, source));
+    let as_they_are = [answered.clone(), target.clone()];
+    Control::meeting(answered, target).map_or(as_they_are, |(source, target)| [source, target])
 }
 
-/// A code that the target has too.
+/// A code that means nothing to the target.
 fn site(code: &str) -> SiteCode {
     SiteCode {
         code: code.to_owned(),
@@ -35,7 +37,7 @@ fn site(code: &str) -> SiteCode {
         fixed: BTreeMap::new(),
         words: BTreeMap::new(),
         target: None,
-        without: Some(Without::Same),
+        without: Some(Without::Omit),
         calls: None,
         arguments: false,
         reads: BTreeMap::new(),
@@ -45,13 +47,16 @@ fn site(code: &str) -> SiteCode {
 }
 
 /// The answers to what is asked of a machine.
-fn facts(questions: &Questions<'_>, control: &Control) -> Vec<Answer> {
+fn facts(questions: &Questions<'_>, control: &Control, other: &Control) -> Vec<Answer> {
     let is_it = |of: &Control| of.name() == control.name() && of.profile().file == control.profile().file;
     let machines = questions.machines.iter().filter(|machine| is_it(machine.control));
-    machines.flat_map(|machine| &machine.facts).filter_map(|fact| answer(fact.settled_by.clone())).collect()
+    machines
+        .flat_map(|machine| &machine.facts)
+        .filter_map(|fact| answer(fact.settled_by.clone(), other))
+        .collect()
 }
 
-fn answer(settled: Settled) -> Option<Answer> {
+fn answer(settled: Settled, other: &Control) -> Option<Answer> {
     Some(match settled {
         Settled::Confirmed(fact) => Box::new(move |profile| profile.confirm.push(fact.clone())),
         Settled::Setting { section, name, values } => {
@@ -63,7 +68,10 @@ fn answer(settled: Settled) -> Option<Answer> {
             })
         }
         Settled::Answer { question, answers } => {
-            let first = answers.split(" or ").next()?.trim_matches('"').to_owned();
+            let there = Question::find(&question).and_then(|question| other.behaviour(question));
+            let mut all = answers.split(" or ").map(|answer| answer.trim_matches('"'));
+            let same = all.clone().find(|answer| there.is_some_and(|row| row.value == *answer));
+            let first = same.or_else(|| all.next())?.to_owned();
             Box::new(move |profile| {
                 profile.behaviours.insert(question.clone(), Plain::Word(first.clone()));
             })

@@ -32,10 +32,10 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
         Side::Target => survey.controls[1],
     };
     let fresh = || format!("dialect = \"{}\"\n", control.name());
-    let kept = old.map_or_else(fresh, without_questions);
-    let before = read(&kept)?;
+    let mut text = old.map_or_else(fresh, without_questions);
+    let before = read(old.unwrap_or(&text))?;
     let asked = survey.with_questions(|questions| lines(questions, control));
-    let mut text = kept.clone();
+    text = with_machine(&text, control.profile());
     for (section, lines) in &asked {
         text = inserted(&text, section, lines)?;
     }
@@ -71,7 +71,7 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
             Settled::Setting { section, name, values } => (*section, choice(name, values)),
             Settled::Answer { question, answers } => ("behaviours", format!("\"{question}\" = {answers}")),
         };
-        let _ = writeln!(all.entry(section).or_default(), "{ASKS} {line} # {}", about(fact));
+        let _ = writeln!(all.entry(section).or_default(), "{ASKS} {line} # {}", about(fact, control));
     }
     all
 }
@@ -81,9 +81,12 @@ fn choice(name: &str, values: &[String]) -> String {
     format!("{name} = \"{}\"", values.join("\" or \""))
 }
 
-fn about(fact: &Fact<'_>) -> String {
+fn about(fact: &Fact<'_>, control: &Control) -> String {
     let asked = &fact.asked;
-    let text: String = plain(asked.text).chars().take(LONGEST).collect();
+    // The fact's name stands before, and whose it is is plain in a profile.
+    let title = format!("{}: ", control.dialect().title);
+    let said = asked.text.split_once(&title).map_or(asked.text, |(_, said)| said);
+    let text: String = plain(said).chars().take(LONGEST).collect();
     let programs = if asked.programs == 1 { String::new() } else { format!("{} programs: ", asked.programs) };
     format!("{text} ({programs}{})", plain(&asked.places.join(", ")))
 }
@@ -121,7 +124,31 @@ fn inserted(text: &str, section: &str, lines: &str) -> Result<String, Unfit> {
     // A section that holds only questions says nothing, and stands last but for the codes.
     let end = if text.is_empty() || text.ends_with('\n') { "" } else { "\n" };
     let first_site = text.find("\n[[").map_or(text.len(), |at| at + 1);
-    Ok(spliced(text, first_site, &format!("{end}\n{header}\n{lines}\n")))
+    Ok(spliced(text, first_site, &format!("{end}\n{header}\n{lines}")))
+}
+
+/// The end of the line that names the dialect: what stands there is in no section.
+fn after_dialect(text: &str, profile: &Profile) -> usize {
+    let head = profile.place("dialect").map(|place| place.end).unwrap_or_default();
+    text.get(head..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| head + end + 1)
+}
+
+/// The text with what every profile should say of its machine, as far as this one does not.
+fn with_machine(text: &str, said: &Profile) -> String {
+    let all = [
+        (said.title.is_none(), "title = \"\" # what people call the machine"),
+        (said.machine.is_none(), "machine = \"mill\" or \"lathe\""),
+        (
+            said.units.is_none(),
+            "units = \"inch\" or \"metric\" # what its programs are in where no code says so",
+        ),
+        (said.axes.is_none(), "axes = [\"X\", \"Y\", \"Z\"] # in the order of the control's axis numbers"),
+        (said.reserved.is_empty(), "reserved = [] # variables that programs must not be given"),
+    ];
+    let Ok(profile) = Profile::read(text) else { return text.to_owned() };
+    let missing = all.iter().filter(|(missing, _)| *missing);
+    let lines: String = missing.map(|(_, line)| format!("{ASKS} {line}\n")).collect();
+    spliced(text, after_dialect(text, &profile), &lines)
 }
 
 fn spliced(text: &str, at: usize, more: &str) -> String {
@@ -155,5 +182,87 @@ fn codes(text: &mut String, survey: &Survey<'_>) {
             said.chars().filter(|letter| !letter.is_control() && !"\"\\".contains(*letter)).collect();
         let _ = writeln!(text, "{ASKS} text = \"{said}\" # as in: {}", plain(&code.block));
         let _ = writeln!(text, "{ASKS} name = \"\"");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::Input;
+    use crate::survey::survey;
+
+    fn control(profile: &str) -> Control {
+        Control::from_profile(profile).unwrap()
+    }
+
+    fn filled_for(program: &str, profile: Option<&str>) -> String {
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: program.into() }];
+        let (source, target) =
+            (control(profile.unwrap_or("dialect = \"fanuc\"\n")), control("dialect = \"haas\"\n"));
+        filled(&survey(&inputs, &source, Some(&target)), Side::Source, profile).unwrap()
+    }
+
+    const PROGRAM: &str = "O1000\nG21 G90\nM14 (CHUCK \"AIR\")\n(DOOR)\nM38\nX[1/#500]\nM30\n";
+
+    /// What stands in the text without its questions.
+    fn said(text: &str) -> Vec<&str> {
+        text.lines().filter(|line| !line.starts_with(ASKS) && !line.is_empty()).collect()
+    }
+
+    #[test]
+    fn a_new_profile_asks_for_each_code_once() {
+        let text = filled_for(PROGRAM, None);
+        for line in [
+            "#? code = \"M14\"",
+            "#? text = \"CHUCK AIR\" # as in: M14 (CHUCK \"AIR\")",
+            "#? text = \"DOOR\" # as in: M38",
+        ] {
+            assert_eq!(text.lines().filter(|own| *own == line).count(), 1, "{line}\n{text}");
+        }
+        assert!(Profile::read(&text).unwrap().site.is_empty());
+    }
+
+    #[test]
+    fn it_is_the_same_when_nothing_was_answered() {
+        for profile in [
+            "dialect = \"fanuc\"",
+            "# mine\ndialect = \"fanuc\"\nconfirm = []\n[settings]\nm_stop = \"end\"",
+            "dialect = \"fanuc\" # 0i\nunits = \"metric\"\nconfirm = [\"numbers\"]\n\n[behaviours] # found\n\n[[site]]\ncode = \
+             \"M14\"\ntext = \"air\"\ndo = \"omit\"\n",
+        ] {
+            let once = filled_for(PROGRAM, Some(profile));
+            assert_eq!(said(&once), said(&filled_for(PROGRAM, Some(&once))), "{once}");
+            assert_eq!(once, filled_for(PROGRAM, Some(&once)));
+            let lines = said(&once);
+            assert!(
+                profile
+                    .lines()
+                    .filter(|line| !line.is_empty() && !line.starts_with("confirm"))
+                    .all(|line| lines.contains(&line)),
+                "{once}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_answered_stays_and_is_not_asked_again() {
+        let text = filled_for(PROGRAM, None);
+        let code = "#? code = \"M14\"\n#? text = \"CHUCK AIR\"";
+        let at = text[..text.find(code).unwrap()].rfind("#? [[site]]").unwrap();
+        let (before, after) = text.split_at(at);
+        let answered = format!("{before}[[site]]\ncode = \"M14\"\ntext = \"air\"\ndo = \"omit\"\n{after}");
+        let again = filled_for(PROGRAM, Some(&answered));
+        assert!(!again.contains("#? code = \"M14\"") && again.contains("#? code = \"M38\""), "{again}");
+        assert_eq!(Profile::read(&again).unwrap().site.len(), 1);
+    }
+
+    #[test]
+    fn a_profile_in_another_form_is_left_alone() {
+        let inputs = [Input { path: "a.nc".into(), name: "a.nc".into(), bytes: PROGRAM.into() }];
+        let profile = "dialect = \"fanuc\"\nsettings = { m_stop = \"end\" }\n";
+        let (source, target) = (control(profile), control("dialect = \"haas\"\n"));
+        let text = filled(&survey(&inputs, &source, Some(&target)), Side::Source, Some(profile));
+        // Either it asks for no setting, or it says that it cannot.
+        assert!(text.is_err() || text.unwrap().contains("settings = { m_stop = \"end\" }"));
     }
 }

@@ -37,7 +37,7 @@ pub struct Survey<'a> {
     pub shape: Shape,
     /// The codes of which a profile must say what the machine's builder made of them; what frees most programs is first.
     pub codes: Vec<AskedCode>,
-    /// What is found in its programs, but for those codes and for calls of programs that are missing.
+    /// What is found in its programs, but for those codes and for what its shape says.
     rest: Conversion,
     /// What would become of it now.
     pub now: Outcomes,
@@ -82,7 +82,8 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
     let now = Outcomes::of(&conversion.programs);
     let codes = codes::asked(inputs, source, &conversion.programs);
     for program in &mut conversion.programs {
-        program.diagnostics.retain(|finding| finding.asks.is_none() && finding.code != Code::OutsideLibrary);
+        let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
+        program.diagnostics.retain(|finding| finding.asks.is_none() && !of_shape(finding.code));
     }
     let controls = [source, target.unwrap_or(source)];
     let goes = target.is_some();

@@ -15,7 +15,7 @@ pub fn text(survey: &Survey<'_>) -> String {
     if !survey.codes.is_empty() {
         codes(&mut out, &survey.codes);
     }
-    out.push_str(&survey.with_questions(asked));
+    out.push_str(&survey.with_questions(|questions| asked(questions, "--format json has")));
     ends(&mut out, survey);
     out
 }
@@ -33,7 +33,8 @@ fn shape(out: &mut String, shape: &Shape) {
     let _ = writeln!(out, "calls     {called} programs of it are called by others of it");
     for Missing { name, programs, places } in missing.iter().take(LISTED) {
         let (name, places) = (shown(name), shown(&places.join(", ")).into_owned());
-        let _ = writeln!(out, "missing   {name}, which {} call: {places}", count(*programs));
+        let call = if *programs == 1 { "calls" } else { "call" };
+        let _ = writeln!(out, "missing   {name}, which {} {call}: {places}", count(*programs));
     }
     more(out, "missing", missing.len());
     for (name, files) in twice.iter().take(LISTED) {
