@@ -33,6 +33,9 @@ pub fn filled(survey: &Survey<'_>, side: Side, old: Option<&str>) -> Result<Stri
     };
     let fresh = || format!("dialect = \"{}\"\n", control.name());
     let mut text = old.map_or_else(fresh, without_questions);
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
     let before = read(old.unwrap_or(&text))?;
     let asked = survey.with_questions(|questions| lines(questions, control));
     text = with_machine(&text, control.profile());
@@ -160,9 +163,6 @@ fn spliced(text: &str, at: usize, more: &str) -> String {
 fn codes(text: &mut String, survey: &Survey<'_>) {
     if survey.codes.is_empty() {
         return;
-    }
-    if !text.ends_with('\n') {
-        text.push('\n');
     }
     let _ = writeln!(
         text,

@@ -20,6 +20,7 @@ mod reports;
 mod sarif;
 mod shown;
 mod stale;
+mod survey;
 
 use assert_cmd::Command;
 use files::Files;

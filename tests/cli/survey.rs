@@ -1,0 +1,95 @@
+//! A look over a library: what it says, and the profiles that it asks to fill in.
+
+use super::Shop;
+use serde_json::Value;
+
+/// Three programs with two builder's codes, one call of a program that is missing, and a number that stands twice.
+fn shop() -> Shop {
+    Shop::with(&[
+        ("lib/o1000.nc", "O1000\nG21 G90 G54 G17 G40 G80 G94\nM14 (CHUCK AIR)\nG0 X1.\nM30\n"),
+        (
+            "lib/o1001.nc",
+            "O1001\nG21 G90 G54 G17 G40 G80 G94\nM14 (CHUCK AIR)\nM15\nG0 X1.\nM98 P2000\nM98 P9810\nM30\n",
+        ),
+        ("lib/o2000.nc", "O2000\nG0 X2.\nM99\n"),
+        ("lib/old/o2000.nc", "O2000\nG0 X3.\nM99\n"),
+        ("lib/o3000.nc", "O3000\nG21 G90 G54 G17 G40 G80 G94\nG0 X1.\nM30\n"),
+    ])
+}
+
+fn json(shop: &Shop, line: &str) -> Value {
+    let run = shop.run(line);
+    assert_eq!(run.code, 0, "{}", run.err);
+    serde_json::from_str(&run.out).unwrap()
+}
+
+#[test]
+fn it_counts_what_stands_there() {
+    let shop = shop();
+    let survey = json(&shop, "survey lib --from fanuc --to haas --format json");
+    let library = &survey["library"];
+    assert_eq!((&library["files"], &library["programs"]), (&5.into(), &5.into()));
+    let missing = &library["missing"][0];
+    assert_eq!((&missing["name"], &missing["programs"]), (&"O9810".into(), &1.into()));
+    assert_eq!(missing["places"][0], "o1001.nc:7");
+    assert_eq!(library["twice"][0][0], "O2000");
+    let codes: Vec<(&str, u64, u64)> = survey["codes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|code| {
+            let number = |key: &str| code[key].as_u64().unwrap();
+            (code["code"].as_str().unwrap(), number("programs"), number("frees"))
+        })
+        .collect();
+    // O1001 has both codes, and calls a number that stands twice.
+    assert_eq!(codes, [("M14", 2, 1), ("M15", 1, 0)]);
+    assert_eq!(survey["codes"][0]["comment"], serde_json::json!(["CHUCK AIR", 2]));
+    let refused = |key: &str| survey[key]["refused"].as_u64().unwrap();
+    // What M14 alone stood in the way of comes through once it is answered; an ambiguous call does not.
+    assert_eq!((refused("now"), refused("answered")), (2, 1));
+    assert!(survey["stays"][0]["why"].as_str().unwrap().starts_with("MG0603 calls O2000"), "{survey}");
+}
+
+#[test]
+fn without_a_target_only_its_own_control_is_asked() {
+    let shop = shop();
+    let run = shop.run("survey lib --from fanuc");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("M14") && run.out.contains("(CHUCK AIR) stands beside it, 2 x"), "{}", run.out);
+    assert!(!run.out.contains("answered"), "{}", run.out);
+}
+
+/// From the survey by two profiles to a converted program.
+#[test]
+fn what_is_filled_in_frees_programs() {
+    let shop = shop();
+    let survey = "survey lib/o1000.nc --from fanuc --to haas --write m1.toml";
+    assert_eq!(shop.run(survey).code, 0);
+    let asked = shop.read("m1.toml");
+    assert!(
+        asked.contains(
+            "#? code = \"M14\"\n#? text = \"CHUCK AIR\" # as in: M14 (CHUCK AIR)\n#? name = \"\"\n"
+        ),
+        "{asked}"
+    );
+    assert!(shop.read("m1-to-haas.toml").starts_with("dialect = \"haas\"\n"));
+    let answered =
+        asked.replace("#? [[site]]", "[[site]]").replace("#? code", "code").replace("#? text", "text");
+    shop.write("m1.toml", answered.replace("#? name = \"\"", "do = \"omit\"").as_bytes());
+    let again = json(&shop, &format!("{survey} --format json"));
+    assert_eq!((&again["codes"], &again["now"]["refused"]), (&serde_json::json!([]), &0.into()));
+    let kept = shop.read("m1.toml");
+    assert!(kept.contains("\ncode = \"M14\"\n") && !kept.contains("#? code"), "{kept}");
+    let convert =
+        "convert lib/o1000.nc --from fanuc --to haas --machine m1.toml --machine m1-to-haas.toml --out out";
+    assert_eq!(shop.run(convert).code, 0);
+}
+
+#[test]
+fn no_program_is_written_over() {
+    let shop = shop();
+    let run = shop.run("survey lib --from fanuc --write lib/o1000.nc");
+    assert_eq!(run.code, 2);
+    assert!(shop.read("lib/o1000.nc").starts_with("O1000\nG21"));
+}
