@@ -37,7 +37,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Look over a library: what it is, and what must be known of its machines before it is converted
+    /// Look over a library: what it is, and what must be known of its machines
     Survey(survey::Arguments),
     /// Convert programs, whole folders at once, for another control
     Convert(convert::Arguments),

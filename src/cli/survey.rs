@@ -47,44 +47,34 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn work(arguments: &Arguments) -> Result<(), u8> {
     let inputs = read(&arguments.paths)?;
     let from = dialect_of(arguments.from.as_deref(), &inputs)?;
-    let written =
-        arguments.write.as_ref().map(|file| profiles(file, arguments.to.as_deref())).unwrap_or_default();
-    let mut machines = arguments.machine.clone();
-    // What an earlier survey wrote counts, once somebody has filled it in.
-    let mut of: Vec<String> = Vec::new();
-    for machine in &machines {
-        of.push(common::profile(machine)?.unwrap_or_default().dialect);
-    }
-    let mut places: Vec<Option<PathBuf>> = Vec::new();
-    for (path, dialect) in written.iter().zip([Some(from.as_str()), arguments.to.as_deref()]) {
-        let given = of.iter().position(|of| Some(of.as_str()) == dialect);
-        if let Some(at) = given {
-            places.push(Some(arguments.machine[at].clone()));
-            continue;
-        }
-        if path.exists() {
-            machines.push(path.clone());
-        }
-        places.push(Some(path.clone()));
-    }
+    let to = arguments.to.as_deref();
+    let mut dialects: Vec<&str> = [from.as_str()].into_iter().chain(to).collect();
+    // A library that stays on its control has one profile.
+    dialects.dedup();
+    let (machines, places) = profiles(arguments, &dialects)?;
     let own = own_profile(arguments.from.as_deref(), &inputs)?;
-    let (source, target) = match arguments.to.as_deref() {
+    let (source, target) = match to {
         Some(to) => {
             let (source, target) = controls(&from, to, &machines, own.as_deref())?;
             (source, Some(target))
         }
         None => (control(&from, machines.first().or(own.as_ref()).map(PathBuf::as_path))?, None),
     };
+    let programs = Files::of(inputs.iter().map(|input| input.path.as_path()));
+    if let Some(place) = places.iter().find(|place| programs.holds(place)) {
+        return Err(complain(format!("{} is a program and would be overwritten", place.display())));
+    }
     doubt(source.name(), &inputs);
     let survey = common::with_spinner(format!("looking at {} files", inputs.len()), || {
         survey::survey(&inputs, &source, target.as_ref())
     });
-    for (place, side) in places.iter().zip([Side::Source, Side::Target]) {
-        let Some(place) = place else { continue };
-        if Files::of(inputs.iter().map(|input| input.path.as_path())).holds(place) {
-            return Err(complain(format!("{} is a program and would be overwritten", place.display())));
-        }
-        fill(&survey, side, place)?;
+    let sides = places.iter().zip([Side::Source, Side::Target]);
+    let filled = sides.map(|(place, side)| Ok((place, filled(&survey, side, place)?)));
+    // Both are known before either is written.
+    for (place, text) in filled.collect::<Result<Vec<_>, u8>>()? {
+        let Some(text) = text else { continue };
+        write_file(place, text.as_bytes(), false).map_err(complain)?;
+        remark(format!("{}: the lines that begin with #? are to be filled in", place.display()));
     }
     match arguments.format {
         Format::Text => streams::print(&survey::text(&survey)),
@@ -92,18 +82,53 @@ fn work(arguments: &Arguments) -> Result<(), u8> {
     }
 }
 
-/// The places of both profiles: the target's is beside the source's.
-fn profiles(file: &Path, to: Option<&str>) -> Vec<PathBuf> {
-    let mut all = vec![file.to_owned()];
-    if let Some(to) = to {
-        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-        all.push(file.with_file_name(format!("{stem}-to-{to}.toml")));
+/// The profiles that count, and those that are written: of the source, and of the target if there is one.
+fn profiles(arguments: &Arguments, dialects: &[&str]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), u8> {
+    let mut machines = arguments.machine.clone();
+    let mut named: Vec<String> = Vec::new();
+    for machine in &machines {
+        let dialect = common::profile(machine)?.unwrap_or_default().dialect;
+        if !dialects.contains(&dialect.as_str()) {
+            let file = machine.display();
+            return Err(complain(format!(
+                "{file} is a profile for '{dialect}', which is neither the source nor the target"
+            )));
+        }
+        named.push(dialect);
     }
-    all
+    let Some(file) = &arguments.write else { return Ok((machines, Vec::new())) };
+    let mut places = Vec::new();
+    for (side, dialect) in dialects.iter().enumerate() {
+        // The profile that was named gets the questions about its machine.
+        if let Some(at) = named.iter().position(|of| of == dialect) {
+            places.push(arguments.machine[at].clone());
+            continue;
+        }
+        let path = if side == 0 { file.clone() } else { beside(file, dialect) };
+        if path.exists() {
+            let of = common::profile(&path)?.unwrap_or_default().dialect;
+            if of != *dialect {
+                let path = path.display();
+                return Err(complain(format!(
+                    "{path} is a profile for '{of}', and the questions are about '{dialect}': name another file with --write"
+                )));
+            }
+            // What an earlier survey wrote counts, once somebody has filled it in.
+            machines.push(path.clone());
+        }
+        places.push(path);
+    }
+    Ok((machines, places))
 }
 
-/// Puts the questions into a profile.
-fn fill(survey: &Survey<'_>, side: Side, place: &Path) -> Result<(), u8> {
+/// Where the target's profile stands: beside the source's.
+fn beside(file: &Path, to: &str) -> PathBuf {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    file.with_file_name(format!("{stem}-to-{to}.toml"))
+}
+
+/// A profile with the questions; none if it has them.
+fn filled(survey: &Survey<'_>, side: Side, place: &Path) -> Result<Option<String>, u8> {
     let old = match std::fs::read_to_string(place) {
         Ok(text) => Some(text),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
@@ -111,10 +136,5 @@ fn fill(survey: &Survey<'_>, side: Side, place: &Path) -> Result<(), u8> {
     };
     let text = survey::filled(survey, side, old.as_deref())
         .map_err(|why| complain(format!("{}: {why}", place.display())))?;
-    if old.as_deref() == Some(&*text) {
-        return Ok(());
-    }
-    write_file(place, text.as_bytes(), false).map_err(complain)?;
-    remark(format!("{}: the lines that begin with #? are to be filled in", place.display()));
-    Ok(())
+    Ok(Some(text).filter(|text| old.as_ref() != Some(text)))
 }

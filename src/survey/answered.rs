@@ -1,7 +1,8 @@
 //! The machines of a survey, as they are once all that is asked of their profiles is answered.
 //!
 //! What the answers will be nobody knows yet. A code is taken to be left out, what no manual confirms to be so, and a question
-//! to have the answer of the other machine, or else its first one: so many programs are written at the most.
+//! to have the answer of the other machine, or else its first one. If fewer programs are written with such answers than without
+//! them, the questions with several answers are left open.
 
 use super::Survey;
 use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Without};
@@ -11,11 +12,11 @@ use std::collections::BTreeMap;
 /// A change of a profile.
 type Answer = Box<dyn Fn(&mut Profile)>;
 
-/// Both machines.
-pub(super) fn controls(survey: &Survey<'_>) -> [Control; 2] {
+/// Both machines; `chosen` says whether questions with several answers have one.
+pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let [source, target] = survey.controls;
     let asked = |control: &Control, other: &Control| {
-        survey.with_questions(|questions| facts(questions, control, other))
+        survey.with_questions(|questions| facts(questions, control, other, chosen))
     };
     let codes = survey.codes.iter().map(|asked| -> Answer {
         let code = asked.code.clone();
@@ -47,13 +48,12 @@ fn site(code: &str) -> SiteCode {
 }
 
 /// The answers to what is asked of a machine.
-fn facts(questions: &Questions<'_>, control: &Control, other: &Control) -> Vec<Answer> {
+fn facts(questions: &Questions<'_>, control: &Control, other: &Control, chosen: bool) -> Vec<Answer> {
     let is_it = |of: &Control| of.name() == control.name() && of.profile().file == control.profile().file;
     let machines = questions.machines.iter().filter(|machine| is_it(machine.control));
-    machines
-        .flat_map(|machine| &machine.facts)
-        .filter_map(|fact| answer(fact.settled_by.clone(), other))
-        .collect()
+    let settled = machines.flat_map(|machine| &machine.facts).map(|fact| fact.settled_by.clone());
+    let wanted = settled.filter(|settled| chosen || matches!(settled, Settled::Confirmed(_)));
+    wanted.filter_map(|settled| answer(settled, other)).collect()
 }
 
 fn answer(settled: Settled, other: &Control) -> Option<Answer> {

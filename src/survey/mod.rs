@@ -99,10 +99,16 @@ pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a C
         stays: Vec::new(),
     };
     if target.is_some() {
-        let [source, target] = answered::controls(&survey);
-        let then = plain(inputs, &source, &target);
-        survey.answered = Some(Outcomes::of(&then.programs));
-        survey.stays = reasons(&then.programs);
+        let then = [true, false].map(|chosen| {
+            let [source, target] = answered::controls(&survey, chosen);
+            plain(inputs, &source, &target).programs
+        });
+        let best = then.iter().min_by_key(|programs| {
+            let Outcomes { refused, review, .. } = Outcomes::of(programs);
+            (refused, review)
+        });
+        survey.answered = best.map(|programs| Outcomes::of(programs));
+        survey.stays = best.map(|programs| reasons(programs)).unwrap_or_default();
     }
     survey
 }

@@ -22,7 +22,8 @@ pub fn text(survey: &Survey<'_>) -> String {
 
 fn shape(out: &mut String, shape: &Shape) {
     let Shape { files, programs, reads, lathe, lathe_sign, called, missing, twice, folders } = shape;
-    let _ = writeln!(out, "programs  {programs} in {files} files");
+    let files = if *files == 1 { "1 file".into() } else { format!("{files} files") };
+    let _ = writeln!(out, "library   {} in {files}", count(*programs));
     let reads: Vec<String> = reads.iter().map(|(title, share)| format!("{title} {share} %")).collect();
     let _ = writeln!(out, "control   how much of its text each control reads: {}", reads.join(", "));
     if let Some((sign, place)) = lathe_sign {
@@ -30,7 +31,8 @@ fn shape(out: &mut String, shape: &Shape) {
         let (sign, place) = (shown(sign), shown(place));
         let _ = writeln!(out, "machine   {mill} for a mill, {lathe} look like a lathe's ({sign}: {place})");
     }
-    let _ = writeln!(out, "calls     {called} programs of it are called by others of it");
+    let called = if *called == 1 { "1 program is".into() } else { format!("{called} programs are") };
+    let _ = writeln!(out, "calls     {called} called by others of the library");
     for Missing { name, programs, places } in missing.iter().take(LISTED) {
         let (name, places) = (shown(name), shown(&places.join(", ")).into_owned());
         let call = if *programs == 1 { "calls" } else { "call" };

@@ -2,8 +2,20 @@
 
 use super::Shop;
 
-const COMMANDS: [&str; 11] =
-    ["convert", "check", "parse", "verify", "diff", "run", "ir", "dialects", "explain", "completions", "man"];
+const COMMANDS: [&str; 12] = [
+    "survey",
+    "convert",
+    "check",
+    "parse",
+    "verify",
+    "diff",
+    "run",
+    "ir",
+    "dialects",
+    "explain",
+    "completions",
+    "man",
+];
 
 #[test]
 fn help_texts() {
