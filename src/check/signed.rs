@@ -99,8 +99,7 @@ fn otherwise(root: &Path, file: &Path, hash: &str) -> Option<String> {
 }
 
 fn profile_changed(root: &Path, file: &Path, hash: &str) -> Option<String> {
-    let text = std::fs::read_to_string(root.join(file)).ok();
-    let control = text.and_then(|text| Control::from_profile(&text).ok());
-    let same = control.is_some_and(|control| Identity::of(&control).sha256 == hash);
+    let control = Control::load(&root.join(file));
+    let same = control.is_ok_and(|control| Identity::of(&control).sha256 == hash);
     (!same).then(|| format!("the profile {} has changed since the report was signed", file.display()))
 }

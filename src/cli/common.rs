@@ -91,16 +91,18 @@ pub fn meeting(source: Control, target: Control) -> Result<(Control, Control), u
     Control::meeting(source, target).map_err(complain_lines)
 }
 
-/// A machine profile.
+/// A machine profile, with all that it extends.
 pub fn profile(path: &Path) -> Result<Option<Profile>, u8> {
-    let text =
-        std::fs::read_to_string(path).map_err(|error| complain(format!("{}: {error}", path.display())))?;
-    let fault = |faults: Vec<_>| {
-        complain_lines(crate::dialect::faults_as_text(&path.display().to_string(), &text, &faults))
+    Profile::load(path).map(Some).map_err(|why| complain_lines(why.lines()))
+}
+
+/// The files that profiles stand in, those that they extend included. One that cannot be read stands in its own.
+pub fn profile_files<'p>(profiles: impl Iterator<Item = &'p PathBuf>) -> Vec<PathBuf> {
+    let files = |path: &PathBuf| match Profile::load(path) {
+        Ok(profile) => profile.files().cloned().collect(),
+        Err(_) => vec![path.clone()],
     };
-    let mut read = Profile::read(&text).map_err(fault)?;
-    read.file = Some(path.to_owned());
-    Ok(Some(read))
+    profiles.flat_map(files).collect()
 }
 
 /// The names of all dialects.

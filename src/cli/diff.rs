@@ -177,7 +177,8 @@ fn compare(
     }
     if let Some(path) = &arguments.plot {
         let inputs = ours.iter().chain(&theirs).map(|input| &input.path);
-        let also = arguments.paths.iter().chain(&arguments.machine).chain(&own);
+        let profiles = common::profile_files(arguments.machine.iter().chain(&own));
+        let also = arguments.paths.iter().chain(&profiles);
         let own_files = [Lock::NAME, Manifest::NAME].map(|name| folder_of(new).join(name));
         not_over(path, inputs.chain(also).chain(&own_files).map(PathBuf::as_path))?;
     }

@@ -1,6 +1,8 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
-use super::common::{control, controls, dialect_of, doubt, meeting, names, own_profile, read, read_all};
+use super::common::{
+    control, controls, dialect_of, doubt, meeting, names, own_profile, profile_files, read, read_all,
+};
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
@@ -85,7 +87,7 @@ pub struct Wish<'a> {
 /// The jobs, planned: every place is known, and no two files go to one. With them come all files that the command
 /// reads: none of them is ever written to.
 pub fn jobs(wish: &Wish<'_>) -> Result<(Vec<Job>, Files), u8> {
-    let mut read: Vec<PathBuf> = wish.machines.to_vec();
+    let mut read: Vec<PathBuf> = profile_files(wish.machines.iter());
     if wish.paths.is_empty() && !wish.library.is_empty() {
         return Err(complain("--library goes with files that are named: name the programs to convert"));
     }
@@ -124,7 +126,7 @@ fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     };
     let own = own_profile(wish.from, &inputs)?;
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
-    read_too.extend(own);
+    read_too.extend(profile_files(own.iter()));
     planned(
         (inputs, named, left_out),
         source,
@@ -181,7 +183,8 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     }
     read_too.push(project.root.join(Project::NAME));
     let profiles = project.machines.values().filter_map(|machine| machine.profile.as_ref());
-    read_too.extend(profiles.map(|profile| project.root.join(profile)));
+    let profiles: Vec<PathBuf> = profiles.map(|profile| project.root.join(profile)).collect();
+    read_too.extend(profile_files(profiles.iter()));
     let control_of = |name: &str| {
         let machine = &project.machines[name];
         let profile = machine.profile.as_ref().map(|profile| short(&project.root.join(profile)));

@@ -1,6 +1,6 @@
 //! Which libraries a check is about, and which of their files: by its arguments, and by the project file.
 
-use super::common::{control, dialect_of, endings, own_profile, profile, read_all};
+use super::common::{control, dialect_of, endings, own_profile, profile, profile_files, read_all};
 use super::jobs::short;
 use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
@@ -179,7 +179,9 @@ fn about_all(project: &Project, library: &Library, outputs: &[PathBuf]) -> Vec<P
     let machines =
         [&library.machine].into_iter().chain(library.targets.keys()).chain(&project.checks.round_trip);
     let machines = machines.filter_map(|name| project.machine_of(name));
-    let profiles = machines.filter_map(|(_, machine)| Some(project.root.join(machine.profile?)));
+    let profiles: Vec<PathBuf> =
+        machines.filter_map(|(_, machine)| Some(project.root.join(machine.profile?))).collect();
+    let profiles = profile_files(profiles.iter()).into_iter();
     let notes = outputs.iter().flat_map(|output| [Lock::NAME, Manifest::NAME].map(|name| output.join(name)));
     let all = profiles.chain([project.root.join(Project::NAME)]).chain(notes);
     all.filter_map(|path| std::fs::canonicalize(path).ok()).collect()

@@ -1,6 +1,6 @@
 //! `macroglot verify SOURCE TARGET`.
 
-use super::common::{Time, controls, dialect_of, effort, not_over, own_profile, read};
+use super::common::{Time, controls, dialect_of, effort, not_over, own_profile, profile_files, read};
 use super::streams::{complain, print, remark};
 use super::{FOUND, WELL, pager};
 use crate::control::LoadedFile;
@@ -59,7 +59,8 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     let home = Home::of(folder_of(&arguments.target), &theirs_named).map_err(complain)?;
     let own_files = [Lock::NAME, Manifest::NAME].map(|name| home.folder.join(name));
     let programs = ours.iter().chain(&theirs).map(|input| &input.path);
-    let read_files = programs.chain(&arguments.machine).chain(&own_files).map(PathBuf::as_path);
+    let profiles = profile_files(arguments.machine.iter());
+    let read_files = programs.chain(&profiles).chain(&own_files).map(PathBuf::as_path);
     arguments.certificate.as_ref().map_or(Ok(()), |path| not_over(path, read_files))?;
     tell_changed(&home, &theirs)?;
     let from = dialect_of(arguments.from.as_deref(), &ours)?;

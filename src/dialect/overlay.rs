@@ -107,6 +107,10 @@ impl Overlay {
             let message = format!("the profile is for '{}', not for '{}'", self.profile.dialect, entry.name);
             self.fault("dialect", message, "name the profile's own dialect".into());
         }
+        if self.profile.extends.is_some() && self.profile.bases.is_empty() {
+            let message = "this profile extends another, which was not read with it".into();
+            self.fault("extends", message, "name the profile by its file".into());
+        }
     }
 
     /// A kind of machine that no row of the table speaks of would be read as the one that the rows are for.

@@ -14,6 +14,8 @@ use toml::de::{DeTable, DeValue};
 pub struct Profile {
     /// The dialect it is for.
     pub dialect: String,
+    /// A profile whose answers count where this one has none: a path from the folder of this one's file.
+    pub extends: Option<std::path::PathBuf>,
     /// Name for people.
     pub title: Option<String>,
     /// The kind of machine.
@@ -58,6 +60,9 @@ pub struct Profile {
     /// The file that it was read from, for reports.
     #[serde(skip)]
     pub file: Option<std::path::PathBuf>,
+    /// The files of the profiles that it extends, the nearest first.
+    #[serde(skip)]
+    pub bases: Vec<std::path::PathBuf>,
     /// Where the file's `confirm`, `parameters`, ... stand, for reports.
     #[serde(skip)]
     pub(super) places: BTreeMap<String, std::ops::Range<usize>>,

@@ -168,6 +168,13 @@ fn a_profile_that_changed_makes_conversions_stale() {
     for named in ["vf2.toml", "macroglot.toml", "haas/macroglot.manifest"] {
         assert_eq!(found(&json(&shop, &format!("{named} --only fresh"))).len(), 3, "{named}");
     }
+    // So is a profile that it extends.
+    shop.write("base.toml", b"dialect = \"haas\"\n");
+    shop.write("vf2.toml", format!("{profile}extends = \"base.toml\"\n").as_bytes());
+    assert_eq!(shop.run("convert --quiet").code, 0);
+    assert_eq!(check(&shop, "").code, 0);
+    shop.write("base.toml", b"dialect = \"haas\"\nreserved = [\"#550-#599\"]\n");
+    assert_eq!(found(&json(&shop, "base.toml --only fresh")).len(), 3);
     // A refused program is not one that was never converted.
     shop.write("programs/alone.nc", ALONE.replace("M30", "M38").as_bytes());
     assert_eq!(shop.run("convert --quiet").code, 1);

@@ -22,6 +22,72 @@ fn a_wrong_profile_is_named_with_its_line() {
     shop.fails("dialects fanuc --machine key.toml", &["key.toml:2"]);
 }
 
+/// What machines have in common stands once: the nearest profile counts first, lists count together.
+#[test]
+fn a_profile_extends_another() {
+    let program = CLEAN.replace("G0 X1.", "G0 X1. A5.\nM14\nM15");
+    let site =
+        |code: &str, what: &str| format!("[[site]]\ncode = \"{code}\"\ntext = \"{code}\"\ndo = \"{what}\"\n");
+    let base = format!(
+        "dialect = \"fanuc\"\nconfirm = [\"word:A\"]\n{}{}",
+        site("M14", "alarm"),
+        site("M15", "omit")
+    );
+    let own =
+        format!("dialect = \"fanuc\"\nextends = \"shop/base.toml\"\nhead = false\n{}", site("M14", "omit"));
+    let shop = Shop::with(&[("a.nc", &program), ("m/shop/base.toml", &base), ("m/own.toml", &own)]);
+    let run = shop.run("convert a.nc --from fanuc --to haas --machine m/own.toml");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(!run.err.contains("word:A") && !run.out.contains("#3000"), "{}{}", run.out, run.err);
+    let run = shop.run("convert a.nc --from fanuc --to haas --machine m/shop/base.toml");
+    assert!(run.out.contains("#3000"), "{}{}", run.out, run.err);
+}
+
+#[test]
+fn what_is_wrong_with_an_extended_profile_is_told_at_its_place() {
+    let extends = |file: &str| format!("dialect = \"fanuc\"\nextends = \"{file}\"\n");
+    let shop = Shop::with(&[
+        ("a.nc", CLEAN),
+        ("key.toml", "dialect = \"fanuc\"\n\nmachin = \"mill\"\n"),
+        ("fact.toml", "dialect = \"fanuc\"\n\nconfirm = [\"behaviour:no.such\"]\n"),
+        ("haas.toml", "dialect = \"haas\"\n"),
+        ("of-key.toml", &extends("key.toml")),
+        ("of-fact.toml", &extends("fact.toml")),
+        ("of-haas.toml", &extends("haas.toml")),
+        ("of-nothing.toml", &extends("nowhere.toml")),
+        ("of-folder.toml", &extends(".")),
+        ("round.toml", &extends("about.toml")),
+        ("about.toml", &extends("round.toml")),
+    ]);
+    let line = "convert a.nc --from fanuc --to haas --machine";
+    shop.fails(&format!("{line} of-key.toml"), &["key.toml:3", "machin"]);
+    shop.fails(&format!("{line} of-fact.toml"), &["fact.toml:3", "no.such"]);
+    shop.fails(&format!("{line} of-haas.toml"), &["of-haas.toml:2", "'haas'"]);
+    shop.fails(&format!("{line} of-nothing.toml"), &["of-nothing.toml:2", "nowhere.toml"]);
+    shop.fails(&format!("{line} of-folder.toml"), &["of-folder.toml:2"]);
+    shop.fails(&format!("{line} round.toml"), &["8 profiles extend one another"]);
+}
+
+/// An extended profile is an input like any other.
+#[test]
+fn an_extended_profile_is_not_written_over() {
+    let base = "dialect = \"fanuc\"\n";
+    let shop = Shop::with(&[
+        ("a.nc", CLEAN),
+        ("base.toml", base),
+        ("own.toml", "dialect = \"fanuc\"\nextends = \"base.toml\"\n"),
+    ]);
+    let line = "convert a.nc --from fanuc --to haas --machine own.toml --report base.toml.json";
+    assert_eq!(shop.run(line).code, 0);
+    std::fs::rename(shop.path("base.toml"), shop.path("base.json")).unwrap();
+    shop.write("own.toml", b"dialect = \"fanuc\"\nextends = \"base.json\"\n");
+    shop.fails(
+        "convert a.nc --from fanuc --to haas --machine own.toml --report base.json",
+        &["base.json", "input"],
+    );
+    assert_eq!(shop.read("base.json"), base);
+}
+
 /// What a profile states needs no review any more.
 #[test]
 fn a_profile_answers_reviews() {

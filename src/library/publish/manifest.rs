@@ -54,11 +54,12 @@ pub struct Made {
     pub profiles: String,
 }
 
-/// SHA-256 of the profiles of both machines, as they stand in their files.
+/// SHA-256 of the profiles of both machines, as they stand in their files, with those that they extend.
 pub fn profiles_of(source: &Control, target: &Control) -> String {
     let text = |control: &Control| {
-        let file = control.profile().file.as_ref().and_then(|path| fs::read(path).ok());
-        [control.name().as_bytes(), &[0], &file.unwrap_or_default()].concat()
+        let files = control.profile().files().map(|path| fs::read(path).unwrap_or_default());
+        let files: Vec<Vec<u8>> = files.collect();
+        [control.name().as_bytes(), &[0], &files.join(&0)].concat()
     };
     sha256(format!("{} {}", sha256(&text(source)), sha256(&text(target))).as_bytes())
 }

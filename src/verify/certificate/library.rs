@@ -78,6 +78,7 @@ impl Identity {
         // Where the profile lies does not count.
         let mut profile = control.profile().clone();
         profile.file = None;
+        profile.bases.clear();
         hash.update(format!("{profile:?}").as_bytes());
         Self { control: control.name().into(), sha256: hex(&hash.finalize()) }
     }

@@ -1,0 +1,151 @@
+//! Machine profiles that extend others: what several machines of a shop have in common stands once.
+//!
+//! A profile of its own counts first. Of what is listed (facts, variables, codes, signals) both lists count, and a code or a
+//! signal that both name is as the profile itself has it.
+
+use super::profile::Profile;
+use super::{Control, faults_as_text, registry};
+use crate::diag::{Code, Diagnostic};
+use crate::text::Span;
+use std::path::{Path, PathBuf};
+
+/// How many profiles may extend one another: more are a circle.
+const DEEPEST: usize = 8;
+
+/// Why a profile could not be read: what is wrong in which file, a line for each fault.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unreadable(String);
+
+impl Unreadable {
+    /// The lines, each with its end.
+    pub fn lines(&self) -> &str {
+        &self.0
+    }
+}
+
+impl Profile {
+    /// Reads the profile in a file, with all that it extends.
+    ///
+    /// # Errors
+    /// If a file of them cannot be read, or says something wrong.
+    pub fn load(path: &Path) -> Result<Self, Unreadable> {
+        load(path, 0)
+    }
+
+    /// The files that it stands in: its own, and those that it extends.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.file.iter().chain(&self.bases)
+    }
+
+    /// What the profile says, over what another one says.
+    fn over(self, base: Self) -> Self {
+        let mut bases: Vec<PathBuf> = base.file.into_iter().chain(base.bases).collect();
+        bases.extend(self.bases);
+        let both = |mut all: Vec<String>, own: Vec<String>| {
+            all.extend(own);
+            all.dedup();
+            all
+        };
+        let mut site = base.site;
+        site.retain(|row| !self.site.iter().any(|own| own.code == row.code));
+        site.extend(self.site);
+        let mut signal = base.signal;
+        signal
+            .retain(|row| !self.signal.iter().any(|own| (own.input, own.output) == (row.input, row.output)));
+        signal.extend(self.signal);
+        Self {
+            dialect: self.dialect,
+            extends: self.extends,
+            title: self.title.or(base.title),
+            machine: self.machine.or(base.machine),
+            outputs: self.outputs.or(base.outputs),
+            units: self.units.or(base.units),
+            decimal_point: self.decimal_point.or(base.decimal_point),
+            head: self.head.or(base.head),
+            line_ends: self.line_ends.or(base.line_ends),
+            options: self.options.or(base.options),
+            offsets: self.offsets.or(base.offsets),
+            work_offsets: self.work_offsets.or(base.work_offsets),
+            axes: self.axes.or(base.axes),
+            parameters: base.parameters.into_iter().chain(self.parameters).collect(),
+            settings: base.settings.into_iter().chain(self.settings).collect(),
+            behaviours: base.behaviours.into_iter().chain(self.behaviours).collect(),
+            limits: base.limits.into_iter().chain(self.limits).collect(),
+            reserved: both(base.reserved, self.reserved),
+            variables: self.variables.or(base.variables),
+            confirm: both(base.confirm, self.confirm),
+            site,
+            signal,
+            file: self.file,
+            bases,
+            places: self.places,
+        }
+    }
+}
+
+impl Control {
+    /// The control of a machine, by the profile in a file.
+    ///
+    /// # Errors
+    /// If the profile cannot be read, or says something that its dialect's table does not take.
+    pub fn load(path: &Path) -> Result<Self, Unreadable> {
+        made(Profile::load(path)?)
+    }
+}
+
+fn load(path: &Path, depth: usize) -> Result<Profile, Unreadable> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| Unreadable(format!("{name}: {error}\n")))?;
+    let told = |faults: &[Diagnostic]| Unreadable(faults_as_text(&name, &text, faults));
+    let mut profile = Profile::read(&text).map_err(|faults| told(&faults))?;
+    profile.file = Some(path.to_owned());
+    let Some(extends) = profile.extends.clone() else { return Ok(profile) };
+    let fault = |message: String, help: &str| {
+        let place = profile.place("extends").unwrap_or_default();
+        let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+        let span = Span::new(offset(place.start), offset(place.end));
+        told(&[Diagnostic::new(Code::MachineProfile, span, message).with_help(help)])
+    };
+    if depth + 1 == DEEPEST {
+        let message = format!("{DEEPEST} profiles extend one another");
+        return Err(fault(
+            message,
+            "one of them extends itself, by way of others: take one of these lines out",
+        ));
+    }
+    let place = path.parent().unwrap_or_else(|| Path::new("")).join(&extends);
+    if !place.is_file() {
+        let message = format!("there is no profile {}", place.display());
+        return Err(fault(message, "the path counts from the folder of this profile"));
+    }
+    let base = load(&place, depth + 1)?;
+    if base.dialect != profile.dialect {
+        let message = format!(
+            "{} is a profile for '{}', this one for '{}'",
+            place.display(),
+            base.dialect,
+            profile.dialect
+        );
+        return Err(fault(message, "a profile extends one of its own dialect"));
+    }
+    // What is wrong there is told at its own place.
+    made(base.clone())?;
+    Ok(profile.over(base))
+}
+
+fn made(profile: Profile) -> Result<Control, Unreadable> {
+    let file = profile.file.clone().unwrap_or_default();
+    let told = |faults: &[Diagnostic]| {
+        let text = std::fs::read_to_string(&file).unwrap_or_default();
+        Unreadable(faults_as_text(&file.display().to_string(), &text, faults))
+    };
+    let Some(entry) = registry::find(&profile.dialect) else {
+        let message = format!("no dialect is named '{}'", profile.dialect);
+        return Err(told(&[Diagnostic::new(Code::MachineProfile, Span::default(), message)]));
+    };
+    Control::new(entry, profile).map_err(|faults| match faults.iter().any(|f| f.code == Code::DialectTable) {
+        true => Unreadable(entry.faults_as_text(&faults)),
+        false => told(&faults),
+    })
+}
