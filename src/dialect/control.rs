@@ -9,6 +9,7 @@ use super::{
 use crate::canon::{Func, Op, Sys};
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// A dialect with a machine profile laid over it.
 ///
@@ -31,6 +32,8 @@ pub struct Control {
     pub(super) states: HashMap<Sys, Vec<usize>>,
     /// The codes that call programs, by letter and number.
     pub(super) aliases: Vec<(char, f64, Alias)>,
+    /// The number of the profile, once it is asked for.
+    pub(super) owner: OnceLock<u64>,
     /// The row of each question, by its place in [`Question::ALL`].
     behaviours: Vec<Option<usize>>,
 }
@@ -72,6 +75,7 @@ impl Control {
         }
         Self {
             entry,
+            owner: OnceLock::new(),
             dialect,
             profile,
             settings,

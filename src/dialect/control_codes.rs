@@ -1,6 +1,7 @@
 //! What codes and words mean, and how they are written.
 
 use super::control::numbered;
+use super::site::fingerprint;
 use super::{CodeHead, CodeMeaning, Control, Dialect, Profile, SiteCode, WordMeaning};
 use crate::canon::{Act, Op, Role};
 use std::collections::BTreeMap;
@@ -211,7 +212,7 @@ impl Control {
 
     /// The name of a builder's code; none if it has none and does not need one.
     pub fn act_of(&self, site: &SiteCode) -> Option<Act> {
-        site.act(&self.profile)
+        site.act(|| *self.owner.get_or_init(|| fingerprint(&self.profile)))
     }
 }
 

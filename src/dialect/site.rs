@@ -70,12 +70,13 @@ impl SiteCode {
         self.row(None).head()
     }
 
-    /// Its name, or one of its own where the profile says what becomes of it and gives it none.
-    pub(super) fn act(&self, profile: &Profile) -> Option<Act> {
+    /// Its name, or one of its own where the profile says what becomes of it and gives it none: `owner` is the number of the
+    /// profile.
+    pub(super) fn act(&self, owner: impl FnOnce() -> u64) -> Option<Act> {
         match &self.name {
             Some(name) => Some(Act::named(name)),
             None if self.target.is_some() || self.without.is_some() => {
-                Some(Act::named(&format!("{}{}{:016x}", self.code, Act::OWN, fingerprint(profile))))
+                Some(Act::named(&format!("{}{}{:016x}", self.code, Act::OWN, owner())))
             }
             None => None,
         }
@@ -124,7 +125,7 @@ impl SiteCode {
 }
 
 /// A number that two machines do not share: codes without a name of the shop's are not the same on two machines.
-fn fingerprint(profile: &Profile) -> u64 {
+pub(super) fn fingerprint(profile: &Profile) -> u64 {
     let mut hasher = DefaultHasher::new();
     let plain = Profile { file: None, places: BTreeMap::new(), ..profile.clone() };
     format!("{plain:?}").hash(&mut hasher);

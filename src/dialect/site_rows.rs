@@ -3,9 +3,10 @@
 use super::control_codes::address;
 use super::overlay::Overlay;
 use super::reader::closest;
-use super::site::{SiteCode, Without};
+use super::site::{SiteCode, Without, fingerprint};
 use super::{Beside, CodeHead, CodeMeaning, Dialect, Subscript, SystemVariable, VariableRun};
 use crate::canon::{Act, Group, Op, Role, Sys};
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
 impl Overlay {
@@ -13,8 +14,10 @@ impl Overlay {
     pub(super) fn site(&mut self, dialect: &mut Dialect) {
         let mut written: BTreeMap<Act, String> = BTreeMap::new();
         let mut seen: Vec<(CodeHead, Vec<Beside>)> = Vec::new();
-        for site in self.profile.site.clone() {
-            let act = site.act(&self.profile);
+        let profile = self.profile.clone();
+        let owner = LazyCell::new(|| fingerprint(&profile));
+        for site in profile.site.clone() {
+            let act = site.act(|| *owner);
             let row = site.row(act);
             let (Some(head), Some(beside)) = (row.head(), row.beside()) else {
                 let message = format!("'{}' is not a code", site.code);

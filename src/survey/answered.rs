@@ -9,6 +9,9 @@ use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Witho
 use crate::report::Questions;
 use std::collections::BTreeMap;
 
+/// Codes that are answered, the most frequent first: a damaged library may have any number of them.
+const CODES: usize = 500;
+
 /// A change of a profile.
 type Answer = Box<dyn Fn(&mut Profile)>;
 
@@ -18,7 +21,7 @@ pub(super) fn controls(survey: &Survey<'_>, chosen: bool) -> [Control; 2] {
     let asked = |control: &Control, other: &Control| {
         survey.with_questions(|questions| facts(questions, control, other, chosen))
     };
-    let codes = survey.codes.iter().map(|asked| -> Answer {
+    let codes = survey.codes.iter().take(CODES).map(|asked| -> Answer {
         let code = asked.code.clone();
         Box::new(move |profile| profile.site.push(site(&code)))
     });
@@ -79,19 +82,23 @@ fn answer(settled: Settled, other: &Control) -> Option<Answer> {
     })
 }
 
+/// Tries of answers that the table may not take: a profile with a few hundred of them costs milliseconds each.
+const TRIES: usize = 100;
+
 /// The control with these answers in its profile: all of them, or those that its table takes.
 fn with(control: &Control, answers: Vec<Answer>) -> Control {
-    let mut profile = control.profile().clone();
-    answers.iter().for_each(|answer| answer(&mut profile));
-    if let Ok(made) = Control::new(control.entry(), profile) {
-        return made;
-    }
-    let (mut made, mut profile) = (control.clone(), control.profile().clone());
-    for answer in answers {
-        let mut more = profile.clone();
-        answer(&mut more);
-        if let Ok(with) = Control::new(control.entry(), more.clone()) {
-            (made, profile) = (with, more);
+    let mut made = control.clone();
+    let mut tries = 0;
+    // What does not go together is halved, until what is wrong stands alone.
+    let mut groups: Vec<&[Answer]> = vec![&answers];
+    while let Some(group) = groups.pop().filter(|_| tries < TRIES) {
+        tries += 1;
+        let mut profile = made.profile().clone();
+        group.iter().for_each(|answer| answer(&mut profile));
+        match Control::new(control.entry(), profile) {
+            Ok(with) => made = with,
+            Err(_) if group.len() > 1 => groups.extend(group.chunks(group.len().div_ceil(2)).rev()),
+            Err(_) => {}
         }
     }
     made

@@ -1,7 +1,7 @@
 //! Codes of which a machine profile must say what the builder made of them.
 
 use super::beside::{beside, most};
-use super::shape::{NAMED, place};
+use super::shape::{NAMED, Places};
 use crate::diag::Severity;
 use crate::dialect::Control;
 use crate::library::{Input, Outcome, ProgramReport};
@@ -27,7 +27,12 @@ pub struct AskedCode {
 }
 
 /// The codes that programs wait for; what frees most programs is first.
-pub(super) fn asked(inputs: &[Input], source: &Control, programs: &[ProgramReport]) -> Vec<AskedCode> {
+pub(super) fn asked(
+    inputs: &[Input],
+    lines: &Places<'_>,
+    source: &Control,
+    programs: &[ProgramReport],
+) -> Vec<AskedCode> {
     let mut found: BTreeMap<String, Vec<(usize, Span)>> = BTreeMap::new();
     let mut frees: BTreeMap<String, usize> = BTreeMap::new();
     for (at, program) in programs.iter().enumerate() {
@@ -67,7 +72,7 @@ pub(super) fn asked(inputs: &[Input], source: &Control, programs: &[ProgramRepor
             if places.len() == NAMED {
                 break;
             }
-            let place = place(inputs, file(at), *span);
+            let place = lines.at(file(at), *span);
             if !places.contains(&place) {
                 places.push(place);
             }

@@ -24,6 +24,7 @@ use crate::library::{
 };
 use crate::report::{Part, Questions};
 use serde::Serialize;
+use shape::Places;
 use std::collections::BTreeMap;
 
 /// What a look over a library showed.
@@ -74,13 +75,14 @@ impl Outcomes {
 /// Looks over the library.
 pub fn survey<'a>(inputs: &'a [Input], source: &'a Control, target: Option<&'a Control>) -> Survey<'a> {
     let library = understood(inputs, source);
-    let shape = Shape::of(inputs, &library);
+    let places = Places::new(inputs);
+    let shape = Shape::of(inputs, &places, &library);
     let mut conversion = match target {
         Some(target) => plain(inputs, source, target),
         None => as_read(inputs, source, library),
     };
     let now = Outcomes::of(&conversion.programs);
-    let codes = codes::asked(inputs, source, &conversion.programs);
+    let codes = codes::asked(inputs, &places, source, &conversion.programs);
     for program in &mut conversion.programs {
         let of_shape = |code| matches!(code, Code::OutsideLibrary | Code::TwinProgram);
         program.diagnostics.retain(|finding| finding.asks.is_none() && !of_shape(finding.code));

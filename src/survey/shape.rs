@@ -8,6 +8,7 @@ use crate::library::{Input, Understood, likeness};
 use crate::syntax::ProgramName;
 use crate::text::{LineIndex, Span};
 use serde::Serialize;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Places that are named of a thing.
@@ -49,7 +50,7 @@ pub struct Missing {
 }
 
 impl Shape {
-    pub(super) fn of(inputs: &[Input], library: &Understood) -> Self {
+    pub(super) fn of(inputs: &[Input], places: &Places<'_>, library: &Understood) -> Self {
         let programs = &library.module.programs;
         let mut shape = Self { files: inputs.len(), programs: programs.len(), ..Self::default() };
         for (entry, share) in likeness(inputs) {
@@ -57,18 +58,17 @@ impl Shape {
             // Between 0 and 100.
             shape.reads.push((title.unwrap_or_default(), (share * 100.0).floor() as u32));
         }
-        let place = |file: usize, span: Span| place(inputs, file, span);
         for (program, found) in programs.iter().zip(&library.found) {
             let sign = found.iter().find(|finding| finding.code == Code::LatheProgram);
             shape.lathe += usize::from(sign.is_some());
             if let Some(sign) = sign.filter(|_| shape.lathe_sign.is_none()) {
-                shape.lathe_sign = Some((sign.message.to_string(), place(program.file, sign.span)));
+                shape.lathe_sign = Some((sign.message.to_string(), places.at(program.file, sign.span)));
             }
         }
-        let mut by_name: BTreeMap<&ProgramName, BTreeSet<usize>> = BTreeMap::new();
+        let mut by_name: BTreeMap<&ProgramName, Vec<usize>> = BTreeMap::new();
         for program in programs {
             if let Some(name) = &program.name {
-                by_name.entry(name).or_default().insert(program.file);
+                by_name.entry(name).or_default().push(program.file);
             }
         }
         let mut called: BTreeSet<&ProgramName> = BTreeSet::new();
@@ -81,9 +81,9 @@ impl Shape {
                         called.insert(name);
                         continue;
                     }
-                    let (callers, places) = missing.entry(name).or_default();
-                    if callers.insert(at) && places.len() < NAMED {
-                        places.push(place(program.file, span_of(block, call)));
+                    let (callers, named) = missing.entry(name).or_default();
+                    if callers.insert(at) && named.len() < NAMED {
+                        named.push(places.at(program.file, span_of(block, call)));
                     }
                 }
             }
@@ -102,8 +102,8 @@ impl Shape {
         shape
     }
 
-    /// Numbers that programs of two files have, and the folders that these lie in.
-    fn twins(&mut self, inputs: &[Input], by_name: &BTreeMap<&ProgramName, BTreeSet<usize>>) {
+    /// Numbers that two programs have, and the folders that these lie in.
+    fn twins(&mut self, inputs: &[Input], by_name: &BTreeMap<&ProgramName, Vec<usize>>) {
         let twice = by_name.iter().filter(|(_, files)| files.len() > 1);
         let mut folders = BTreeSet::new();
         for (name, files) in twice {
@@ -119,9 +119,23 @@ impl Shape {
     }
 }
 
-/// A place as `file:line`.
-pub(super) fn place(inputs: &[Input], file: usize, span: Span) -> String {
-    let Some(input) = inputs.get(file) else { return String::new() };
-    let (line, _) = LineIndex::new(&input.bytes).place(span.start);
-    format!("{}:{line}", input.name)
+/// The files of a library, with their lines counted when the first place in one is named.
+pub(super) struct Places<'a> {
+    inputs: &'a [Input],
+    lines: Vec<OnceCell<LineIndex>>,
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn new(inputs: &'a [Input]) -> Self {
+        Self { inputs, lines: inputs.iter().map(|_| OnceCell::new()).collect() }
+    }
+
+    /// A place as `file:line`.
+    pub(super) fn at(&self, file: usize, span: Span) -> String {
+        let Some((input, lines)) = self.inputs.get(file).zip(self.lines.get(file)) else {
+            return String::new();
+        };
+        let (line, _) = lines.get_or_init(|| LineIndex::new(&input.bytes)).place(span.start);
+        format!("{}:{line}", input.name)
+    }
 }

@@ -8,6 +8,9 @@ use std::fmt::Write;
 /// Things of one kind that are named before the rest is counted.
 const LISTED: usize = 20;
 
+/// Codes that are named before the rest is counted: a shop has dozens.
+const CODES: usize = 100;
+
 /// The survey as text.
 pub fn text(survey: &Survey<'_>) -> String {
     let mut out = String::new();
@@ -72,7 +75,7 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
     out.push_str(
         "The source's profile says it in [[site]]; the manual of the machine, not of the control, knows.\n",
     );
-    for AskedCode { code, programs, frees, places, comment, block } in codes {
+    for AskedCode { code, programs, frees, places, comment, block } in codes.iter().take(CODES) {
         let frees = if *frees > 0 { format!(", {frees} wait for nothing else") } else { String::new() };
         let places = places.join(", ");
         let _ = writeln!(out, "  {code:<6} {}{frees}: {}", count(*programs), shown(&places));
@@ -82,6 +85,10 @@ fn codes(out: &mut String, codes: &[AskedCode]) {
             }
             None => writeln!(out, "         {}", shown(block)),
         };
+    }
+    let left = codes.len().saturating_sub(CODES);
+    if left > 0 {
+        let _ = writeln!(out, "  and {left} more; --format json has all");
     }
 }
 

@@ -86,6 +86,19 @@ fn what_is_filled_in_frees_programs() {
     assert_eq!(shop.run(convert).code, 0);
 }
 
+/// A damaged library may have any number of unknown codes and missing programs, and names that are markup elsewhere.
+#[test]
+fn a_damaged_library_is_told_of_in_time() {
+    let calls: String =
+        (1..2000).map(|n| format!("M98 P{n} (\"\\\u{7f}{n})\nG{}.{}\n", 500 + n % 400, n % 9)).collect();
+    let shop = Shop::with(&[("lib/a.nc", &format!("O9000\n{calls}M99\nO9000\nM99\n"))]);
+    let survey = json(&shop, "survey lib --from fanuc --to haas --write m.toml --format json");
+    assert_eq!(survey["library"]["twice"], serde_json::json!([["O9000", ["a.nc", "a.nc"]]]));
+    assert!(survey["library"]["missing"].as_array().unwrap().len() > 1500);
+    let run = shop.run("survey lib --from fanuc --to haas --write m.toml");
+    assert!(run.code == 0 && run.out.len() < 60_000, "{}", run.out.len());
+}
+
 #[test]
 fn no_program_is_written_over() {
     let shop = shop();
