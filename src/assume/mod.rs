@@ -10,7 +10,7 @@ mod numbers;
 pub use domain::Domain;
 pub use numbers::{Numbers, Subscripts};
 
-use crate::canon::Func;
+use crate::canon::{Func, Op};
 use crate::text::Span;
 use std::sync::Arc;
 
@@ -73,6 +73,8 @@ pub enum Predicate {
     ArcEnds(Vec<Span>),
     /// The tools that these blocks change to are whole numbers, and not 0.
     Tools(Vec<Span>),
+    /// The target has no such operation: it does something near instead, or nothing, and a person accepts that.
+    Substitute(Op),
     /// Something of the machine or the shop that no run shows: how a signal is wired, what an operator does.
     Unseen,
 }
@@ -106,6 +108,7 @@ impl Predicate {
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
             Self::Tools(_) => "tools",
+            Self::Substitute(_) => "substitute",
             Self::Unseen => "unseen",
         }
     }
@@ -121,7 +124,13 @@ impl Predicate {
 
     /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
-        !matches!(self, Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::Unseen)
+        let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_));
+        !set && !self.is_accepted()
+    }
+
+    /// True for what no run can keep or break.
+    pub fn is_accepted(&self) -> bool {
+        matches!(self, Self::Substitute(_) | Self::Unseen)
     }
 
     /// Numbers worth a try: the ends of what is assumed to be safe, its inside, and what lies just outside. Of the
@@ -134,7 +143,7 @@ impl Predicate {
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
             Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::Unseen => Vec::new(),
-            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) => Vec::new(),
+            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) => Vec::new(),
         }
     }
 }

@@ -216,7 +216,7 @@ fn danger(finding: &Diagnostic) -> usize {
         (Some(Predicate::Codes { .. } | Predicate::Subscripts(_) | Predicate::Arguments { .. }), _) => 3,
         (Some(Predicate::Main | Predicate::Nesting { .. } | Predicate::Alarms(_)), _) => 4,
         (_, Code::NotDecided | Code::RoundingSensitive) => 5,
-        (Some(Predicate::Unseen), _) | (None, Code::Conditional) => 6,
+        (Some(Predicate::Substitute(_) | Predicate::Unseen), _) | (None, Code::Conditional) => 6,
         (None, _) => 7,
         (Some(Predicate::Fact(_)), _) => 8,
     }

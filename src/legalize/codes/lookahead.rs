@@ -6,6 +6,7 @@
 //! never what is computed; hence review diagnostics. Side condition: no cutter compensation is in force, under which the
 //! target takes no limit; where the library compensates, the limit is taken off again after the empty blocks.
 
+use crate::assume::Predicate;
 use crate::canon::{Group, Op};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Question, Side};
@@ -46,7 +47,12 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             StmtKind::LimitLookahead(_) if !limits => {
                 let what = "the limit on reading ahead is dropped: the target has none, so the blocks after it \
                      may read inputs and switch outputs early";
-                context.add_once(index, "lookahead", Diagnostic::new(Code::Conditional, span, what));
+                let told = Diagnostic::new(Code::Conditional, span, what);
+                context.add_once(
+                    index,
+                    "lookahead",
+                    told.assuming(Predicate::Substitute(Op::LimitLookahead)),
+                );
                 out.push(Stmt { kind: StmtKind::Nc(Nc::default()), site: stmt.site });
             }
             kind => out.push(Stmt { kind, site: stmt.site }),

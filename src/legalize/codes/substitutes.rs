@@ -4,6 +4,7 @@
 //! otherwise. Nothing that moves an axis, changes an offset or a mode of coordinates has a row here. Modes of quality are
 //! left out with a note: both controls follow the path within the tolerance that they are set to.
 
+use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Nc, NcItem, Program, StmtKind};
@@ -80,7 +81,8 @@ fn drop_quality(nc: &mut Nc, index: usize, span: Span, context: &mut Context<'_>
     }
     nc.items.retain(|item| !is_mode(item) && !matches!(item, NcItem::Word(Role::Builder, _)));
     let what = "a mode of how smoothly or how fast a path is followed is dropped: the target follows it as it is set";
-    context.add_once(index, what, Diagnostic::new(Code::QualityDropped, span, what));
+    let told = Diagnostic::new(Code::QualityDropped, span, what);
+    context.add_once(index, what, told.assuming(Predicate::Substitute(Op::PathQuality)));
     true
 }
 
@@ -106,7 +108,8 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
                     Some(other) => nc.items[at] = NcItem::Op(*other),
                     None => drop(nc.items.remove(at)),
                 }
-                context.add_once(index, what, Diagnostic::new(Code::Conditional, stmt.site.span, *what));
+                let told = Diagnostic::new(Code::Conditional, stmt.site.span, *what);
+                context.add_once(index, what, told.assuming(Predicate::Substitute(*op)));
             }
         }
         changed |= drop_emptied(block);

@@ -1,5 +1,6 @@
 //! What a comparison of two runs found.
 
+use crate::canon::Op;
 use crate::control::trace::Event;
 use std::collections::BTreeSet;
 
@@ -16,6 +17,8 @@ pub struct Comparison<'r> {
     pub texts: BTreeSet<(String, String)>,
     /// What the target cannot do and did otherwise, or left out.
     pub substituted: BTreeSet<String>,
+    /// The same of operations that the target has not, which the conversion may have told.
+    pub replaced: BTreeSet<(Op, String)>,
     /// True where the target stops for good in the place of a builder's code, as the source's profile wants it.
     pub stopped: bool,
 }

@@ -305,15 +305,18 @@ impl<'p, 'r> Pairs<'p, 'r> {
             self.uncancelled = true;
             return true;
         }
-        if let Some(text) = goes_on(self.target, what, self.runs[1].coolant()) {
-            self.found.substituted.insert(text);
+        if let Some(replaced) = goes_on(self.target, what, self.runs[1].coolant()) {
+            self.found.replaced.insert(replaced);
             self.moved(0, act);
+            return true;
+        }
+        if let Some(replaced) = is_left_out(self.target, what) {
+            self.found.replaced.insert(replaced);
             return true;
         }
         let leaves = returns_to_caller(what);
         self.left |= leaves.is_some();
-        let left_out = is_left_out(self.target, what)
-            .or_else(|| makes_ready(self.target, what))
+        let left_out = makes_ready(self.target, what)
             .or_else(|| builders::is_left_out(self.source, self.target, what))
             .or(leaves);
         self.found.substituted.extend(left_out.clone());
@@ -350,7 +353,11 @@ impl<'p, 'r> Pairs<'p, 'r> {
             self.found.substituted.insert(text.to_owned());
             return None;
         }
-        if let Some(text) = stands.or_else(|| is_builders(a, b).filter(|_| a != b)) {
+        if let Some(replaced) = stands {
+            self.found.replaced.insert(replaced);
+            return None;
+        }
+        if let Some(text) = is_builders(a, b).filter(|_| a != b) {
             self.found.substituted.insert(text);
             return None;
         }

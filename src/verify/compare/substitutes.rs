@@ -2,7 +2,8 @@
 //!
 //! None of it moves an axis, and all of it a machinist would notice: so it makes no difference that a
 //! verifier could blame on the conversion, and none that it could pass over in silence either. A program that
-//! needs it is undecided, and the certificate names what a person must accept.
+//! needs it is undecided, and the certificate names what a person must accept; unless the conversion told of it, which makes
+//! the program one for review.
 
 use super::kinds::is_mode;
 use crate::canon::Op;
@@ -12,32 +13,33 @@ use crate::verify::sides::Side;
 use std::collections::BTreeMap;
 
 /// One coolant for the other, where the target has no such coolant.
-pub fn stands_for(target: &Side<'_>, source: &EventKind, there: &EventKind) -> Option<String> {
+pub fn stands_for(target: &Side<'_>, source: &EventKind, there: &EventKind) -> Option<(Op, String)> {
     let (EventKind::Coolant { state }, EventKind::Coolant { state: other }) = (source, there) else {
         return None;
     };
     let both = matches!((state, other), (Op::Mist, Op::Flood) | (Op::Flood, Op::Mist));
-    (both && lacks(target, *state)).then(|| format!("the target has no {state}: it does {other} instead"))
+    (both && lacks(target, *state))
+        .then(|| (*state, format!("the target has no {state}: it does {other} instead")))
 }
 
 /// The other coolant coming on where the target has one kind only, which is on already.
-pub fn goes_on(target: &Side<'_>, source: &EventKind, there: Op) -> Option<String> {
+pub fn goes_on(target: &Side<'_>, source: &EventKind, there: Op) -> Option<(Op, String)> {
     let EventKind::Coolant { state } = *source else { return None };
     let other = match state {
         Op::Mist => Op::Flood,
         Op::Flood => Op::Mist,
         _ => return None,
     };
-    let one_kind = lacks(target, state) || lacks(target, other);
-    (one_kind && (there == state || there == other))
-        .then(|| format!("the target has only one kind of coolant: {there} is on"))
+    let lacking = [state, other].into_iter().find(|op| lacks(target, *op))?;
+    (there == state || there == other)
+        .then(|| (lacking, format!("the target has only one kind of coolant: {there} is on")))
 }
 
 /// A mode of corners or ramps, or a limit on reading ahead, that the target has no code for.
-pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<String> {
+pub fn is_left_out(target: &Side<'_>, source: &EventKind) -> Option<(Op, String)> {
     let EventKind::Other { operation, .. } = source else { return None };
     (is_mode(source) && lacks(target, *operation))
-        .then(|| format!("the target has no {operation}: it is dropped"))
+        .then(|| (*operation, format!("the target has no {operation}: it is dropped")))
 }
 
 /// A tool that is made ready, where a tool word of the target changes the tool. Each change is compared by its tool.

@@ -1,7 +1,6 @@
 //! How the runs of a program kept what its conversion supposes.
 
 use super::verifier::Verifier;
-use crate::assume::Predicate;
 use crate::verify::certificate::{Assumed, Why};
 use crate::verify::triage::Tried;
 
@@ -27,7 +26,7 @@ impl Verifier<'_, '_> {
                 self.because(Why::NoRunKept, &format!("no run met the condition of line {line}: {text}"));
             }
             let [kept, broken] =
-                [kept, broken].map(|runs| (assumption.predicate != Predicate::Unseen).then_some(runs));
+                [kept, broken].map(|runs| (!assumption.predicate.is_accepted()).then_some(runs));
             list.push(Assumed { kind, text, line, column, kept, broken });
         }
         list

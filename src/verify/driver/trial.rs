@@ -6,7 +6,7 @@ use crate::control::{End, ProgramRef, Run, Scenario};
 use crate::verify::certificate::{Moment, Why, unconfirmed};
 use crate::verify::compare::{Difference, compare, is_cut, writes_elsewhere};
 use crate::verify::sides::Job;
-use crate::verify::triage::{ROUNDS, excuse, facts, tried};
+use crate::verify::triage::{ROUNDS, excuse, facts, told_substitutes, tried};
 
 impl Verifier<'_, '_> {
     /// Compares the runs of a scenario. True where the target's went a new way.
@@ -40,7 +40,9 @@ impl Verifier<'_, '_> {
         let found = compare((source, run), (target, &other), names, self.tolerance);
         self.largest = self.largest.max(found.largest);
         self.texts.extend(found.texts);
-        for text in found.substituted {
+        let told = told_substitutes(self.job, run);
+        let replaced = found.replaced.into_iter().filter(|(op, _)| !told.contains(op)).map(|(_, text)| text);
+        for text in found.substituted.into_iter().chain(replaced) {
             self.because(Why::Substituted, &text);
         }
         let ended = !is_cut(run) && !is_cut(&other);

@@ -2,7 +2,7 @@
 
 use super::{SymbolMap, supposing};
 use crate::assume::{Assumption, Domain, Numbers, Predicate, Subscripts};
-use crate::canon::Func;
+use crate::canon::{Func, Op};
 use crate::text::Span;
 use crate::verify::{Outcome, ProgramCertificate, Why};
 
@@ -69,6 +69,21 @@ fn what_no_run_keeps_is_undecided() {
     let found = one(source, source, &[numbers(source, "#1=#[#500]", &[(500, 501)])]);
     assert_eq!((found.assumptions[0].kept, found.assumptions[0].broken), (Some(0), Some(0)));
     assert!(has(&found, Why::NoRunKept), "{:?}", found.reasons);
+}
+
+/// A control without mist: flood coolant instead is no reason to be undecided, if the conversion told of it.
+#[test]
+fn a_substitute_that_was_told_is_no_reason() {
+    let source = "O1\nG21G90\nM7\nG0X5.\nM9\nM30\n";
+    let flood = source.replace("M7", "M8");
+    let substituted = |supposed: &[Op]| {
+        let supposed: Vec<_> = supposed.iter().map(|op| assumption(Predicate::Substitute(*op))).collect();
+        has(&one(source, &flood, &supposed), Why::Substituted)
+    };
+    assert!(substituted(&[]) && substituted(&[Op::ExactStop]));
+    assert!(!substituted(&[Op::Mist]));
+    let dry = one(source, &source.replace("M7\n", ""), &[assumption(Predicate::Substitute(Op::Mist))]);
+    assert_eq!(dry.outcome, Outcome::Different);
 }
 
 #[test]

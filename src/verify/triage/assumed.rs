@@ -5,6 +5,7 @@
 //! known here.
 
 use crate::assume::{Assumption, Predicate};
+use crate::canon::Op;
 use crate::control::trace::{Computed, Event, EventKind};
 use crate::control::{End, ProgramRef, Run};
 use crate::text::Span;
@@ -82,6 +83,16 @@ pub fn facts(job: &Job<'_>, run: &Run) -> BTreeSet<Arc<str>> {
     all.filter_map(|assumption| assumption.predicate.fact()).collect()
 }
 
+/// The operations of which it is told that the target has none, in the programs that a run came through.
+pub fn told_substitutes(job: &Job<'_>, run: &Run) -> BTreeSet<Op> {
+    let all = job.source.links().entered(run).filter_map(|program| job.assumptions.get(&program)).flatten();
+    let told = all.filter_map(|assumption| match assumption.predicate {
+        Predicate::Substitute(op) => Some(op),
+        _ => None,
+    });
+    told.collect()
+}
+
 /// Why a difference is not held against the conversion: what the source did before it, or in it. None where it kept all
 /// that is assumed so far, or the target was not there yet.
 pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Difference<'_>) -> Option<String> {
@@ -110,7 +121,7 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
     match predicate {
         // The emulated controls go by the tables, and both sides are set to one unit and found with the tool.
         Predicate::Fact(_) | Predicate::Unit | Predicate::Main | Predicate::Loaded(_) => Held::Kept,
-        Predicate::Unseen => Held::Untried,
+        Predicate::Substitute(_) | Predicate::Unseen => Held::Untried,
         Predicate::Subscripts(subscripts) => {
             let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
             let name = of.0.control.numbered().unwrap_or_default();
@@ -153,6 +164,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::ShortArcs(_)
         | Predicate::ArcEnds(_)
         | Predicate::Tools(_)
+        | Predicate::Substitute(_)
         | Predicate::Unseen
         | Predicate::Subscripts(_) => Held::Untried,
         Predicate::Arguments { function, domain, .. } => {
