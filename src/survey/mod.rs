@@ -65,11 +65,6 @@ impl Outcomes {
         let [converted, review, refused] = [Outcome::Converted, Outcome::Review, Outcome::Refused].map(count);
         Self { converted, review, refused }
     }
-
-    /// Programs that are written.
-    pub fn written(self) -> usize {
-        self.converted + self.review
-    }
 }
 
 /// Looks over the library.

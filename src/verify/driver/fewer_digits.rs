@@ -15,8 +15,8 @@ impl Verifier<'_, '_> {
     }
 
     /// True where the target does something else with fewer digits: rounded, and off by errors that are drawn, and their
-    /// opposites, for where rounding hits a tie other errors miss it. What comes after an event where the source says
-    /// nothing of what the target should do counts for nothing: `upto`.
+    /// opposites, for where rounding hits a tie other errors miss it. Nothing after `upto` counts: from there on the source
+    /// does not say what the target should do.
     ///
     /// Errors are drawn for the first runs, and for each that went a new way.
     pub(super) fn is_sensitive(
