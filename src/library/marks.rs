@@ -13,15 +13,24 @@ const BEGINS: &str = "MACROGLOT ";
 /// Letters of a file's name, and of a machine's, that are shown.
 const MOST: usize = 24;
 
+/// Letters of the whole line, which no control breaks: of one that was broken, half would stay on the way back.
+const LINE: usize = 60;
+
 /// By file, the line that its programs get; none if it is not asked for, or the target's profile wants none.
 pub(super) fn marks(inputs: &[Input], target: &Control, options: Options) -> Vec<String> {
     if !options.marks || target.profile().head == Some(false) {
         return Vec::new();
     }
     let machine = target.profile().title.as_deref().unwrap_or(&target.dialect().title);
+    let longest = target.text().comment.map_or(LINE, |most| LINE.min(most as usize));
     let mark = |input: &Input| {
         let name = input.name.rsplit('/').next().unwrap_or_default();
-        format!("{BEGINS}{} FROM {} TO {}", env!("CARGO_PKG_VERSION"), plain(name), plain(machine))
+        let begun = format!("{BEGINS}{} FROM {} TO ", env!("CARGO_PKG_VERSION"), plain(name));
+        let machine = plain(machine);
+        let room = longest.saturating_sub(begun.len());
+        let cut = machine.match_indices(' ').map(|(at, _)| at).chain([machine.len()]);
+        let cut = cut.take_while(|at| *at <= room).last().unwrap_or(room);
+        begun + machine.get(..cut).unwrap_or(&machine)
     };
     inputs.iter().map(mark).collect()
 }
@@ -107,6 +116,23 @@ mod tests {
     fn a_profile_can_switch_it_off() {
         let there = converted(PROGRAM, FANUC, &format!("{HAAS}\nhead = false"));
         assert!(!there.contains("MACROGLOT"), "{there}");
+    }
+
+    #[test]
+    fn a_long_one_is_cut_to_a_line() {
+        let long = "dialect = \"fadal\"\ntitle = \"CNC 88, format 1, with tool probe\"";
+        let name = "a-very-long-name-of-a-file.nc";
+        let inputs = [Input { path: name.into(), name: name.into(), bytes: PROGRAM.into() }];
+        let options = Options { marks: true, ..Options::default() };
+        let [fanuc, fadal] = [FANUC, long].map(|text| Control::from_profile(text).unwrap());
+        let there = convert(&inputs, &fanuc, &fadal, Lock::new("fanuc", "fadal"), options);
+        let there = there.texts[0].clone().unwrap();
+        let mark = there.lines().find(|line| line.contains("MACROGLOT")).unwrap();
+        assert!(mark.ends_with(" FROM A-VERY-LONG-NAME-OF-A-FI TO CNC 88"), "{mark}");
+        let inputs = [Input { path: name.into(), name: name.into(), bytes: there.clone().into() }];
+        let back = convert(&inputs, &fadal, &fanuc, Lock::new("fadal", "fanuc"), options);
+        let back = back.texts[0].clone().unwrap();
+        assert!(!back.contains("CNC 88") && !back.contains("FORMAT"), "{back}");
     }
 
     #[test]
