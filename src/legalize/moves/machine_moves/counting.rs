@@ -59,6 +59,7 @@ impl Counting {
             // What returns without a selection counts: its `return` does.
             TermKind::Call { call, .. } => match &call.callee {
                 Callee::Program(name) => self.names.get(name).is_none_or(|callee| at(*callee, BlockId(0))),
+                Callee::Block(entry) => at(index, *entry),
                 _ => true,
             },
             _ => true,
