@@ -29,26 +29,26 @@ impl Cfg {
         Self::new(succs, program)
     }
 
-    /// The graph of every way that control can go: calls enter their block, and returns go
-    /// after any call of a block, to the labelled blocks where they name one, and (if nobody
-    /// called the program) to the entry. With `come_back` (see [`may_come_back`]) a call of another
-    /// program may go on at any labelled block.
+    /// The graph of every way that control can go: calls enter their block, and the returns of a called part go on after the
+    /// calls of that part, to the labelled blocks where they name one, and (if nobody called the program) to the entry. With
+    /// `come_back` (see [`may_come_back`]) a call of another program may go on at any labelled block.
     ///
-    /// Two blocks stand here that the program does not have, so that many returns to many places
-    /// are not as many edges as their product: past the last one, one that all returns go through,
-    /// and one that every way to an unknown label does.
+    /// Past the last block stand some that the program does not have, so that many returns to many places are not as many
+    /// edges as their product: first the one that every way to an unknown label goes through, then those of the returns.
     pub fn whole(program: &Program, come_back: bool) -> Self {
-        let count = program.blocks.len() as u32;
-        let (returned, label) = (BlockId(count), BlockId(count + 1));
-        let mut behind: Ways = smallvec![BlockId(0)];
+        let label = BlockId(program.blocks.len() as u32);
+        let mut after: BTreeMap<BlockId, Ways> = [(BlockId(0), smallvec![BlockId(0)])].into();
         let mut succs: Vec<Ways> = Vec::with_capacity(program.blocks.len() + 2);
+        // At an unknown label nobody can tell in which part a run is.
+        let mut told = !come_back && modal_bodies(program).next().is_none();
         for block in &program.blocks {
             succs.push(match &block.term.kind {
                 TermKind::Call { call, next } => match &call.callee {
                     Callee::Block(entry) => {
-                        behind.push(*next);
+                        let ways = after.entry(*entry).or_default();
+                        ways.push(*next);
                         // One that runs again begins where it returned.
-                        behind.extend(call.count.is_some().then_some(*entry));
+                        ways.extend(call.count.is_some().then_some(*entry));
                         // One that runs no times, and the locals of a level, pass the body by.
                         if call.count.is_some() || call.level {
                             smallvec![*entry, *next]
@@ -59,13 +59,24 @@ impl Cfg {
                     _ if come_back => smallvec![*next, label],
                     _ => smallvec![*next],
                 },
-                TermKind::Return { to: None } => smallvec![returned],
-                TermKind::Return { to: Some(_) } => smallvec![returned, label],
+                TermKind::Return { to: None } => Ways::new(),
+                TermKind::Return { to: Some(_) } => {
+                    told = false;
+                    smallvec![label]
+                }
                 kind => kind.successors(),
             });
         }
-        succs.push(behind);
         succs.push(labelled(program).collect());
+        returns_go_on(&mut succs, after, program, told);
+        // What no part reaches never runs: it goes anywhere.
+        let all = (label.0 + 1..succs.len() as u32).map(BlockId);
+        for id in program.ids().filter(|id| returns(program, *id)) {
+            let ways = &mut succs[id.index()];
+            if !ways.iter().any(|way| *way > label) {
+                ways.extend(all.clone());
+            }
+        }
         Self::new(succs, program)
     }
 
@@ -87,21 +98,7 @@ impl Cfg {
                 None => block.term.kind.successors(),
             });
         }
-        let returns = |id: &BlockId| {
-            let block = program.block(*id);
-            block.is_some_and(|block| matches!(block.term.kind, TermKind::Return { .. }))
-        };
-        if after.len().saturating_mul(program.blocks.len()) > MOST {
-            let returned = BlockId(succs.len() as u32);
-            succs.push(std::mem::take(&mut after).into_values().flatten().collect());
-            program.ids().filter(returns).for_each(|id| succs[id.index()].push(returned));
-        }
-        for (entry, after) in after {
-            let returned = BlockId(succs.len() as u32);
-            succs.push(after);
-            let part = reachable(program, entry).into_iter();
-            part.filter(returns).for_each(|id| succs[id.index()].push(returned));
-        }
+        returns_go_on(&mut succs, after, program, true);
         Self::new(succs, program)
     }
 
@@ -182,8 +179,28 @@ impl Cfg {
     }
 }
 
-/// Called parts times blocks up to which [`Cfg::parts`] tells their returns apart.
+/// Called parts times blocks up to which the returns of parts are told apart.
 const MOST: usize = 1 << 22;
+
+/// Lets the returns of each part go on after its calls, by a block past the last one: by one for all parts where they are
+/// not `told` apart.
+fn returns_go_on(succs: &mut Vec<Ways>, mut after: BTreeMap<BlockId, Ways>, program: &Program, told: bool) {
+    if !told || after.len().saturating_mul(program.blocks.len()) > MOST {
+        let returned = BlockId(succs.len() as u32);
+        succs.push(std::mem::take(&mut after).into_values().flatten().collect());
+        program.ids().filter(|id| returns(program, *id)).for_each(|id| succs[id.index()].push(returned));
+    }
+    for (entry, after) in after {
+        let returned = BlockId(succs.len() as u32);
+        succs.push(after);
+        let part = reachable(program, entry).into_iter();
+        part.filter(|id| returns(program, *id)).for_each(|id| succs[id.index()].push(returned));
+    }
+}
+
+fn returns(program: &Program, id: BlockId) -> bool {
+    program.block(id).is_some_and(|block| matches!(block.term.kind, TermKind::Return { .. }))
+}
 
 /// The part of the same program that a block calls at its end, where control goes on, and whether the call may run it
 /// more than once.
@@ -205,19 +222,15 @@ pub fn reachable(program: &Program, entry: BlockId) -> BTreeSet<BlockId> {
 
 /// The blocks that calls of this program enter, modal ones included.
 pub(super) fn entries(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
-    let modal = |block: &Block| {
-        let calls = block.stmts.iter().filter_map(|stmt| match &stmt.kind {
-            StmtKind::ModalCall(call) => Some(&call.callee),
-            _ => None,
-        });
-        calls.filter_map(entry).collect::<Vec<_>>()
-    };
-    program.blocks.iter().flat_map(move |block| {
-        let called = match &block.term.kind {
-            TermKind::Call { call, .. } => entry(&call.callee),
-            _ => None,
-        };
-        modal(block).into_iter().chain(called)
+    let called = program.blocks.iter().filter_map(|block| own_call(block).map(|(entry, ..)| entry));
+    modal_bodies(program).chain(called)
+}
+
+/// The blocks of this program that modal calls enter.
+pub fn modal_bodies(program: &Program) -> impl Iterator<Item = BlockId> + '_ {
+    program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| match &stmt.kind {
+        StmtKind::ModalCall(call) => entry(&call.callee),
+        _ => None,
     })
 }
 

@@ -29,7 +29,7 @@ impl Ways {
 pub struct Liveness<'p> {
     program: &'p Program,
     rules: Rules,
-    /// Live at the end of each block, those two of [`Cfg::whole`] included.
+    /// Live at the end of each block, those that [`Cfg::whole`] puts past the last one included.
     ends: States<Temps>,
 }
 

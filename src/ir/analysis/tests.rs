@@ -57,6 +57,23 @@ fn calls_of_blocks_enter_and_return() {
     assert_eq!((steps.succs(BlockId(0)), steps.roots()), (&ids(&[1])[..], &ids(&[0, 2])[..]));
 }
 
+#[test]
+fn returns_go_on_after_calls_of_their_part() {
+    let module = module(
+        "block0:\n call block3 -> block1\nblock1:\n call block4 -> block2\nblock2:\n end\nblock3:\n return\n\
+         block4:\n return\nblock5:\n return",
+    );
+    let whole = Cfg::whole(&module.programs[0], false);
+    let after = |part| {
+        let hubs = whole.succs(BlockId(part)).iter();
+        hubs.flat_map(|hub| whole.succs(*hub).to_vec()).collect::<Vec<_>>()
+    };
+    assert_eq!(after(3), ids(&[1]));
+    assert_eq!(after(4), ids(&[2]));
+    // Nothing reaches it.
+    assert_eq!(after(5), ids(&[0, 1, 2]));
+}
+
 fn live(module: &Module, block: u32) -> Vec<String> {
     let live = Liveness::of(&module.programs[0], Ways::of(module));
     let temps = (1..=3).map(|number| var(&format!("tmp.{number}")));

@@ -6,7 +6,7 @@
 
 use super::dataflow::{Analysis, Cursor, Direction, Lattice, States, Steps, solve};
 use super::effects::{Seen, Summaries};
-use super::{BitRow, Cfg, Universe, VarSet};
+use super::{BitRow, Cfg, Universe, VarSet, modal_bodies};
 use crate::canon::Sys;
 use crate::ir::{
     Bank, Block, BlockId, Call, Callee, Class, Cond, Expr, Place, Program, Relation, Stmt, StmtKind,
@@ -68,7 +68,8 @@ impl Analysis for Rules<'_> {
 
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, BitRow)> {
         // A body that a modal call enters is entered with anything.
-        let called = |root: BlockId| cfg.preds(root).is_empty() || self.is_modal(root);
+        let modal: BTreeSet<BlockId> = modal_bodies(self.program).collect();
+        let called = |root: BlockId| cfg.preds(root).is_empty() || modal.contains(&root);
         let roots = cfg.roots().iter().copied();
         let entered = roots.filter(|root| *root == BlockId(0) || called(*root));
         let state = |root| if root == BlockId(0) { self.entry.clone() } else { self.universe.all() };
@@ -249,14 +250,6 @@ impl Rules<'_> {
             let var = Var { class: Class::Local, number: argument.local };
             self.write(&Place::Var(var), self.yields_vacant(&argument.value, &outer), true, row);
         }
-    }
-
-    fn is_modal(&self, id: BlockId) -> bool {
-        self.program
-            .blocks
-            .iter()
-            .flat_map(|block| &block.stmts)
-            .any(|stmt| matches!(&stmt.kind, StmtKind::ModalCall(call) if call.callee == Callee::Block(id)))
     }
 
     fn write(&self, target: &Place, vacant: bool, sure: bool, row: &mut BitRow) {

@@ -10,7 +10,7 @@
 //! variable in all programs.
 
 use crate::ir::analysis::dataflow::{Analysis, Cursor, Direction, Steps, solve};
-use crate::ir::analysis::{BitRow, Cfg, Summaries, Universe, Vacancy};
+use crate::ir::analysis::{BitRow, Cfg, Summaries, Universe, Vacancy, modal_bodies};
 use crate::ir::{Bank, Block, BlockId, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::names::{keeps_number, name_of};
@@ -192,7 +192,11 @@ impl Analysis for Unwritten<'_> {
     const DIRECTION: Direction = Direction::Forward;
 
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, BitRow)> {
-        cfg.roots().iter().map(|root| (*root, self.universe.all())).collect()
+        // A part is entered with what its calls leave, but for one that a modal call enters.
+        let modal: BTreeSet<BlockId> = modal_bodies(self.program).collect();
+        let open =
+            |root: &BlockId| *root == BlockId(0) || cfg.preds(*root).is_empty() || modal.contains(root);
+        cfg.roots().iter().copied().filter(open).map(|root| (root, self.universe.all())).collect()
     }
 
     fn block(&self, id: BlockId, block: &Block, row: &mut BitRow) {
@@ -200,11 +204,14 @@ impl Analysis for Unwritten<'_> {
     }
 
     fn edge<'s>(&self, from: BlockId, _: BlockId, row: &'s BitRow) -> Option<Cow<'s, BitRow>> {
-        // After the returns of a part of the program, and at labels that calls come back to, anything.
-        let Some(block) = self.program.block(from) else { return Some(Cow::Owned(self.universe.all())) };
+        let Some(block) = self.program.block(from) else {
+            // Past the returns of parts nothing changes; at labels that calls come back to it may be anything.
+            let is_label = from.index() == self.program.blocks.len();
+            return Some(if is_label { Cow::Owned(self.universe.all()) } else { Cow::Borrowed(row) });
+        };
         let TermKind::Call { call, .. } = &block.term.kind else { return Some(Cow::Borrowed(row)) };
         if matches!(call.callee, Callee::Block(_)) {
-            return Some(Cow::Owned(self.universe.all()));
+            return Some(Cow::Borrowed(row));
         }
         let (mut row, written) = (row.clone(), self.summaries.by_call(call));
         for (at, _) in self.universe.vars().iter().enumerate().filter(|(_, var)| written.contains(**var)) {
