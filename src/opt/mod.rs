@@ -12,11 +12,13 @@ mod copy_propagation;
 mod dead_stores;
 mod fold;
 mod list;
+mod nested;
 mod pass;
 #[cfg(test)]
 mod random;
 mod retarget;
 mod unreachable;
+mod whole_parts;
 mod word_values;
 
 pub use branches::Branches;
@@ -25,9 +27,11 @@ pub use dead_stores::DeadStores;
 pub use fold::Fold;
 pub use fold::fold;
 pub use list::{PASSES, find};
+pub use nested::Nested;
 pub use pass::{Level, Library, Pass, run};
 pub use retarget::Retarget;
 pub use unreachable::Unreachable;
+pub use whole_parts::WholeParts;
 pub use word_values::WordValues;
 
 #[cfg(test)]

@@ -23,7 +23,9 @@ use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, probe_points, signals, state,
     subscript_chains, timers, touch_points, vacant_writes,
 };
-use crate::opt::{Branches, CopyPropagation, DeadStores, Fold, Retarget, Unreachable, WordValues};
+use crate::opt::{
+    Branches, CopyPropagation, DeadStores, Fold, Nested, Retarget, Unreachable, WholeParts, WordValues,
+};
 
 /// The passes from lowering to emission.
 pub const GROUPS: &[Group] = &[
@@ -80,6 +82,18 @@ const EARLIER: &[Pass] = &[
         &WordValues,
         "word-values",
         "a value goes straight into the word that its temporary was set for",
+    )
+    .when(scratch::concerns),
+    Pass::tidies(
+        &WholeParts,
+        "whole-parts",
+        "the steps by which an earlier conversion took a whole part are a function again",
+    )
+    .when(scratch::concerns),
+    Pass::tidies(
+        &Nested,
+        "nested",
+        "parts of an expression that an earlier conversion put into temporaries go back into it",
     )
     .when(scratch::concerns),
 ];

@@ -2,7 +2,8 @@
 //!
 //! Law: with q the whole turns in an angle, `a - q*360` has the same sine and cosine and lies within one turn of zero; an
 //! angle there stays as it is, to the last digit. Off by the last digit of the angle where it lies outside, which changes
-//! the sine by as little. Counter-example: `SIN[400]` where the control stops at more than 360.
+//! the sine by as little. An angle that is such a difference already, as an earlier conversion wrote it, is left as it is.
+//! Counter-example: `SIN[400]` where the control stops at more than 360.
 
 use super::emulated::{apply, number};
 use crate::canon::Func;
@@ -36,17 +37,28 @@ pub fn run(program: &mut Program, target: &Control) -> bool {
 fn may_be_far(angle: &Expr) -> bool {
     match (angle.constant(), angle) {
         (Some(angle), _) => angle.abs() > TURN,
-        (None, angle) => !matches!(angle, Expr::Call(Func::Atan, _)),
+        (None, angle) => !matches!(angle, Expr::Call(Func::Atan, _)) && !is_within(angle),
     }
+}
+
+/// True for `a - FIX[a/360]*360`, of one variable.
+fn is_within(angle: &Expr) -> bool {
+    let Expr::Binary(BinOp::Sub, operands) = angle else { return false };
+    matches!(&operands[0], a @ Expr::Var(_) if operands[1] == whole_turns(a))
+}
+
+/// The whole turns in an angle, in degrees.
+fn whole_turns(angle: &Expr) -> Expr {
+    let turns = Expr::binary(BinOp::Div, angle.clone(), number(TURN));
+    Expr::binary(BinOp::Mul, apply(Func::Fix, turns), number(TURN))
 }
 
 fn within(angle: Expr, rewriter: &mut Rewriter<'_>) -> Expr {
     if let Some(angle) = angle.constant() {
         return number(angle % TURN);
     }
-    let angle = rewriter.held(angle);
-    let turns = rewriter.materialize(Expr::binary(BinOp::Div, angle.clone(), number(TURN)));
-    let whole = apply(Func::Fix, Expr::Var(turns));
-    let over = rewriter.materialize(Expr::binary(BinOp::Mul, whole, number(TURN)));
-    Expr::Var(rewriter.materialize(Expr::binary(BinOp::Sub, angle, Expr::Var(over))))
+    // Nothing writes a variable between the two reads.
+    let angle = if matches!(angle, Expr::Var(_)) { angle } else { rewriter.held(angle) };
+    let over = whole_turns(&angle);
+    Expr::binary(BinOp::Sub, angle, over)
 }
