@@ -144,11 +144,23 @@ impl Emitter<'_> {
                 Some(format!("{table}=T{number:02} {cell}"))
             }
             Some((row, None)) => Some(row.name.clone()),
+            None if let Some(name) = self.computed_row(state, subscripts, mode) => Some(name),
             None => {
                 let verb = if mode == 'w' { "written" } else { "read" };
                 self.out.unmapped(format_args!("the state '{state}' where it is {verb}"));
                 None
             }
         }
+    }
+
+    /// `COR=V30 R`: the row of a tool by a variable (seed 004:1653).
+    fn computed_row(&self, state: Sys, subscripts: &[Expr], mode: char) -> Option<String> {
+        let [Expr::Var(number)] = subscripts else { return None };
+        let mut rows = self.control.system_runs(state).filter(|row| row.access.contains(mode));
+        let row = rows.find(|row| row.first.is_some() && row.subscripts.len() == 1)?;
+        let (table, cell) = row.name.split_once(' ')?;
+        let register = self.names.variable(*number)?;
+        let Index::Number(index) = register.index else { return None };
+        Some(format!("{table}={}{index} {cell}", register.name))
     }
 }

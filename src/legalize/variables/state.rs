@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use thin_vec::ThinVec;
 
 /// States that the target may hold in each other's stead, and by what the first is multiplied to give the second.
-const SCALED: &[(Sys, Sys, f64)] = &[
+pub(super) const SCALED: &[(Sys, Sys, f64)] = &[
     (Sys::RadiusGeometry, Sys::DiameterGeometry, 2.0),
     (Sys::RadiusWear, Sys::DiameterWear, 2.0),
     (Sys::DiameterGeometry, Sys::RadiusGeometry, 0.5),

@@ -9,6 +9,7 @@ use crate::ir::Expr;
 use crate::ir::analysis;
 use crate::ir::eval::whole;
 use crate::legalize::offsets::position_length;
+use crate::legalize::variables::state::SCALED;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -135,11 +136,21 @@ impl<'c> Numbers<'c> {
         self.distance(first).or_else(|| self.counted(first)).unwrap_or(Finding::Other(first))
     }
 
-    /// The run of a state that is counted by one number.
+    /// The run of a state that is counted by one number, as far as the target counts too.
     fn counted(&self, number: u32) -> Option<Finding> {
         let (state, _, row) =
             self.source.numbered_state(number).filter(|(state, ..)| *state != Sys::Other)?;
         let (first, last) = (row.first?, row.last()?);
+        let scaled = SCALED.iter().filter(|(from, ..)| *from == state).map(|(_, other, _)| *other);
+        let states: Vec<Sys> = scaled.chain([state]).collect();
+        let is_there = |number: &u32| {
+            let numbers = row.subscripts_of(*number);
+            let held =
+                |numbers: &[u32]| states.iter().any(|s| self.target.system_address(*s, numbers).is_some());
+            numbers.is_some_and(|numbers| held(&numbers))
+        };
+        // What the target lacks altogether is refused where it is read or written.
+        let last = (first..=last).take_while(is_there).last().unwrap_or(last);
         match row.subscripts.as_slice() {
             [one] if one.step == 1 && !one.axis => Some(Finding::Counted(state, first, last, one.from)),
             _ => None,
