@@ -43,12 +43,14 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 /// Tells the target the unit of each main program.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut changed = false;
+    let (ours, theirs) = (context.source.units(), context.target.units());
+    let selected =
+        theirs.filter(|units| context.target.code_for(selection(*units), &Default::default()).is_some());
     let checked: Vec<Option<Units>> =
-        module.programs.iter_mut().map(|program| take_checks(program, &mut changed)).collect();
+        module.programs.iter_mut().map(|program| take_checks(program, selected, &mut changed)).collect();
     if changed {
         context.forget();
     }
-    let (ours, theirs) = (context.source.units(), context.target.units());
     if ours.is_some() && ours == theirs && selects_unit(context.source) {
         return changed;
     }
@@ -79,7 +81,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             context.add_once(root, "units", finding);
             continue;
         };
-        let op = if units == Units::Inch { Op::Inch } else { Op::Metric };
+        let op = selection(units);
         if theirs == Some(units) && context.target.code_for(op, &Default::default()).is_none() {
             continue;
         }
@@ -101,17 +103,28 @@ fn selects_unit(control: &Control) -> bool {
     [Op::Inch, Op::Metric].iter().any(|op| control.code_for(*op, &Default::default()).is_some())
 }
 
-/// Takes the checks of the unit out of a program; the unit that all of them check.
-fn take_checks(program: &mut Program, changed: &mut bool) -> Option<Units> {
+/// The code that selects a unit.
+fn selection(units: Units) -> Op {
+    if units == Units::Inch { Op::Inch } else { Op::Metric }
+}
+
+/// Takes the checks of the unit out of a program; the unit that all of them check. The first one that checks the unit which
+/// the target is set to, and can select, selects it.
+fn take_checks(program: &mut Program, selected: Option<Units>, changed: &mut bool) -> Option<Units> {
     let (mut inch, mut metric) = (false, false);
     for block in &mut program.blocks {
         let mut any = false;
         for stmt in &mut block.stmts {
             let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-            nc.items.retain(|item| {
-                inch |= *item == NcItem::Op(Op::CheckInch);
-                metric |= *item == NcItem::Op(Op::CheckMetric);
-                !matches!(item, NcItem::Op(Op::CheckInch | Op::CheckMetric))
+            nc.items.retain_mut(|item| {
+                let (units, seen) = match item {
+                    NcItem::Op(Op::CheckInch) => (Units::Inch, &mut inch),
+                    NcItem::Op(Op::CheckMetric) => (Units::Metric, &mut metric),
+                    _ => return true,
+                };
+                let first = !std::mem::replace(seen, true) && selected == Some(units);
+                *item = NcItem::Op(selection(units));
+                first
             });
             any |= nc.items.is_empty();
         }
