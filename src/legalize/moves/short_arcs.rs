@@ -269,6 +269,10 @@ impl Maker<'_> {
 
     /// The same block with a radius from a variable, as the target writes it.
     fn by_variable(&mut self, stmt: &Stmt, nc: &Nc, radius: Expr) -> Vec<Stmt> {
+        if matches!(&radius, Expr::Negate(inner) if matches!(**inner, Expr::Var(_)) && !inner.may_be_vacant())
+        {
+            return vec![stmt.clone()];
+        }
         let temp = self.temp();
         let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
         let value = Expr::Negate(Box::new(radius));
