@@ -8,7 +8,7 @@ use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::digits::write_integer;
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
-use crate::ir::{Block, BlockId, Cond, Expr, SourceInfo, TermKind};
+use crate::ir::{Block, BlockId, Cond, Expr, SourceInfo, StmtKind, TermKind};
 
 impl<'p> Emitter<'p> {
     /// Writes the program.
@@ -70,7 +70,11 @@ impl<'p> Emitter<'p> {
         if let Some(mark) = self.names.mark(self.program) {
             self.comment(mark);
         }
-        let Taken { named, scratch } = Taken::of(self.program, self.names);
+        let Taken { named, mut scratch } = Taken::of(self.program, self.names);
+        let plane = ("R".into(), 0);
+        if !named.contains_key(&plane) && self.sets_plane() {
+            scratch.insert(plane);
+        }
         let words = named.into_iter().map(|((name, number), label)| format!("{name}{number}={label}"));
         let mut words: Vec<String> = words.collect();
         let scratch: Vec<String> =
@@ -86,6 +90,12 @@ impl<'p> Emitter<'p> {
             line.push_str(&word);
         }
         self.comment(&line);
+    }
+
+    /// True if words set R0, which holds nothing of the program's.
+    fn sets_plane(&self) -> bool {
+        let mut stmts = self.program.blocks.iter().flat_map(|block| &block.stmts);
+        stmts.any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if self.sets_r0(nc)))
     }
 
     /// True if the program asks a function of an angle: the unit of angles may have been left at another.

@@ -62,21 +62,38 @@ impl<'p> Emitter<'p> {
 
     /// The code of each operation; none for one that a word beside it does by itself.
     fn codes(&mut self, nc: &Nc) -> SmallVec<[Option<&'p Code<'p>>; 8]> {
-        let (spellings, control) = (self.spellings, self.control);
         let mut codes = SmallVec::new();
         for op in nc.ops() {
-            let code = spellings.code(op, |role| match nc.word(role).map(Expr::constant) {
-                None => Operand::None,
-                Some(Some(number)) => Operand::Constant(number),
-                Some(None) => Operand::Computed(0.0),
-            });
-            let word = control.word_for(op).filter(|row| nc.word(row.role).is_some());
-            if op.is_flow() || (code.is_none() && word.is_none()) {
+            let (code, by_word) = self.code_of(op, nc);
+            if op.is_flow() || (code.is_none() && !by_word) {
                 self.out.unmapped(format_args!("the operation '{op}' with these words"));
             }
-            codes.push(code.filter(|_| word.is_none_or(|row| row.with_code)));
+            codes.push(code);
         }
         codes
+    }
+
+    /// The code of an operation in a block, and true if a word does it, by itself or with the code.
+    fn code_of(&self, op: Op, nc: &Nc) -> (Option<&'p Code<'p>>, bool) {
+        let code = self.spellings.code(op, |role| match nc.word(role).map(Expr::constant) {
+            None => Operand::None,
+            Some(Some(number)) => Operand::Constant(number),
+            Some(None) => Operand::Computed(0.0),
+        });
+        let word = self.control.word_for(op).filter(|row| nc.word(row.role).is_some());
+        (code.filter(|_| word.is_none_or(|row| row.with_code)), word.is_some())
+    }
+
+    /// True for a block with a word that sets the variable R0, whatever the word means there.
+    pub(super) fn sets_r0(&self, nc: &Nc) -> bool {
+        let codes: SmallVec<[&Code; 8]> = nc.ops().filter_map(|op| self.code_of(op, nc).0).collect();
+        let fixed = |role: &Role| codes.iter().any(|code| code.row.fixed.contains_key(role));
+        nc.items.iter().any(|item| match item {
+            NcItem::Word(role, _) if !fixed(role) => {
+                self.spellings.letter(*role, &codes).is_some_and(|((letter, _), _)| letter == 'R')
+            }
+            _ => false,
+        })
     }
 
     /// A cycle or a table that is not told its R0 takes what R0 holds, which is something else here.
