@@ -46,8 +46,7 @@ pub struct Scenario {
     /// What the operator answers, in order; after the last one 0. A stop whose message names a variable
     /// (`#100 DEPTH`) takes an answer too, into that variable, while there are any.
     pub answers: Vec<f64>,
-    /// True where that holds for texts too that are only shown before a stop: on the control that a conversion with such
-    /// a message goes to.
+    /// True where that holds for texts too that are only shown before a stop, as the control of the other side has messages.
     #[serde(skip)]
     pub sets_named: bool,
     /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.

@@ -7,9 +7,9 @@ use super::{whole_parts::WholeParts, word_values::WordValues};
 
 /// All passes, in the order in which they run.
 pub const PASSES: &[&dyn Pass] = &[
-    &WordValues,
     &WholeParts,
     &Nested,
+    &WordValues,
     &CopyPropagation,
     &Fold,
     &Retarget,

@@ -1,9 +1,10 @@
 //! Puts the parts of an expression that stand in temporaries together again.
 //!
 //! **Law.** `t = e` before an assignment, with `t` read in it once and nowhere after it, is that assignment with `e`: between
-//! the two nothing is written that `e` reads.
+//! the two nothing is written that `e` reads. Two signs are none, and a number times 2 over 2 is that number, as it is below
+//! 2^1023.
 //!
-//! **Side condition.** `t` is a temporary. Between the two stand assignments of temporaries alone. `e` is never vacant, and
+//! **Side condition.** `t` is a temporary. Between the two stand comments and assignments of temporaries alone. `e` is never vacant, and
 //! reads no state of the machine. Nothing else in the assignment can stop the run, so that what stops it is what did. No
 //! statement of them may be skipped by the operator, and the first has no comment. Not after legalization: the target may
 //! not take expressions.
@@ -96,10 +97,11 @@ fn pairs(program: &Program, live: &Liveness) -> Vec<Pair> {
     found
 }
 
-/// The assignments of temporaries directly before a statement.
+/// The assignments of temporaries directly before a statement, and comments between them.
 fn run_before(block: &Block, at: usize) -> std::ops::Range<usize> {
     let before = block.stmts.get(..at).unwrap_or_default();
-    let count = before.iter().rev().take_while(|stmt| set(stmt).is_some()).count();
+    let passed = |stmt: &&Stmt| set(stmt).is_some() || stmt.kind == StmtKind::Comment;
+    let count = before.iter().rev().take_while(passed).count();
     at - count..at
 }
 
@@ -119,7 +121,7 @@ fn reads(e: &Expr, var: Var) -> usize {
 
 /// True where a statement neither reads nor writes the temporary, writes nothing that the value reads, and cannot stop the run.
 fn keeps(stmt: &Stmt, temp: Var, value: &Expr) -> bool {
-    let Some((written, other)) = set(stmt) else { return false };
+    let Some((written, other)) = set(stmt) else { return stmt.kind == StmtKind::Comment };
     let mut goes_on = true;
     other.walk(&mut |part| {
         goes_on &= match part {
@@ -169,9 +171,30 @@ fn whole_of(stmt: &Stmt) -> Option<&Expr> {
     if let StmtKind::Assign { value, .. } = &stmt.kind { Some(value) } else { None }
 }
 
+/// Twice a number, halved; none for anything else. Other factors round.
+fn halved(e: &Expr) -> Option<&Expr> {
+    let two = |e: &Expr| e.constant() == Some(2.0);
+    let Expr::Binary(BinOp::Div, outer) = e else { return None };
+    match &outer[0] {
+        Expr::Binary(BinOp::Mul, inner) if two(&outer[1]) && two(&inner[1]) && !inner[0].may_be_vacant() => {
+            Some(&inner[0])
+        }
+        _ => None,
+    }
+}
+
 fn put(e: &mut Expr, temp: Var, value: &Expr) {
     match e {
+        Expr::Negate(inner) if **inner == Expr::Var(temp) => {
+            *e = match value {
+                Expr::Negate(twice) if !twice.may_be_vacant() => (**twice).clone(),
+                value => Expr::Negate(Box::new(value.clone())),
+            };
+        }
         Expr::Var(var) if *var == temp => *e = value.clone(),
-        e => e.exprs_mut(&mut |operand| put(operand, temp, value)),
+        _ => e.exprs_mut(&mut |operand| put(operand, temp, value)),
+    }
+    if let Some(number) = halved(e).cloned() {
+        *e = number;
     }
 }

@@ -3,7 +3,7 @@
 //! **Law.** `t = e` before a block of words, with `t` read in one of its words alone and nowhere after it, is that word
 //! with `e`: all words of a block are evaluated before it acts.
 //!
-//! **Side condition.** `t` is a temporary. Between the two stand assignments of temporaries alone, none of which writes what
+//! **Side condition.** `t` is a temporary. Between the two stand comments and assignments of temporaries alone, none of which writes what
 //! `e` reads. `e` reads a variable, no state of the machine, and is never vacant. No statement of them may be skipped by the
 //! operator, and the assignment has no comment. Not after legalization: the target's words may not take expressions.
 //!
@@ -84,10 +84,11 @@ fn places(program: &Program, live: &Liveness) -> Vec<Found> {
     found
 }
 
-/// The assignments of temporaries directly before a statement.
+/// The assignments of temporaries directly before a statement, and comments between them.
 fn run_before(block: &Block, at: usize) -> std::ops::Range<usize> {
     let before = block.stmts.get(..at).unwrap_or_default();
-    let count = before.iter().rev().take_while(|stmt| set(stmt).is_some()).count();
+    let passed = |stmt: &&Stmt| set(stmt).is_some() || stmt.kind == StmtKind::Comment;
+    let count = before.iter().rev().take_while(passed).count();
     at - count..at
 }
 
@@ -117,7 +118,7 @@ fn reads(stmt: &Stmt, var: Var) -> usize {
 
 /// True where a statement neither reads nor writes the temporary, and writes nothing that the value reads.
 fn keeps(stmt: &Stmt, temp: Var, value: &Expr) -> bool {
-    let Some((written, _)) = set(stmt) else { return false };
+    let Some((written, _)) = set(stmt) else { return stmt.kind == StmtKind::Comment };
     let mut read = false;
     value.variables(&mut |var| read |= var == written);
     reads(stmt, temp) == 0 && written != temp && !read

@@ -39,8 +39,7 @@ impl Cfg {
         let label = BlockId(program.blocks.len() as u32);
         let mut after: BTreeMap<BlockId, Ways> = [(BlockId(0), smallvec![BlockId(0)])].into();
         let mut succs: Vec<Ways> = Vec::with_capacity(program.blocks.len() + 2);
-        // At an unknown label nobody can tell in which part a run is.
-        let mut told = !come_back && modal_bodies(program).next().is_none();
+        let mut looks = come_back;
         for block in &program.blocks {
             succs.push(match &block.term.kind {
                 TermKind::Call { call, next } => match &call.callee {
@@ -61,13 +60,15 @@ impl Cfg {
                 },
                 TermKind::Return { to: None } => Ways::new(),
                 TermKind::Return { to: Some(_) } => {
-                    told = false;
+                    looks = true;
                     smallvec![label]
                 }
                 kind => kind.successors(),
             });
         }
-        succs.push(labelled(program).collect());
+        succs.push(labelled(program).filter(|_| looks).collect());
+        // At an unknown label nobody can tell in which part a run is.
+        let told = !looks && modal_bodies(program).next().is_none();
         returns_go_on(&mut succs, after, program, told);
         // What no part reaches never runs: it goes anywhere.
         let all = (label.0 + 1..succs.len() as u32).map(BlockId);

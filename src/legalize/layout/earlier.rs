@@ -30,6 +30,11 @@ impl Earlier {
         }
     }
 
+    /// True where heads say anything: an earlier conversion wrote the library.
+    pub fn is_written(&self) -> bool {
+        !self.held.is_empty() || !self.numbers.is_empty() || self.has_between()
+    }
+
     /// True where some program has registers for values in between.
     pub fn has_between(&self) -> bool {
         self.between.iter().any(|between| !between.is_empty())

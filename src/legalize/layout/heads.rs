@@ -122,7 +122,9 @@ fn parted(name: &str) -> Option<(&str, &str)> {
 
 /// Takes the head away, and calls `f` with what each of its comments says.
 fn drop_head(program: &mut Program, source: &Control, f: &mut dyn FnMut(&Head)) -> bool {
-    let name = program.name.clone();
+    // What was a part of a program, `($1)`, may say at its head what it was before that.
+    let was_part = program.site.comments.iter().any(|comment| counts(&comment.text));
+    let name = program.name.clone().filter(|_| !was_part);
     let (mut changed, mut scratch) = (false, false);
     // A block with a number is a block of the IR too, where something may jump to it.
     'head: for block in &mut program.blocks {

@@ -9,3 +9,4 @@ pub(in crate::legalize) mod macro_lines;
 pub(in crate::legalize) mod program_numbers;
 pub(in crate::legalize) mod scratch;
 pub(in crate::legalize) mod sequence_numbers;
+pub(in crate::legalize) mod text_ends;

@@ -15,9 +15,13 @@ use crate::ir::{Bank, Block, BlockId, Callee, Expr, Module, Place, Program, Stmt
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::names::{keeps_number, name_of};
 use crate::legalize::rewrite::highest_temp;
+use crate::legalize::variables::computed_numbers::constant_part;
 use crate::legalize::{Context, calls_of};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// From here on numbers are the system's, where it has any.
+const FIRST_STATE: f64 = 1000.0;
 
 /// True where heads name such registers, and what stands around the library is known.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -83,14 +87,17 @@ fn is_open(program: &Program) -> bool {
 
 /// Calls `f` with each of these that is written otherwise than by an assignment, or reached by a computed number.
 fn reached(program: &Program, these: &BTreeSet<Var>, f: &mut dyn FnMut(Var)) {
-    let mut class = |bank: Bank| {
+    let by_number = |bank: Bank, number: &Expr, f: &mut dyn FnMut(Var)| {
         let classes = crate::ir::analysis::Vars::bank(bank);
-        these.iter().filter(|var| classes.contains(&var.class)).for_each(|var| f(*var));
+        // One that is counted from the system's numbers is supposed to stay among those.
+        let system = bank == Bank::Numbered && constant_part(number).is_some_and(|part| part >= FIRST_STATE);
+        let may = |var: &&Var| !system || f64::from(var.number) >= FIRST_STATE;
+        these.iter().filter(|var| classes.contains(&var.class)).filter(may).for_each(|var| f(*var));
     };
     let mut look = |e: &Expr| {
         e.walk(&mut |part| {
-            if let Expr::Indirect(bank, _) = part {
-                class(*bank);
+            if let Expr::Indirect(bank, number) = part {
+                by_number(*bank, number, f);
             }
         });
     };
@@ -106,11 +113,8 @@ fn reached(program: &Program, these: &BTreeSet<Var>, f: &mut dyn FnMut(Var)) {
             StmtKind::ClearAll(class) => {
                 these.iter().filter(|var| var.class == *class).for_each(|var| f(*var));
             }
-            StmtKind::Assign { target: Place::Indirect(bank, _), .. }
-            | StmtKind::Input { target: Place::Indirect(bank, _), .. } => {
-                let classes = crate::ir::analysis::Vars::bank(*bank);
-                these.iter().filter(|var| classes.contains(&var.class)).for_each(|var| f(*var));
-            }
+            StmtKind::Assign { target: Place::Indirect(bank, number), .. }
+            | StmtKind::Input { target: Place::Indirect(bank, number), .. } => by_number(*bank, number, f),
             _ => {}
         }
     }

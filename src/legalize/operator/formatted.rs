@@ -5,19 +5,17 @@
 //! Side condition, for a reviewer: whoever reads the lines does not count columns. Counter-example: `DPRNT[X#1[53]]`, which
 //! fills nine columns, and `SPRINT "X",V1`.
 
+use super::rounded::rounded;
 use crate::canon::Func;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::analysis::{Ranges, Summaries};
 use crate::ir::{
-    BinOp, BlockId, Class, Expr, Module, OutputPart, Place, PrintPart, Program, SourceInfo, Stmt, StmtKind,
-    Stmts, Var,
+    BinOp, Class, Expr, Module, OutputPart, Place, PrintPart, SourceInfo, Stmt, StmtKind, Stmts, Var,
 };
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::rewrite::highest_temp;
 use crate::text::Span;
-use std::collections::BTreeSet;
 use thin_vec::ThinVec;
 
 /// True if there is output in a format, and the target prints without one.
@@ -90,46 +88,6 @@ fn compute_first(parts: &mut [PrintPart], next: &mut u32, stmts: &mut Stmts) {
             stmts.push(Stmt { kind, site: SourceInfo::default() });
         }
     }
-}
-
-/// A part of an output, by block, statement and part.
-type PartOf = (BlockId, usize, usize);
-
-/// Where values stand that have no more places than their format: whole numbers over a power of ten, as an earlier conversion
-/// rounds them.
-fn rounded(program: &Program, summaries: &Summaries) -> BTreeSet<PartOf> {
-    let mut found: Vec<(PartOf, (usize, Expr))> = Vec::new();
-    let mut vars = BTreeSet::new();
-    for (id, block) in program.ids().zip(&program.blocks) {
-        for (at, stmt) in block.stmts.iter().enumerate() {
-            let StmtKind::Output(parts) = &stmt.kind else { continue };
-            for (n, part) in parts.iter().enumerate() {
-                if let Some((from, over)) = over_scale(part, &block.stmts[..at]) {
-                    over.variables(&mut |var| _ = vars.insert(var));
-                    found.push(((id, at, n), (from, over.clone())));
-                }
-            }
-        }
-    }
-    if found.is_empty() {
-        return BTreeSet::new();
-    }
-    let ranges = Ranges::of_these(program, summaries, vars);
-    found.retain(|((id, ..), (from, over))| ranges.at(*id, *from, over).all_whole());
-    found.into_iter().map(|(place, _)| place).collect()
-}
-
-/// What stands over the power of ten in the temporary that is put out, and which of the statements before sets it.
-fn over_scale<'s>(part: &OutputPart, before: &'s [Stmt]) -> Option<(usize, &'s Expr)> {
-    let OutputPart::Value { value: Expr::Var(temp), fraction, .. } = part else { return None };
-    let sets = |stmt: &Stmt| stmt.kind.target() == Some(&Place::Var(*temp));
-    let from = before.iter().rposition(sets).filter(|_| temp.class == Class::Temp)?;
-    let StmtKind::Assign { value: Expr::Binary(BinOp::Div, operands), .. } = &before[from].kind else {
-        return None;
-    };
-    let scale = 10f64.powi(i32::try_from(*fraction).ok()?);
-    let is_sure = before[from].site.skip.is_none() && operands[1].constant() == Some(scale);
-    is_sure.then_some((from, &operands[0]))
 }
 
 /// A part without its format; a value that is `rounded` has no more places.

@@ -8,3 +8,5 @@ pub(in crate::legalize) mod omitted;
 pub(in crate::legalize) mod ports;
 pub(in crate::legalize) mod questions;
 pub(in crate::legalize) mod renamed;
+mod rounded;
+pub(in crate::legalize) mod shown_stops;

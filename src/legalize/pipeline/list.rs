@@ -15,10 +15,10 @@ use crate::legalize::codes::{
 };
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::layout::{blanks, heads, scratch};
+use crate::legalize::layout::{blanks, heads, scratch, text_ends};
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
-use crate::legalize::operator::{alarms, formatted, omitted};
+use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
 use crate::legalize::variables::{
     banks, computed_numbers, counted_clears, modal_reads, output_codes, probe_points, signals, state,
     subscript_chains, timers, touch_points, vacant_writes,
@@ -51,7 +51,7 @@ pub const GROUPS: &[Group] = &[
     Group { name: "layout", heading: "Numbers of blocks and programs", passes: LAYOUT },
 ];
 
-// These run twice.
+// These run twice or more.
 const FOLD: Pass = Pass::tidies(&Fold, "fold", "values that can be computed here are computed");
 const RETARGET: Pass = Pass::tidies(
     &Retarget,
@@ -75,15 +75,17 @@ const EARLIER: &[Pass] = &[
     .when(counted_clears::concerns)
     .needs(&["heads"])
     .changes_flow(),
+    Pass::edits("text-ends", "jumps to the end of the text end it", text_ends::run)
+        .when(text_ends::concerns)
+        .needs(&["heads"])
+        .changes_flow(),
     Pass::edits("scratch", "registers that an earlier conversion took are temporaries again", scratch::run)
         .when(scratch::concerns)
         .needs(&["heads"]),
-    Pass::tidies(
-        &WordValues,
-        "word-values",
-        "a value goes straight into the word that its temporary was set for",
-    )
-    .when(scratch::concerns),
+    Pass::edits("shown-stops", "a text that is shown right before a stop is its message", shown_stops::run)
+        .when(shown_stops::concerns),
+    // A temporary that only another one reads, which nothing reads, is no part of an expression.
+    DEAD_STORES.when(scratch::concerns),
     Pass::tidies(
         &WholeParts,
         "whole-parts",
@@ -94,6 +96,12 @@ const EARLIER: &[Pass] = &[
         &Nested,
         "nested",
         "parts of an expression that an earlier conversion put into temporaries go back into it",
+    )
+    .when(scratch::concerns),
+    Pass::tidies(
+        &WordValues,
+        "word-values",
+        "a value goes straight into the word that its temporary was set for",
     )
     .when(scratch::concerns),
 ];

@@ -67,7 +67,8 @@ pub(super) fn acts<'r>(
     [ours, theirs]: &[Order<'r>; 2],
 ) -> [Vec<Act<'r>>; 2] {
     let (mut ours, mut theirs) = (observe(source.0, source.1, ours), observe(target.0, target.1, theirs));
-    if !std::ptr::eq(source.0, target.0) && lacks_messages(target.0.control) {
+    let one_lacks = lacks_messages(source.0.control) || lacks_messages(target.0.control);
+    if !std::ptr::eq(source.0, target.0) && one_lacks {
         (ours, theirs) = (as_messages(ours, source.0.control), as_messages(theirs, target.0.control));
     }
     if target.0.control.profile().outputs.is_some() {

@@ -147,6 +147,7 @@ impl Proposals {
     /// A machine around start values.
     fn around(&mut self, variables: BTreeMap<String, f64>, count: usize) -> Scenario {
         let mut scenario = machine(&mut self.random);
+        scenario.sets_named = self.inputs.sets_named;
         self.tables(&mut scenario, count);
         // The machine has those rotary axes that its programs name.
         for axis in (3..6).filter(|axis| !self.inputs.rotary[axis - 3]) {

@@ -44,7 +44,7 @@ pub fn inputs_of_both(
     for (own, others) in found.rotary.iter_mut().zip(other.rotary) {
         *own |= others;
     }
-    set_for(found, target)
+    set_for(found, source, target)
 }
 
 /// Adds what the target reads: to the source's variable, where it is one. Yields its place.

@@ -18,6 +18,8 @@ pub struct Inputs {
     pub skips: BTreeSet<u8>,
     /// True where the operator is asked.
     pub asks: bool,
+    /// True where a text that is shown before a stop is its message on the other control, and the operator sets what it names.
+    pub sets_named: bool,
     /// True for each of A, B and C that a program of the library moves.
     pub rotary: [bool; 3],
     /// True if the control has tool offsets past 99.

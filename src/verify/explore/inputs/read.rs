@@ -4,6 +4,7 @@ use super::input::Inputs;
 use super::reader::Reader;
 use crate::control::ProgramRef;
 use crate::syntax::{Item, ItemKind, Label};
+use crate::verify::compare::lacks_messages;
 use crate::verify::sides::Side;
 use std::collections::BTreeSet;
 
@@ -11,12 +12,15 @@ use std::collections::BTreeSet;
 pub fn inputs(side: &Side<'_>, program: ProgramRef, other: &Side<'_>) -> Inputs {
     let locals = other.has_locals();
     let order: Vec<u32> = labels(side, program).into_iter().take(LABELS).collect();
-    set_for(inputs_by(side, program, locals, &order), other)
+    set_for(inputs_by(side, program, locals, &order), side, other)
 }
 
-/// Where the target selects no unit, both machines are set to the one that the source selects: the target checks it.
-pub fn set_for(found: Inputs, target: &Side<'_>) -> Inputs {
-    Inputs { inch: found.inch.or(found.selected.filter(|_| !target.selects_unit())), ..found }
+/// Where the target selects no unit, both machines are set to the one that the source selects: the target checks it. Where
+/// only the target has stops with messages, a text before a stop of the source is one there.
+pub fn set_for(found: Inputs, source: &Side<'_>, target: &Side<'_>) -> Inputs {
+    let inch = found.inch.or(found.selected.filter(|_| !target.selects_unit()));
+    let sets_named = lacks_messages(source.control) && !lacks_messages(target.control);
+    Inputs { inch, sets_named, ..found }
 }
 
 /// Labels that a computed jump is sent to, at the most, where one side is looked at.

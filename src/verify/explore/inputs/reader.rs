@@ -283,6 +283,7 @@ impl<'c> Reader<'c> {
             cells: self.cells.into_iter().map(|(cell, values)| (cell, tidy(values))).collect(),
             skips: self.skips,
             asks: self.asks,
+            sets_named: false,
             rotary: [false; 3],
             many_tools: false,
             inch: self.inch,

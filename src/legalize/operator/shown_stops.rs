@@ -1,0 +1,75 @@
+//! A text that is shown right before a stop, where the target shows texts at stops only.
+//!
+//! Law: when the moves are done the text is shown, and the machine stops: the operator reads it there, as a message with which
+//! the machine stops. A control that prints on its screen is told a message so.
+//!
+//! Side condition: the text is no value and ends its line, and nothing stands between the wait, the text and the stop. None of
+//! them may be skipped. Counter-example: `#PRINT "READY"` with a move before the stop, which the operator reads while it runs.
+
+use crate::canon::Op;
+use crate::dialect::Control;
+use crate::ir::{Expr, Module, NcItem, PrintPart, Program, Stmt, StmtKind, Stmts};
+use crate::legalize::Context;
+use crate::legalize::features::{Feature, Features};
+
+/// True if texts are shown, and the target has messages and no screen for others.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    features.has(Feature::Print) && features.op(Op::Stop) && shows_at_stops(context.target)
+}
+
+fn shows_at_stops(target: &Control) -> bool {
+    target.statement("print").is_none()
+}
+
+/// Makes messages of them; true if there were any.
+pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
+    let mut changed = false;
+    // A line that is gone on with is longer than its last text.
+    let whole = module.programs.iter_mut().filter(|program| !goes_on(program));
+    for block in whole.flat_map(|program| &mut program.blocks) {
+        let found = block.stmts.windows(3).any(|three| message(three).is_some());
+        if !found {
+            continue;
+        }
+        changed = true;
+        let mut out = Stmts::with_capacity(block.stmts.len());
+        let mut rest = std::mem::take(&mut block.stmts);
+        while let Some(text) = rest.windows(3).next().map(message) {
+            match text {
+                Some(text) => {
+                    let mut three = rest.drain(..3);
+                    // The comments of the wait and of the text stay before the stop.
+                    out.extend(three.by_ref().take(2).filter_map(comments));
+                    let number = Expr::Number(1.0).into();
+                    let kind = StmtKind::StopMessage { number, text: text.trim().into() };
+                    out.extend(three.map(|stop| Stmt { kind: kind.clone(), site: stop.site }));
+                }
+                None => out.push(rest.remove(0)),
+            }
+        }
+        out.append(&mut rest);
+        block.stmts = out;
+    }
+    changed
+}
+
+/// True for a program that shows a part of a line.
+fn goes_on(program: &Program) -> bool {
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| matches!(stmt.kind, StmtKind::Print { serial: false, stay: true, .. }))
+}
+
+/// The text that three statements stop with.
+fn message(three: &[Stmt]) -> Option<String> {
+    let [wait, shown, stop] = three else { return None };
+    let StmtKind::Print { serial: false, parts, stay: false } = &shown.kind else { return None };
+    let ([PrintPart::Text(text)], StmtKind::Nc(nc)) = (parts.as_slice(), &stop.kind) else { return None };
+    let stops = nc.items.as_slice() == [NcItem::Op(Op::Stop)];
+    let always = three.iter().all(|stmt| stmt.site.skip.is_none());
+    (wait.kind == StmtKind::Sync && stops && always && !text.trim().is_empty()).then(|| text.clone())
+}
+
+/// What is left of a statement.
+fn comments(stmt: Stmt) -> Option<Stmt> {
+    (!stmt.site.comments.is_empty()).then_some(Stmt { kind: StmtKind::Comment, site: stmt.site })
+}
