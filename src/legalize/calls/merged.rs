@@ -41,8 +41,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
     let calls: Vec<BTreeMap<usize, Span>> =
         module.programs.iter().map(|program| called(program, &names)).collect();
-    let mut before = module.programs.clone();
-    before.iter_mut().for_each(|body| name_locals(body, context.source));
+    let before = module.programs.clone();
     for (index, program) in module.programs.iter_mut().enumerate() {
         let all = reached(index, &calls);
         if all.contains_key(&index) {
@@ -51,7 +50,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             continue;
         }
         let own = program.blocks.len();
-        merge(program, &all, &before, &names);
+        merge(program, &all, &before, &names, context.source);
         if let Some(most) = context.target.limit("call.all")
             && !inlined::run(program, most, own)
         {
@@ -104,6 +103,7 @@ fn merge(
     all: &BTreeMap<usize, Span>,
     library: &[Program],
     names: &BTreeMap<ProgramName, usize>,
+    source: &Control,
 ) {
     let mut entries: BTreeMap<usize, BlockId> = BTreeMap::new();
     for (callee, span) in all {
@@ -117,10 +117,11 @@ fn merge(
             first.labels.clear();
             headline(body, span).into_iter().for_each(|line| first.stmts.insert(0, line));
         }
-        program.blocks.extend(blocks);
         let known: BTreeSet<Var> = program.held.iter().map(|(var, _)| *var).collect();
         let held = body.held.iter().filter(|(var, _)| !known.contains(var));
         program.held.extend(held.map(|(var, name)| (*var, format!("{name}{}", of(body)))));
+        name_locals(&mut blocks, body, program, source);
+        program.blocks.extend(blocks);
     }
     for block in &mut program.blocks {
         if let TermKind::Call { call, .. } = &mut block.term.kind
@@ -137,22 +138,26 @@ fn of(body: &Program) -> String {
     format!("{OF}{}", body.name.as_ref().map(|name| name.short()).unwrap_or_default())
 }
 
-/// Says in texts that name a local of the program whose it is: the caller may have one of the same number.
-fn name_locals(body: &mut Program, source: &Control) {
+/// Says in texts of a copied program that name a local of it whose that is, as it is called where it is copied to: the caller
+/// may have one of the same number, which is another variable unless they share a level.
+fn name_locals(blocks: &mut [Block], body: &Program, into: &Program, source: &Control) {
     let prefixes = source.prefixes();
-    let (of, held) = (of(body), &body.held);
-    let is_held = |name: &VariableName| {
+    let of = |name: &VariableName| {
         let name = format!("{}{}", name.prefix, name.number);
-        held.iter().any(|(_, held)| *held == name)
+        let (var, _) = body.held.iter().find(|(_, held)| *held == name)?;
+        let (_, called) = into.held.iter().find(|(held, _)| held == var)?;
+        called.strip_prefix(&name).map(str::to_owned)
     };
     let told = |text: &mut String, asked: Option<VariableName>| {
         for name in variable_names(text, &prefixes).into_iter().rev() {
-            if is_held(&name) && (name.sure || asked.as_ref().is_some_and(|asked| asked.at == name.at)) {
+            if (name.sure || asked.as_ref().is_some_and(|asked| asked.at == name.at))
+                && let Some(of) = of(&name)
+            {
                 text.insert_str(name.at.end, &of);
             }
         }
     };
-    for stmt in body.blocks.iter_mut().flat_map(|block| &mut block.stmts) {
+    for stmt in blocks.iter_mut().flat_map(|block| &mut block.stmts) {
         stmt.site.comments.iter_mut().for_each(|comment| told(&mut comment.text, None));
         if let StmtKind::StopMessage { text, .. } | StmtKind::Alarm { text, .. } = &mut stmt.kind {
             let mut whole = String::from(std::mem::take(text));

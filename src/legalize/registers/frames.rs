@@ -40,7 +40,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     refuse_computed(module, context);
     module.programs.iter_mut().for_each(|program| repeats::loops(program, |call| call.level));
-    let levels = Levels::of(module);
+    let levels = Levels::of(module, context.source);
     for (index, program) in module.programs.iter_mut().enumerate() {
         program.held = held(index, program, &levels, context.source);
         rename(index, program, &levels);

@@ -103,7 +103,7 @@ impl Interference {
                 }
                 live.backward(index, block, &mut end.clone(), &mut |_, stmt, after| {
                     found.write(stmt, after, live);
-                    for name in asked(stmt, prefixes) {
+                    for name in named_at_stop(stmt, prefixes) {
                         let held = program.held.iter().find(|(_, held)| *held == name);
                         if let Some(at) = held.and_then(|(var, _)| live.universe().place(*var)) {
                             found.apart[at].join(after);
@@ -172,7 +172,7 @@ impl Interference {
 }
 
 /// The variables that a stop's text names: whoever reads it may set them.
-fn asked(stmt: &Stmt, prefixes: &[&str]) -> Vec<String> {
+pub(super) fn named_at_stop(stmt: &Stmt, prefixes: &[&str]) -> Vec<String> {
     let comments = || stmt.site.comments.iter().map(|comment| &*comment.text).collect();
     let texts: Vec<&str> = match &stmt.kind {
         StmtKind::StopMessage { text, .. } => vec![text],

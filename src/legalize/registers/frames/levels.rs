@@ -4,6 +4,7 @@ use crate::dialect::Control;
 use crate::ir::analysis::CallGraph;
 use crate::ir::{Call, Callee, Class, LOCAL_FLAGS, Module, Program, TermKind, Var, flag_of};
 use crate::legalize::calls_of;
+use crate::legalize::registers::statics::named_at_stop;
 use crate::syntax::ProgramName;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,13 +20,14 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    pub fn of(module: &Module) -> Self {
+    pub fn of(module: &Module, source: &Control) -> Self {
         let programs: BTreeMap<ProgramName, usize> =
             module.programs.iter().enumerate().filter_map(|(at, p)| Some((p.name.clone()?, at))).collect();
         let count = module.programs.len();
         let mut levels = Self { of: BTreeMap::new(), names: BTreeMap::new(), programs, count };
         let mut callees = vec![BTreeSet::new(); count];
-        let mut named: Vec<BTreeSet<u32>> = module.programs.iter().map(locals).collect();
+        let mut named: Vec<BTreeSet<u32>> =
+            module.programs.iter().map(|program| &locals(program) | &asked(program, source)).collect();
         for (index, program) in module.programs.iter().enumerate() {
             for call in program.blocks.iter().flat_map(calls_of) {
                 for callee in levels.callees(index, call) {
@@ -113,6 +115,19 @@ fn locals(program: &Program) -> BTreeSet<u32> {
         }
     });
     found
+}
+
+/// The locals that a program names in the texts of its stops alone: whoever reads one sets the variable of that level.
+fn asked(program: &Program, source: &Control) -> BTreeSet<u32> {
+    let rows = || source.classes().iter().filter(|row| row.class == "local");
+    let prefixes: Vec<&str> = rows().map(|row| row.name.as_str()).collect();
+    let number = |name: String| {
+        let row = rows().find(|row| name.starts_with(row.name.as_str()))?;
+        let number = name.strip_prefix(row.name.as_str())?.parse().ok()?;
+        (row.first..=row.last).contains(&number).then_some(number)
+    };
+    let stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.flat_map(|stmt| named_at_stop(stmt, &prefixes)).filter_map(number).collect()
 }
 
 fn describe(program: &Program, local: u32) -> String {
