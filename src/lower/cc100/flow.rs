@@ -35,12 +35,11 @@ pub(super) enum Flow {
 
 impl Lowering<'_> {
     /// The block that a label names.
-    fn target(&mut self, label: u32, span: Span) -> Option<BlockId> {
-        let found = self.labels.get(&label).copied();
-        if found.is_none() {
-            let message = format!("the program has no label ${label}");
-            self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
-        } else if self.repeated.contains(&label)
+    fn target(&mut self, label: u32, span: Span) -> BlockId {
+        let Some(found) = self.labels.get(&label).copied() else {
+            return self.nowhere.block(format!("${label}"), span, &mut self.build, &mut self.findings);
+        };
+        if self.repeated.contains(&label)
             && self.findings.only(Question::GotoFirstLabel, "true", span).is_none()
         {
             let message = format!("${label} is in the program more than once: the first one is taken");
@@ -78,9 +77,8 @@ impl Lowering<'_> {
         let known = known.map(|label| Target::Label(Label::Number(label)));
         match known.as_ref().unwrap_or(target) {
             Target::Label(Label::Number(label)) => {
-                if let Some(then) = self.target(*label, span) {
-                    self.build.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
-                }
+                let then = self.target(*label, span);
+                self.build.end_then(site.clone(), |otherwise| TermKind::Branch { cond, then, otherwise });
             }
             Target::Computed(label) => {
                 let Some(value) = self.operand(label) else { return };
@@ -111,15 +109,13 @@ impl Lowering<'_> {
         let site = site.clone();
         match flow {
             Flow::CallBlock { label, count, span } => {
-                if let Some(entry) = self.target(label, span) {
-                    self.call(Callee::Block(entry), count, site);
-                }
+                let entry = self.target(label, span);
+                self.call(Callee::Block(entry), count, site);
             }
             Flow::CallCycle(number) => self.call(Callee::Program(cycle_name(number)), None, site),
             Flow::Jump(label, span) => {
-                if let Some(to) = self.target(label, span) {
-                    self.build.end(TermKind::Jump(to), site);
-                }
+                let to = self.target(label, span);
+                self.build.end(TermKind::Jump(to), site);
             }
             Flow::Return => self.build.end(TermKind::Return { to: None }, site),
             Flow::End { rewind: false } if self.is_cycle => {

@@ -23,7 +23,7 @@ mod whole;
 mod words;
 
 use super::Lowered;
-use super::common::{Findings, site_of};
+use super::common::{Findings, Nowhere, site_of};
 use crate::canon::Op;
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Class, Comment, Expr, SourceInfo, StmtKind, Var};
@@ -39,6 +39,7 @@ pub fn lower(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control
     let number = cycle_number(name);
     let mut lowering = Lowering::new(parsed, control, number.is_some());
     lowering.blocks();
+    lowering.nowhere.close(&mut lowering.build);
     let Lowering { build, names, mut findings, ends, .. } = lowering;
     let span = Span::new(0, parsed.source.len() as u32);
     let mut program =
@@ -71,6 +72,8 @@ struct Lowering<'a> {
     build: Builder,
     /// The first block of each `$n`.
     labels: BTreeMap<u32, BlockId>,
+    /// Where jumps go to labels that no block has.
+    nowhere: Nowhere,
     /// Labels that stand more than once.
     repeated: BTreeSet<u32>,
     /// True where a jump finds its label by a variable, so that labels must stay numbers.
@@ -97,6 +100,7 @@ impl<'a> Lowering<'a> {
             findings: Findings::new(control),
             build: Builder::new(),
             labels: BTreeMap::new(),
+            nowhere: Nowhere::default(),
             repeated: BTreeSet::new(),
             computed: parsed.blocks.iter().flat_map(|block| &block.items).any(is_computed),
             constants: Constants::of(&parsed.blocks),

@@ -3,11 +3,13 @@
 
 mod findings;
 mod in_force;
+mod nowhere;
 mod programs;
 mod site;
 
 pub use findings::{Findings, otherwise};
 pub use in_force::InForce;
+pub use nowhere::Nowhere;
 pub use programs::{ProgramText, programs, says_something};
 pub use site::{comment_text, site_of};
 

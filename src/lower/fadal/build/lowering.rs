@@ -4,7 +4,7 @@ use super::planes::Planes;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, Class, Comment, Place, SourceInfo, StmtKind, TermKind, Var};
-use crate::lower::common::{Findings, otherwise};
+use crate::lower::common::{Findings, Nowhere, otherwise};
 use crate::lower::fadal::flow::{Goal, Shape, State};
 use crate::syntax;
 use crate::text::Span;
@@ -35,6 +35,8 @@ pub struct Lowering<'b> {
     pub carried: Vec<Comment>,
     entries: HashMap<usize, BlockId>,
     told: HashSet<String>,
+    /// Where jumps go to labels that no block has.
+    pub nowhere: Nowhere,
     temps: u32,
     /// Where a straight move was spelled out under an arc mode, and where the mode is read.
     pub spelled_out: bool,
@@ -60,6 +62,7 @@ impl<'b> Lowering<'b> {
             carried: Vec::new(),
             entries: HashMap::new(),
             told: HashSet::new(),
+            nowhere: Nowhere::default(),
             temps: 0,
             spelled_out: false,
             reads_motion: None,
@@ -77,16 +80,15 @@ impl<'b> Lowering<'b> {
         self.state.cycle.list().iter().any(|code| *code != 0)
     }
 
-    /// The block of a jump goal.
-    pub fn block_of(&mut self, goal: &Goal, span: Span) -> Option<BlockId> {
+    /// The block of a jump goal; one with an alarm if no block has it.
+    pub fn block_of(&mut self, goal: &Goal, span: Span) -> BlockId {
         let Some((at, times)) = self.shape.goals.get(goal).copied() else {
             let name = match goal {
                 Goal::Sequence(number) => format!("N{number}"),
                 Goal::Label(syntax::Label::Name(name)) => format!(":{name}"),
                 Goal::Label(syntax::Label::Number(number)) => format!(":{number}"),
             };
-            self.findings.add(Diagnostic::new(Code::TargetMissing, span, format!("no block has {name}")));
-            return None;
+            return self.nowhere.block(name, span, &mut self.builder, &mut self.findings);
         };
         if times > 1 {
             match goal {
@@ -107,7 +109,7 @@ impl<'b> Lowering<'b> {
             let message = "the jump goes out of a subroutine or into one";
             self.once(Code::SubroutineLeft, &at.to_string(), span, message.into());
         }
-        Some(self.entry(at))
+        self.entry(at)
     }
 
     /// The next free temporary.

@@ -106,7 +106,7 @@ impl<'b> Lowering<'b> {
         let Some(goal) = goal(target) else {
             return self.refuse(span, "this control has no jump to a computed number");
         };
-        self.block_of(&goal, span)
+        Some(self.block_of(&goal, span))
     }
 
     /// What can be assigned: state that is only read cannot.

@@ -171,6 +171,7 @@ impl<'b> Lowering<'b> {
             let comments = self.carried.drain(..).collect();
             self.builder.push(StmtKind::Comment, SourceInfo { comments, ..SourceInfo::default() });
         }
+        self.nowhere.close(&mut self.builder);
         let shape = self.shape;
         let Some(last) = shape.subs.last() else { return self.note_modes() };
         if shape.area_end.is_none() {

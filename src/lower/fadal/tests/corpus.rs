@@ -16,11 +16,7 @@ fn corpus() -> Vec<(String, Vec<u8>)> {
 }
 
 /// The examples that are cut out of a larger program, whose other end is not printed.
-const CUT: &[(&str, Code)] = &[
-    ("ex-axis-position.nc", Code::TargetMissing),
-    ("ex-fixture-offset.nc", Code::TargetMissing),
-    ("ex-tool-length.nc", Code::TargetMissing),
-];
+const CUT: &[(&str, Code)] = &[("ex-fixture-offset.nc", Code::SubroutineMissing)];
 
 #[test]
 fn whole_programs_of_the_manual_are_understood() {

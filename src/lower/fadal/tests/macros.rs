@@ -116,10 +116,16 @@ fn what_cannot_be_known_is_refused() {
         ("#R10=1", "NotUnderstood"),
         ("#TN=1", "NotUnderstood"),
         ("#FX49=1", "NotUnderstood"),
-        ("#GOTO :NOWHERE", "TargetMissing"),
-        ("#GOTO N77", "TargetMissing"),
     ] {
         let found = found(&format!("O1\n{source}"), "");
         assert!(found.contains(&code.to_owned()), "{source}: {found:?}");
+    }
+}
+
+#[test]
+fn a_jump_to_nowhere_is_an_alarm() {
+    for source in ["#GOTO :NOWHERE", "#GOTO N77"] {
+        let found = found(&format!("O1\n{source}"), "");
+        assert_eq!(found, ["TargetMissing", "behaviour:goto.missing.alarms"], "{source}");
     }
 }

@@ -108,12 +108,12 @@ impl<'b> Lowering<'b> {
             && let Some(goal) = return_goal(items, codes)
             && self.shape.goals.contains_key(&goal)
         {
-            let to = self.block_of(&goal, span)?;
+            let to = self.block_of(&goal, span);
             self.end(TermKind::Jump(to));
             return Some(());
         }
         let value = self.nc_value(to, Some(Role::Sequence))?;
-        let targets = if here && value.constant().is_none() { self.all_sequences(span)? } else { Vec::new() };
+        let targets = if here && value.constant().is_none() { self.all_sequences(span) } else { Vec::new() };
         self.end(match targets.is_empty() {
             true => TermKind::Return { to: Some(value) },
             false => TermKind::Computed { value, targets },
@@ -122,17 +122,14 @@ impl<'b> Lowering<'b> {
     }
 
     /// The blocks of the program that have a sequence number.
-    fn all_sequences(&mut self, span: Span) -> Option<Vec<(u32, BlockId)>> {
+    fn all_sequences(&mut self, span: Span) -> Vec<(u32, BlockId)> {
         let numbers = self.shape.goals.keys().filter_map(|goal| match goal {
             Goal::Sequence(number) => Some(*number),
             Goal::Label(_) => None,
         });
         let mut numbers: Vec<u32> = numbers.collect();
         numbers.sort_unstable();
-        numbers
-            .into_iter()
-            .map(|number| Some((number, self.block_of(&Goal::Sequence(number), span)?)))
-            .collect()
+        numbers.into_iter().map(|number| (number, self.block_of(&Goal::Sequence(number), span))).collect()
     }
 
     /// `L101`, `L+R2`, and `L101 G66`.
@@ -263,7 +260,7 @@ impl<'b> Lowering<'b> {
             return Some(Callee::Cycle(name));
         }
         let message = format!("the program has no subroutine L{sub}00");
-        self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
+        self.findings.add(Diagnostic::new(Code::SubroutineMissing, span, message));
         None
     }
 

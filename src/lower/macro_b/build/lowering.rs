@@ -3,7 +3,7 @@
 use crate::canon::Role;
 use crate::dialect::{Control, Question};
 use crate::ir::{BlockId, Builder, SourceInfo, Var};
-use crate::lower::common::Findings;
+use crate::lower::common::{Findings, Nowhere};
 use crate::lower::macro_b::codes::{CodeId, Codes};
 use crate::lower::macro_b::parts::{Labels, Piece};
 use crate::syntax::{ParsedFile, ProgramName, Word};
@@ -45,6 +45,8 @@ pub struct Lowering<'a> {
     pub builder: Builder,
     /// The block that computed jumps share, and where the first of them stands.
     pub hub: Option<(BlockId, Span)>,
+    /// Where jumps go to numbers that no block has.
+    pub nowhere: Nowhere,
     /// The loops that are open here, innermost last.
     pub loops: Vec<Loop>,
     /// Modal calls that were begun and not ended, as the text has it.
@@ -110,6 +112,7 @@ impl<'a> Lowering<'a> {
             findings,
             builder,
             hub: None,
+            nowhere: Nowhere::default(),
             loops: Vec::new(),
             modal_calls: 0,
             motion: Motion::default(),

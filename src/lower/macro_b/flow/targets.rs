@@ -14,13 +14,11 @@ const MAX_LISTED: usize = 4_000_000;
 const MANY_LISTED: usize = 100_000;
 
 impl Lowering<'_> {
-    /// The block that a jump to a sequence number finds. Where none is, the
-    /// program is refused and the id is one of an empty block.
+    /// The block that a jump to a sequence number finds; one with an alarm if no block has it.
     pub fn target(&mut self, number: u32, span: Span) -> BlockId {
         let Some(index) = self.choose(number, span) else {
-            let message = format!("no block of this program has the sequence number {number}");
-            self.findings.add(Diagnostic::new(Code::TargetMissing, span, message));
-            return self.builder.fresh();
+            let label = format!("N{number}");
+            return self.nowhere.block(label, span, &mut self.builder, &mut self.findings);
         };
         if self.enters_loop(index) {
             let message = format!("the jump goes into the loop around N{number}");

@@ -70,6 +70,7 @@ impl<'a> Lowering<'a> {
         }
         self.close_loops();
         self.close_hub();
+        self.nowhere.close(&mut self.builder);
     }
 
     fn block(&mut self, block: &'a Block, is_head: bool) {

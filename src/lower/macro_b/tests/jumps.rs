@@ -24,7 +24,14 @@ fn jumps() {
         "0: jump b1\n1 N2: retained.768 = retained.601 | jump b2\n2 N8: end rewind",
     );
     rests_on("fanuc", "N02 #768=#601 GOTO08\nN08M30", "behaviour:statement.shares.block");
-    refuses("fanuc", "GOTO5", &[Code::TargetMissing]);
+    // Nothing has the number: an alarm when it gets there, once for each number.
+    means(
+        "fanuc",
+        "IF[#1EQ0]GOTO5\nIF[#1EQ1]GOTO7\nIF[#1EQ2]GOTO5\nM30",
+        "0: branch local.1 eq 0 ? b4 : b1\n1: branch local.1 eq 1 ? b5 : b2\n2: branch local.1 eq 2 ? b4 : b3\n\
+         3: end rewind\n4: alarm 1 \"NO BLOCK N5\" | end\n5: alarm 1 \"NO BLOCK N7\" | end",
+    );
+    reviews("fanuc", "GOTO5", &[Code::TargetMissing]);
 }
 
 #[test]
@@ -188,7 +195,7 @@ fn returns() {
     means("fanuc", "M99P20", "0: return to 20");
     rests_on("fanuc", "M99P20", "behaviour:m99.p.jumps.here");
     means("haas", "M99 P20\nN20 M30", "0: jump b1\n1 N20: end rewind");
-    refuses("haas", "M99 P20", &[Code::TargetMissing]);
+    means("haas", "M99 P20", "0: jump b1\n1: alarm 1 \"NO BLOCK N20\" | end");
     means("fanuc", "G0X1.M99", "0: nc motion.rapid axis.x=1 | return");
 }
 
