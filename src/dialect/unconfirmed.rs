@@ -125,11 +125,27 @@ pub enum Settled {
         /// The answers that it may have, in words.
         answers: String,
     },
+    /// A key of the profile itself.
+    Key {
+        /// The key.
+        name: &'static str,
+        /// The values that it may have.
+        values: &'static [&'static str],
+    },
     /// That it is as the tables have it.
     Confirmed(String),
 }
 
 impl Settled {
+    /// What a profile says of the unit that its machine starts in.
+    pub const UNITS: Self = Self::Key { name: "units", values: &["inch", "metric"] };
+
+    /// A key or a setting with the values that it may have, as a line of a profile.
+    pub fn choice<S: AsRef<str>>(name: &str, values: &[S]) -> String {
+        let values: Vec<&str> = values.iter().map(AsRef::as_ref).collect();
+        format!("{name} = \"{}\"", values.join("\" or \""))
+    }
+
     /// What to do on the machine and in its profile.
     pub fn in_words(&self, side: Side) -> String {
         let then = match self {
@@ -140,6 +156,9 @@ impl Settled {
                 format!(
                     "write '{question} = {answers}' under [behaviours] in the machine profile of the {side}"
                 )
+            }
+            Self::Key { name, values } => {
+                format!("write '{}' in the machine profile of the {side}", Self::choice(name, values))
             }
             Self::Confirmed(fact) => {
                 format!("add \"{fact}\" to 'confirm' in the machine profile of the {side}")

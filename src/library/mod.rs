@@ -32,7 +32,7 @@ mod walk;
 mod withdrawn;
 
 pub use callees::linked_files;
-pub use convert::{Conversion, Options, Outcome, ProgramReport, convert};
+pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome};
 pub use detect::{Detected, detect, likeness, looks_like};
 pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};
 pub use lock::{Lock, LockError};

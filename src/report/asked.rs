@@ -25,7 +25,10 @@ pub fn asked(questions: &Questions<'_>, all_by: &str) -> String {
         }
     }
     if !questions.machines.is_empty() {
-        out.push_str("\nWhat no manual confirms (MG0201): check it on the machine, then put it into the machine's profile.\n");
+        out.push_str(
+            "\nWhat is open of the machines (MG0201, MG0205): check it on the machine, then put it into the machine's \
+             profile.\nThe conversions rest on it.\n",
+        );
     }
     questions.machines.iter().for_each(|machine| profile(&mut out, machine));
     match questions.notes {
@@ -71,6 +74,7 @@ fn profile(out: &mut String, machine: &Machine<'_>) {
         ),
     };
     let of = |is: fn(&Settled) -> bool| machine.facts.iter().filter(move |fact| is(&fact.settled_by));
+    lines(out, "", of(|settled| matches!(settled, Settled::Key { .. })), "", machine);
     let confirmed = of(|settled| matches!(settled, Settled::Confirmed(_)));
     lines(out, "confirm = [", confirmed, "]", machine);
     for section in ["settings", "parameters"] {
@@ -91,7 +95,7 @@ fn lines<'f, 'a: 'f>(
 ) {
     let mut any = false;
     for fact in facts {
-        if !std::mem::replace(&mut any, true) {
+        if !std::mem::replace(&mut any, true) && !head.is_empty() {
             let _ = writeln!(out, "  {head}");
         }
         let title = &machine.control.dialect().title;
@@ -99,7 +103,8 @@ fn lines<'f, 'a: 'f>(
             fact.asked.text.split_once(&format!("{title}: ")).map_or(fact.asked.text, |(_, said)| said);
         let line = match &fact.settled_by {
             Settled::Confirmed(fact) => format!("  \"{fact}\","),
-            Settled::Setting { name, values, .. } => format!("# {name} = \"{}\"", values.join("\" or \"")),
+            Settled::Setting { name, values, .. } => format!("# {}", Settled::choice(name, values)),
+            Settled::Key { name, values } => format!("# {}", Settled::choice(name, values)),
             Settled::Answer { question, answers } => format!("# \"{question}\" = {answers}"),
         };
         let _ = writeln!(out, "  {line} # {} ({})", shown(said), stands(&fact.asked));

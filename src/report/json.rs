@@ -1,9 +1,10 @@
 //! A conversion as JSON. Its keys are a contract: `programs` with `source`, `target`, `program`,
-//! `outcome`, `diagnostics`; `totals`; and `notes`, `folders` and `left_out`, if there is something to be said of the
+//! `outcome`, `diagnostics`; `totals`; and `machines`, if something is open of them, `notes`, `folders` and `left_out`, if there is something to be said of the
 //! programs as a whole, of files of earlier runs, or of files that were not read.
 //!
 //! It is written piece by piece: a library of many findings makes more of it than of itself.
 
+use super::questions::{Machine, Questions};
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
 use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
@@ -21,11 +22,52 @@ struct Report<'a> {
     programs: &'a [Part<'a>],
     totals: Totals,
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    machines: Vec<Open>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     folders: Vec<&'a Told>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<&'a LeftOut>,
+}
+
+/// What is open of a machine, which its profile answers for all programs.
+#[derive(Serialize)]
+struct Open {
+    dialect: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    profile: Option<String>,
+    questions: Vec<Asked>,
+}
+
+#[derive(Serialize)]
+struct Asked {
+    code: Code,
+    severity: Severity,
+    message: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    help: Option<String>,
+    programs: usize,
+    places: Vec<String>,
+}
+
+impl Open {
+    fn of(machine: &Machine<'_>) -> Self {
+        let questions = machine.facts.iter().map(|fact| Asked {
+            code: fact.asked.code,
+            severity: fact.asked.code.severity(),
+            message: fact.asked.text.to_owned(),
+            help: fact.asked.help.map(str::to_owned),
+            programs: fact.asked.programs,
+            places: fact.asked.places.clone(),
+        });
+        let file = machine.control.profile().file.as_ref();
+        Self {
+            dialect: machine.control.name().to_owned(),
+            profile: file.map(|file| file.display().to_string()),
+            questions: questions.collect(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -75,7 +117,8 @@ pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     let notes = parts.iter().flat_map(said).collect();
     let left_out = parts.iter().flat_map(|part| part.left_out).collect();
     let folders = parts.iter().map(|part| part.folder).filter(|told| !told.is_empty()).collect();
-    let report = Report { programs: parts, totals: Totals::of(parts), notes, folders, left_out };
+    let machines = Questions::of(parts).machines.iter().map(Open::of).collect();
+    let report = Report { programs: parts, totals: Totals::of(parts), machines, notes, folders, left_out };
     write_json_pretty(&report, &mut out)?;
     out.write_all(b"\n")?;
     out.flush()
@@ -134,7 +177,7 @@ fn findings<'a, S: Serializer>(
         let help = help.transpose().map_err(S::Error::custom)?;
         all.serialize_element(&Finding {
             code: d.code,
-            severity: d.severity(),
+            severity: d.code.in_program(),
             file,
             line,
             column,

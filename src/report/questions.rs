@@ -193,6 +193,9 @@ fn key<'a>(finding: &'a Diagnostic, part: &Part<'a>, controls: &mut Vec<&'a Cont
 
 /// The machine whose profile settles a finding, and by what.
 fn settled<'a>(finding: &Diagnostic, part: &Part<'a>) -> Option<(&'a Control, Settled)> {
+    if finding.code == Code::StartUnknown {
+        return Some((part.controls[0], Settled::UNITS));
+    }
     let fact = finding.fact()?;
     let sides = [Side::Source, Side::Target].into_iter().zip(part.controls);
     let mut all = sides.map(|(side, control)| (side, control, control.settled_by(fact)));

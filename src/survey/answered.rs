@@ -5,7 +5,7 @@
 //! them, the questions with several answers are left open.
 
 use super::Survey;
-use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Without};
+use crate::dialect::{Control, Plain, Profile, Question, Settled, SiteCode, Units, Without};
 use crate::report::Questions;
 use std::collections::BTreeMap;
 
@@ -70,6 +70,8 @@ fn answer(settled: Settled, other: &Control) -> Option<Answer> {
                 section.insert(name.clone(), Plain::Word(value.clone()));
             })
         }
+        // The unit: either answers it.
+        Settled::Key { .. } => Box::new(|profile| profile.units = Some(Units::Metric)),
         Settled::Answer { question, answers } => {
             let there = Question::find(&question).and_then(|question| other.behaviour(question));
             let mut all = answers.split(" or ").map(|answer| answer.trim_matches('"'));

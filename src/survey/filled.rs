@@ -71,17 +71,14 @@ fn lines(questions: &Questions<'_>, control: &Control) -> BTreeMap<&'static str,
     for fact in questions.machines.iter().filter(|machine| is_it(machine.control)).flat_map(|m| &m.facts) {
         let (section, line) = match &fact.settled_by {
             Settled::Confirmed(name) => ("confirm", format!("\"{name}\",")),
-            Settled::Setting { section, name, values } => (*section, choice(name, values)),
+            Settled::Setting { section, name, values } => (*section, Settled::choice(name, values)),
+            // It stands at the head of every profile that does not say it.
+            Settled::Key { .. } => continue,
             Settled::Answer { question, answers } => ("behaviours", format!("\"{question}\" = {answers}")),
         };
         let _ = writeln!(all.entry(section).or_default(), "{ASKS} {line} # {}", about(fact, control));
     }
     all
-}
-
-/// A setting with the first of its values, and the others beside it.
-fn choice(name: &str, values: &[String]) -> String {
-    format!("{name} = \"{}\"", values.join("\" or \""))
 }
 
 fn about(fact: &Fact<'_>, control: &Control) -> String {

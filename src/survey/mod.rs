@@ -17,10 +17,10 @@ pub use json::json;
 pub use shape::{Missing, Shape};
 pub use text::text;
 
-use crate::diag::{Code, Diagnostic, Severity};
+use crate::diag::{Code, Severity};
 use crate::dialect::Control;
 use crate::library::{
-    Conversion, Input, Lock, Options, Outcome, ProgramReport, Told, Understood, convert, understood,
+    Conversion, Input, Lock, Options, Outcome, ProgramReport, Told, Understood, convert, outcome, understood,
 };
 use crate::report::{Part, Questions};
 use serde::Serialize;
@@ -139,12 +139,7 @@ fn plain(inputs: &[Input], source: &Control, target: &Control) -> Conversion {
 /// A library that goes nowhere: what its own control understands of it.
 fn as_read(inputs: &[Input], source: &Control, library: Understood) -> Conversion {
     let programs = library.module.programs.iter().zip(library.found).map(|(program, diagnostics)| {
-        let gravest = diagnostics.iter().map(Diagnostic::severity).max();
-        let outcome = match gravest {
-            Some(Severity::Error) => Outcome::Refused,
-            Some(Severity::Review) => Outcome::Review,
-            Some(Severity::Note) | None => Outcome::Converted,
-        };
+        let outcome = outcome(&diagnostics);
         let name = program.name.as_ref().map(ToString::to_string);
         ProgramReport {
             file: program.file,

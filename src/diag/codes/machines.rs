@@ -6,7 +6,7 @@ macro_rules! machines_codes {
     "0201" UnconfirmedFact Review "no manual confirms this"
 "The conversion depends on how a control behaves here, and no maker's text confirms it. The message names the fact and the control; `macroglot dialects` with the control's name prints the fact, and where it is from.
 
-Check it on the machine or in its manual, then put it into the machine profile: a fact by its name in `confirm`, the answer to a question under `[behaviours]`, such as `divide.by.zero = \"alarm\"`."
+Check it on the machine or in its manual, then put it into the machine profile: a fact by its name in `confirm`, the answer to a question under `[behaviours]`, such as `divide.by.zero = \"alarm\"`. It is asked of the machine, once for all programs; a program is not for review because of it."
 
     "0202" DialectTable Error "a table of `dialects/` is wrong"
 "A table of facts about a control contradicts itself, names something that does not exist, or has a key that nothing reads. Nothing is converted with a table that is wrong.
@@ -22,6 +22,11 @@ Correct the line shown. `macroglot dialects` lists what a control can be set to.
 "The conversion depends on how a control behaves here. No text of its maker was reached that says so, and what the trade writes of it agrees: at least two sources that do not depend on each other, or one that reproduces a named manual. `macroglot dialects` with the control's name prints the fact, and the sources.
 
 There is nothing to do as a rule. If your machine does otherwise, say so in its profile under `[behaviours]`; if you have checked it, put its name into `confirm`, and the note is gone."
+
+    "0205" StartUnknown Review "what the machine starts in is not known"
+"The program does not name a mode that counts in it, such as the unit of lengths, so it runs in the one that its machine is in when it starts. The profile of the machine that it was written for does not say which that is. The conversion leaves it so: it does the same on a machine that is in the same mode.
+
+Say it in that profile: `units = \"inch\"` or `units = \"metric\"`. Every program of the machine is told it then."
         }
     };
 }

@@ -50,6 +50,17 @@ macro_rules! codes {
                 match self { $(Code::$name => Severity::$severity,)* }
             }
 
+            /// True for what is open of a machine: its profile answers it, once for all programs.
+            pub const fn is_of_machine(self) -> bool {
+                matches!(self, Code::UnconfirmedFact | Code::StartUnknown)
+            }
+
+            /// How grave it is for the program that it is found in. What is open of a machine is asked of the machine, and is
+            /// a note there.
+            pub const fn in_program(self) -> Severity {
+                if self.is_of_machine() { Severity::Note } else { self.severity() }
+            }
+
             /// What it is, in a few words.
             pub const fn title(self) -> &'static str {
                 match self { $(Code::$name => $title,)* }

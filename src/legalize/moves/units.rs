@@ -12,7 +12,7 @@ pub(in crate::legalize) mod exit;
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Units};
+use crate::dialect::{Control, Settled, Side, Units};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Lattice, reached};
@@ -69,16 +69,26 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
         // One that may also be called has the unit of its caller then.
         let alone = !(called.is_guessed(root) && returns(&module.programs[root]));
         let Some(units) = ours.or(checked[root]).filter(|_| alone) else {
-            let lost = lost(module, &facts, root);
-            let (span, why) = match lost {
-                Some((span, why)) => (span, why.to_owned()),
-                None => (module.programs[root].site.span, unnamed(context.source)),
+            let finding = match lost(module, &facts, root) {
+                Some((span, why)) => Diagnostic::new(
+                    Code::Conditional,
+                    span,
+                    format!("{why}: set the target to the old machine's unit, or name the unit after it"),
+                ),
+                None if !alone => {
+                    let what = "the program names no unit and may be called: it runs in its caller's";
+                    Diagnostic::new(Code::Conditional, module.programs[root].site.span, what)
+                }
+                None => {
+                    let what = format!(
+                        "{}: the target must be set to the unit of the old machine",
+                        unnamed(context.source)
+                    );
+                    Diagnostic::new(Code::StartUnknown, module.programs[root].site.span, what)
+                        .with_help(Settled::UNITS.in_words(Side::Source))
+                }
             };
-            let what = format!(
-                "{why}: set the target to the old machine's unit, or put `units` into the old machine's profile"
-            );
-            let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
-            context.add_once(root, "units", finding);
+            context.add_once(root, "units", finding.assuming(Predicate::Unit));
             continue;
         };
         let op = selection(units);

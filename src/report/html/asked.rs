@@ -125,8 +125,9 @@ fn profile_line(settled: &Settled) -> String {
     match settled {
         Settled::Confirmed(fact) => format!("confirm = [\"{fact}\"]"),
         Settled::Setting { section, name, values } => {
-            format!("[{section}]\n{name} = \"{}\"", values.join("\" or \""))
+            format!("[{section}]\n{}", Settled::choice(name, values))
         }
+        Settled::Key { name, values } => Settled::choice(name, values),
         Settled::Answer { question, answers } => format!("[behaviours]\n\"{question}\" = {answers}"),
     }
 }

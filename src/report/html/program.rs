@@ -78,7 +78,7 @@ fn why(out: &mut String, part: &Part<'_>, program: &ProgramReport) {
         Outcome::Review => Severity::Review,
         Outcome::Refused => Severity::Error,
     };
-    let reasons = codes(program).into_iter().filter(|code| code.severity() == deciding);
+    let reasons = codes(program).into_iter().filter(|code| code.in_program() == deciding);
     let reasons = reasons.map(|code| format!("{} ({})", super::code(code), escaped(code.title())));
     let reasons = reasons.collect::<Vec<_>>().join(", ");
     let is_draft = program.outcome == Outcome::Refused && !program.map.is_empty();
