@@ -63,6 +63,8 @@ pub enum Predicate {
     Alarms(f64),
     /// Both machines are set to one unit when the program starts.
     Unit,
+    /// These modes are in force when the program starts, as the profile of the source says.
+    Start(Vec<Op>),
     /// Nothing calls the program: it is run by itself.
     Main,
     /// This tool is in the spindle when the program starts.
@@ -103,6 +105,7 @@ impl Predicate {
             Self::Codes { .. } => "codes",
             Self::Alarms(_) => "alarms",
             Self::Unit => "unit",
+            Self::Start(_) => "start",
             Self::Main => "main",
             Self::Loaded(_) => "tool",
             Self::ShortArcs(_) => "arcs",
@@ -124,7 +127,7 @@ impl Predicate {
 
     /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
-        let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_));
+        let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_));
         !set && !self.is_accepted()
     }
 
@@ -142,8 +145,10 @@ impl Predicate {
             Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
-            Self::Fact(_) | Self::Unit | Self::Main | Self::Loaded(_) | Self::Unseen => Vec::new(),
-            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) => Vec::new(),
+            Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_) => Vec::new(),
+            Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) | Self::Unseen => {
+                Vec::new()
+            }
         }
     }
 }

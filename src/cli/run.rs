@@ -170,7 +170,11 @@ fn print_run(
 /// The scenario file with what the command line adds.
 fn scenario(arguments: &Arguments, control: &Control) -> Result<Scenario, u8> {
     let mut scenario = match &arguments.scenario {
-        None => Scenario::default(),
+        // The machine begins as its profile says.
+        None => Scenario {
+            as_stated: control.start().iter().map(|mode| mode.op.group()).collect(),
+            ..Scenario::default()
+        },
         Some(path) => {
             let text = std::fs::read_to_string(path)
                 .map_err(|error| complain(format!("{}: {error}", path.display())))?;

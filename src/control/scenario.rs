@@ -2,7 +2,7 @@
 
 use super::entry::Entry;
 use super::table::Table;
-use crate::canon::{Op, Sys};
+use crate::canon::{Group, Op, Sys};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -29,6 +29,9 @@ pub struct Scenario {
     pub modes: Vec<Op>,
     /// What else is in force then.
     pub entry: Entry,
+    /// The groups of which that is in force which the machine's profile says under `[start]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub as_stated: Vec<Group>,
     /// Machine position at the start.
     pub start: Axes,
     /// Work offsets, by common number: 1 to 6, 101 and up.
@@ -135,6 +138,7 @@ impl Default for Scenario {
             inch: None,
             modes: Vec::new(),
             entry: Entry::default(),
+            as_stated: Vec::new(),
             start: [0.0; AXES],
             work_offsets: Table::default(),
             external_shift: [0.0; AXES],

@@ -2,6 +2,7 @@
 
 use super::control_codes::{Alias, address, aliases};
 use super::profile::{Machine, Profile, Units, VariableRun};
+use super::start::StartMode;
 use super::{
     BareLength, Behaviour, Beside, CodeHead, Dialect, Entry, Forbidden, Function, Limit, Numbers, Operator,
     Question, Setting, Statement, Text, VariableClass,
@@ -32,6 +33,8 @@ pub struct Control {
     pub(super) states: HashMap<Sys, Vec<usize>>,
     /// The codes that call programs, by letter and number.
     pub(super) aliases: Vec<(char, f64, Alias)>,
+    /// What is in force when a program begins.
+    pub(super) start: Vec<StartMode>,
     /// The number of the profile, once it is asked for.
     pub(super) owner: OnceLock<u64>,
     /// The row of each question, by its place in [`Question::ALL`].
@@ -86,6 +89,7 @@ impl Control {
             system,
             states,
             aliases,
+            start: Vec::new(),
             behaviours,
         }
     }
@@ -107,6 +111,7 @@ impl Control {
             && self.dialect == other.dialect
             && self.settings == other.settings
             && self.profile.units == other.profile.units
+            && self.start == other.start
             && self.reserved == other.reserved
     }
 

@@ -4,6 +4,7 @@
 //! signal that both name is as the profile itself has it.
 
 use super::profile::Profile;
+use super::start::Start;
 use super::{Control, faults_as_text, registry};
 use crate::diag::{Code, Diagnostic};
 use crate::text::Span;
@@ -72,6 +73,7 @@ impl Profile {
             settings: base.settings.into_iter().chain(self.settings).collect(),
             behaviours: base.behaviours.into_iter().chain(self.behaviours).collect(),
             limits: base.limits.into_iter().chain(self.limits).collect(),
+            start: Start { codes: self.start.codes.or(base.start.codes) },
             reserved: both(base.reserved, self.reserved),
             variables: self.variables.or(base.variables),
             confirm: both(base.confirm, self.confirm),

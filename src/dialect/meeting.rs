@@ -52,7 +52,11 @@ impl Control {
             return Err(NoMeeting(faults_as_text(&name, &text, &faults).trim_end().to_owned()));
         }
         let again = |control: Self, dialect| {
-            Self::index(control.entry, dialect, control.profile, control.settings, control.reserved)
+            let start = control.start;
+            let mut made =
+                Self::index(control.entry, dialect, control.profile, control.settings, control.reserved);
+            made.start = start;
+            made
         };
         Ok((again(source, ours), again(target, theirs)))
     }

@@ -36,6 +36,7 @@ mod signals;
 mod site;
 mod site_rows;
 mod spelling;
+mod start;
 mod stated;
 mod table;
 #[cfg(test)]
@@ -64,4 +65,5 @@ pub use row::Row;
 pub use rows::*;
 pub use site::{SiteCode, Without};
 pub use spelling::{Beside, CodeHead, measures};
+pub use start::StartMode;
 pub use unconfirmed::{Settled, Side, to_confirm};

@@ -30,11 +30,18 @@ impl Control {
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
         overlay.confirm(&mut dialect);
-        let Overlay { reader, profile, .. } = overlay;
-        if reader.faults.is_empty() {
-            Ok(Control::index(entry, dialect, profile, settings, reserved))
-        } else {
-            Err(reader.faults)
+        let Overlay { mut reader, profile, .. } = overlay;
+        if !reader.faults.is_empty() {
+            return Err(reader.faults);
+        }
+        let place = profile.place("start:codes").unwrap_or(0..0);
+        let mut control = Control::index(entry, dialect, profile, settings, reserved);
+        match control.read_start() {
+            Ok(()) => Ok(control),
+            Err((message, help)) => {
+                reader.fault(place, message, help);
+                Err(reader.faults)
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! Machine profiles: what one machine's owner bought and set.
 
 use super::reader::Reader;
+use super::start::Start;
 use super::{BareLength, SiteCode};
 use crate::diag::{Code, Diagnostic};
 use serde::Deserialize;
@@ -47,6 +48,8 @@ pub struct Profile {
     pub behaviours: BTreeMap<String, Plain>,
     /// Limits, found on the machine: `call.all = 8`. They count instead of the table's, and as confirmed.
     pub limits: BTreeMap<String, u32>,
+    /// What is in force when a program begins.
+    pub start: Start,
     /// Variables that programs must not be given: `#149`, `#500-#549`, `VX`.
     pub reserved: Vec<String>,
     /// The variables that there are; absent where the table's classes all are.

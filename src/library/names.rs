@@ -2,7 +2,7 @@
 
 use super::Input;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Question};
 use crate::emit::{Naming, Register, last_sequence};
 use crate::ir::analysis::{Ranges, Summaries};
 use crate::ir::{Callee, Module, Program, TermKind};
@@ -92,4 +92,17 @@ pub fn report_duplicates(module: &Module, inputs: &[Input], found: &mut [Vec<Dia
             }
         }
     }
+}
+
+/// True where programs begin in the same state on both controls, so that nothing is added to their head.
+pub(super) fn begin_alike(source: &Control, target: &Control) -> bool {
+    let same = |question: Question| {
+        let [ours, theirs] =
+            [source, target].map(|control| control.behaviour(question).map(|row| &row.value));
+        ours.is_some() && ours == theirs
+    };
+    source.start().is_empty()
+        && both_nameless(source, target)
+        && same(Question::Vacancy)
+        && same(Question::InitialValue)
 }

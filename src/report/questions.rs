@@ -159,7 +159,7 @@ impl<'a> Questions<'a> {
         };
         questions.open.sort_by_key(order);
         for machine in &mut questions.machines {
-            machine.facts.sort_by_key(|fact| std::cmp::Reverse(fact.asked.programs));
+            machine.facts.sort_by_key(|fact| (fact.asked.danger, std::cmp::Reverse(fact.asked.programs)));
         }
         questions.machines.retain(|machine| !machine.facts.is_empty());
         questions
@@ -213,7 +213,7 @@ fn is_one(one: &Control, other: &Control) -> bool {
 /// tool or its length, the path, which code or variable is meant; then what no run has shown; facts of tables last.
 fn danger(finding: &Diagnostic) -> usize {
     match (finding.assumes.as_deref(), finding.code) {
-        (Some(Predicate::Unit), _) => 0,
+        (Some(Predicate::Unit | Predicate::Start(_)), _) => 0,
         (Some(Predicate::Loaded(_) | Predicate::Tools(_)), _) => 1,
         (Some(Predicate::ShortArcs(_) | Predicate::ArcEnds(_)), _) => 2,
         (Some(Predicate::Codes { .. } | Predicate::Subscripts(_) | Predicate::Arguments { .. }), _) => 3,

@@ -88,16 +88,16 @@ fn an_extended_profile_is_not_written_over() {
     assert_eq!(shop.read("base.json"), base);
 }
 
-/// What a profile states needs no review any more.
+/// What is open of a machine is asked once, makes no program one for review, and is not asked of a profile that states it.
 #[test]
-fn a_profile_answers_reviews() {
+fn a_profile_answers_what_is_open_of_a_machine() {
     let program = CLEAN.replace("G0 X1.", "G0 X1. A5.");
     let confirm = "confirm = [\"word:A\"]\n";
     let shop = Shop::with(&[("a.nc", &program), ("m.toml", &format!("dialect = \"fanuc\"\n{confirm}"))]);
     let plain = shop.run("convert a.nc --from fanuc --to haas");
-    assert!(plain.err.contains("word:A") && plain.err.contains("1 for review"), "{}", plain.err);
+    assert!(plain.err.contains("word:A") && plain.err.contains("1 converted"), "{}", plain.err);
     let known = shop.run("convert a.nc --from fanuc --to haas --machine m.toml");
-    assert!(known.err.contains("1 converted"), "{}", known.err);
+    assert!(!known.err.contains("word:A") && known.err.contains("1 converted"), "{}", known.err);
     assert_eq!(known.out, plain.out, "the same program, with nothing to look at");
 }
 
@@ -196,4 +196,28 @@ fn the_registers_taken_are_told_and_reserved_is_asked_for() {
     assert!(some.contains("registers taken: #110\n"), "{some}");
     let clean = shop.run("convert clean.nc --from haas --to fanuc").err;
     assert!(!clean.contains("registers"), "{clean}");
+}
+
+/// A machine that begins in G91 does otherwise with a program that names no mode: the source is run as its profile says, and the
+/// target in whatever its own says.
+#[test]
+fn what_a_machine_begins_in_is_run_and_verified() {
+    let program = "O1\nG1 X1. F100.\nX2.\nM30\n";
+    let begins = |dialect: &str, codes: &str| {
+        format!("dialect = \"{dialect}\"\nunits = \"metric\"\n[start]\ncodes = \"{codes}\"\n")
+    };
+    let shop = Shop::with(&[
+        ("a.nc", program),
+        ("old.toml", &begins("fanuc", "G91 G54")),
+        ("new.toml", &begins("haas", "G90 G54")),
+    ]);
+    let there = shop.run("convert a.nc --from fanuc --to haas --machine old.toml --machine new.toml -o out");
+    assert!(there.err.contains("1 converted") && there.err.contains("1 verified"), "{}", there.err);
+    assert!(shop.read("out/a.nc").contains("\nG91\nG1 X1. F100.\n"), "{}", shop.read("out/a.nc"));
+    // By G91 the second move ends at 3 mm, by G90 at 2.
+    for (machine, control, end) in [("old.toml", "fanuc", "3.0"), ("new.toml", "haas", "2.0")] {
+        let run = shop.run(&format!("run a.nc --dialect {control} --machine {machine} --trace json"));
+        let last = run.out.lines().filter(|line| line.contains("\"feed\",")).next_back().unwrap();
+        assert!(last.contains(&format!("\"to\":{{\"x\":{end},")), "{last}");
+    }
 }

@@ -167,6 +167,14 @@ impl Machine {
         }
         scenario.modes.iter().for_each(|op| machine.start_in(*op));
         machine.enter(&scenario.entry);
+        for mode in control.start().iter().filter(|mode| scenario.as_stated.contains(&mode.op.group())) {
+            match mode.work_offset() {
+                Some(number) => machine.select(number),
+                // The unit is the scenario's, or as the profile says it.
+                None if mode.op.group() == Group::Units => {}
+                None => machine.start_in(mode.op),
+            }
+        }
         machine
     }
 

@@ -27,6 +27,9 @@ There is nothing to do as a rule. If your machine does otherwise, say so in its 
 "The program does not name a mode that counts in it, such as the unit of lengths, so it runs in the one that its machine is in when it starts. The profile of the machine that it was written for does not say which that is. The conversion leaves it so: it does the same on a machine that is in the same mode.
 
 Say it in that profile: `units = \"inch\"` or `units = \"metric\"`. Every program of the machine is told it then."
+
+    "0206" StartsStated Note "begins in what the machine's profile says"
+"The program does not name all modes that count in it. It is run in what the machine begins in, as the machine's profile says under `[start]`. The codes are written at the head of the conversion, but for those that the target begins in too."
         }
     };
 }

@@ -1,16 +1,19 @@
 //! Machine profiles, and the answers that they state.
 
 use super::{faults, refused};
-use crate::dialect::{Control, Profile, Question, Side, faults_as_text, registry};
+use crate::canon::Op;
+use crate::dialect::{Control, Profile, Question, Side, Units, faults_as_text, registry};
 use crate::text::Span;
+
+/// The profile is refused, and the fault says so.
+fn wrong(text: &str, expected: &str) {
+    let faults = Control::from_profile(text).map(|_| ()).unwrap_err();
+    let faults = faults_as_text("p.toml", text, &faults);
+    assert!(faults.contains(expected), "expected '{expected}' in:\n{faults}");
+}
 
 #[test]
 fn profiles_say_what_is_wrong_and_where() {
-    let wrong = |text: &str, expected: &str| {
-        let faults = Control::from_profile(text).map(|_| ()).unwrap_err();
-        let faults = faults_as_text("p.toml", text, &faults);
-        assert!(faults.contains(expected), "expected '{expected}' in:\n{faults}");
-    };
     wrong("dialect = \"fanuk\"", "p.toml:1:11: MG0203: no dialect is named 'fanuk'");
     wrong("title = \"x\"", "the profile does not say its dialect");
     wrong(
@@ -75,11 +78,6 @@ fn profiles_state_answers() {
 
 #[test]
 fn profiles_state_no_wrong_answers() {
-    let wrong = |text: &str, expected: &str| {
-        let faults = Control::from_profile(text).map(|_| ()).unwrap_err();
-        let faults = faults_as_text("p.toml", text, &faults);
-        assert!(faults.contains(expected), "expected '{expected}' in:\n{faults}");
-    };
     let haas = |line: &str, expected: &str| {
         wrong(&format!("dialect = \"haas\"\n[behaviours]\n{line}"), expected);
     };
@@ -155,4 +153,34 @@ fn what_is_open_between_answers_is_told_with_them() {
     let row = control.dialect.behaviours.iter_mut().find(|row| row.question == Question::DwellExpression);
     row.unwrap().one_of = vec!["ms".into(), "seconds".into()];
     assert!(told(&control).0.ends_with("when it is computed: ms or seconds; not stated"));
+}
+
+#[test]
+fn a_machine_begins_in_what_its_profile_says() {
+    let control =
+        Control::from_profile("dialect = \"fanuc\"\n[start]\ncodes = \"g90 G17 G20 G55 G0\"").unwrap();
+    let ops: Vec<Op> = control.start().iter().map(|mode| mode.op).collect();
+    assert_eq!(ops, [Op::Absolute, Op::PlaneXy, Op::Inch, Op::SelectWork, Op::Rapid]);
+    assert_eq!(control.start()[3].work_offset(), Some(2));
+    assert_eq!(control.units(), Some(Units::Inch), "the unit counts where no code says it");
+    let start = |said: &str, told: &str| {
+        wrong(
+            &format!("dialect = \"fanuc\"\n[start]\ncodes = \"{said}\""),
+            &format!("p.toml:3:1: MG0203: {told}"),
+        );
+    };
+    start("G90 G91", "'G91' stands beside 'distance.absolute', and one of them is in force");
+    start("G90 G43", "'G43' is nothing that a program begins in");
+    start("G2", "'G2' is nothing that a program begins in");
+    start("G53", "'G53' is nothing that a program begins in");
+    start("ABS", "'ABS' is no code");
+    start("G777", "Fanuc Custom Macro B has no code G777");
+    wrong(
+        "dialect = \"fanuc\"\nunits = \"metric\"\n[start]\ncodes = \"G20\"",
+        "p.toml:4:1: MG0203: [start] names another unit than 'units'",
+    );
+    wrong(
+        "dialect = \"fanuc\"\n[start]\ncode = \"G20\"",
+        "p.toml:3:1: MG0203: unknown field `code`, expected `codes`",
+    );
 }

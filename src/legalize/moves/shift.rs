@@ -160,7 +160,8 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
         )),
         None => Some((
             Code::Conditional,
-            "the work offset in force here depends on what ran before: the target keeps the one that it has",
+            "the work offset in force here depends on what ran before: the target keeps the one that it has. If \
+             programs of the old machine begin in one, name it in its profile, under [start]: codes = \"G54\"",
         )),
     }
 }

@@ -9,6 +9,7 @@
 
 pub(in crate::legalize) mod exit;
 
+use super::mains::{head, mains, returns, uncalled};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -16,14 +17,11 @@ use crate::dialect::{Control, Settled, Side, Units};
 use crate::ir::analysis::CallGraph;
 use crate::ir::analysis::computed_calls::CalledPrograms;
 use crate::ir::analysis::dataflow::{Lattice, reached};
-use crate::ir::analysis::upward_exposed::roots;
-use crate::ir::{
-    BlockId, Callee, Class, Expr, Module, Nc, NcItem, Place, Program, SourceInfo, Stmt, StmtKind, TermKind,
-};
+use crate::ir::{BlockId, Callee, Expr, Module, NcItem, Place, Program, StmtKind, TermKind};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::emptied::drop_emptied;
 use crate::legalize::moves::increments::units_named;
-use crate::legalize::{Context, ModalFacts, calls_of, reachable};
+use crate::legalize::{Context, ModalFacts, calls_of};
 use crate::text::Span;
 use exit::ExitUnit;
 use std::collections::BTreeSet;
@@ -102,7 +100,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             let finding = Diagnostic::new(Code::Conditional, span, what).assuming(Predicate::Unit);
             context.add_once(root, "units", finding);
         }
-        head(&mut module.programs[root], op);
+        head(&mut module.programs[root], vec![NcItem::Op(op)]);
         changed = true;
     }
     changed
@@ -268,28 +266,6 @@ fn reads_length(each: impl FnOnce(&mut dyn FnMut(&Expr))) -> bool {
     any
 }
 
-/// The programs that end the run, but for those that others call and that may return to them. What only their
-/// subroutines do, or what nothing reaches, says nothing of them.
-fn mains(module: &Module, called: &CalledPrograms) -> Vec<usize> {
-    let roots: BTreeSet<usize> = uncalled(module, called).into_iter().collect();
-    let is_main = |index: &usize| {
-        let program = &module.programs[*index];
-        let ends = |kind: &TermKind| matches!(kind, TermKind::End { .. } | TermKind::Stray);
-        leaves_by(program, ends) && (roots.contains(index) || !returns(program))
-    };
-    (0..module.programs.len()).filter(is_main).collect()
-}
-
-fn returns(program: &Program) -> bool {
-    leaves_by(program, |kind| matches!(kind, TermKind::Return { .. }))
-}
-
-/// True where a program may end so, outside its subroutines.
-fn leaves_by(program: &Program, ends: impl Fn(&TermKind) -> bool) -> bool {
-    let own = reachable(program, BlockId(0));
-    own.into_iter().filter_map(|id| program.block(id)).any(|block| ends(&block.term.kind))
-}
-
 /// The programs that others call whom the library has not, where nothing in it names another unit than this one: what
 /// calls them on the target may be in the unit that the target is set to.
 fn lone(module: &Module, units: Units, called: &CalledPrograms) -> Vec<usize> {
@@ -299,21 +275,4 @@ fn lone(module: &Module, units: Units, called: &CalledPrograms) -> Vec<usize> {
     let mains: BTreeSet<usize> = mains(module, called).into_iter().collect();
     let is_named = |root: &usize| module.programs[*root].name.is_some();
     uncalled(module, called).into_iter().filter(|root| !mains.contains(root)).filter(is_named).collect()
-}
-
-/// The programs that no call runs, by name or surely by a computed number.
-fn uncalled(module: &Module, called: &CalledPrograms) -> Vec<usize> {
-    roots(module).into_iter().filter(|root| !called.is_known(*root)).collect()
-}
-
-fn head(program: &mut Program, op: Op) {
-    if let Some(block) = program.blocks.first_mut() {
-        let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(op)] });
-        let at = block
-            .stmts
-            .iter()
-            .take_while(|stmt| matches!(stmt.kind, StmtKind::Comment | StmtKind::ClearAll(Class::Global)))
-            .count();
-        block.stmts.insert(at, Stmt { kind, site: SourceInfo::default() });
-    }
 }

@@ -9,6 +9,7 @@ use crate::legalize::expressions::{
 };
 use crate::legalize::features::Feature;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
+use crate::legalize::moves::start;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
 use crate::legalize::registers::{allocate, clear, frames, temporaries};
 use crate::legalize::variables::{computed_numbers, retention, vacancy, vacancy_flags};
@@ -68,6 +69,9 @@ pub(super) const ENTRY: &[Pass] = &[
     Pass::rewrites("vacancy", "variables that are never vacant are set to 0 if they are", vacancy::run)
         .when(vacancy::concerns)
         .changes_flow(),
+    Pass::edits("start-alike", "codes at a head go that the target begins in anyway", start::drop_alike)
+        .when(|_, context| !context.target.start().is_empty())
+        .brings_nothing(),
 ];
 
 // What these put in, they put in for something that stood there before.

@@ -16,7 +16,7 @@ use crate::legalize::codes::{
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::layout::{blanks, heads, scratch, text_ends};
-use crate::legalize::moves::lathe;
+use crate::legalize::moves::{lathe, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
 use crate::legalize::variables::{
@@ -137,6 +137,12 @@ const STRUCTURE: &[Pass] = &[
         .when(omitted::concerns),
     Pass::edits("blanks", "empty blocks that hold nothing back go", blanks::run)
         .when(|_, context| !context.source.is(Question::EmptyBlockHolds)),
+    Pass::edits(
+        "start",
+        "what the source begins in stands at the heads of programs that rest on it",
+        start::run,
+    )
+    .when(start::concerns),
     Pass::edits("link", "reports calls that leave the library", link::run)
         .when(|c, _| c.has(Feature::Call) || c.has(Feature::Chain)),
     Pass::rewrites("outline", "subroutines inside a program go where the target wants them", outline::run)

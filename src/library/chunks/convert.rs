@@ -10,13 +10,13 @@
 use super::cut::{Piece, Pieces};
 use crate::canon::Op;
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
+use crate::dialect::Control;
 use crate::ir::{Module, Program, TermKind};
 use crate::legalize::Modal;
 use crate::library::compile::{Begun, Made, make};
 use crate::library::convert::{ProgramReport, frames, outcome};
 use crate::library::marks::marks;
-use crate::library::names::both_nameless;
+use crate::library::names::begin_alike;
 use crate::library::{Conversion, Input, Lock, Options, Outcome};
 use crate::lower::Lowered;
 use crate::syntax::{ExprKind, Item, ItemKind, ParsedFile, Word};
@@ -62,16 +62,6 @@ fn convert_in(
     }
     // All of it on threads of the pool: going there for each batch takes longer than some pieces.
     rayon::scope(|_| convert_pieces(sizes, input, source, target, lock, options))
-}
-
-/// True where programs begin in the same state on both controls, so that nothing is added to their head.
-fn begin_alike(source: &Control, target: &Control) -> bool {
-    let same = |question: Question| {
-        let [ours, theirs] =
-            [source, target].map(|control| control.behaviour(question).map(|row| &row.value));
-        ours.is_some() && ours == theirs
-    };
-    both_nameless(source, target) && same(Question::Vacancy) && same(Question::InitialValue)
 }
 
 fn convert_pieces(
@@ -301,6 +291,7 @@ impl Sink {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dialect::Question;
 
     /// A plain program with what pieces could get wrong at their edges.
     fn program(lines: usize) -> String {

@@ -49,6 +49,7 @@ impl Verifier<'_, '_> {
             Predicate::Loaded(tool) => Some(tool),
             _ => None,
         });
+        let as_stated = self.job.as_stated(self.program);
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
         let (mut endless, mut for_target) = (0, 0);
@@ -63,6 +64,7 @@ impl Verifier<'_, '_> {
             scenario.tool = loaded.unwrap_or(scenario.tool);
             at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
+            scenario.as_stated = as_stated.clone();
             self.theirs = proposals.theirs().clone();
             if is_long {
                 scenario.steps /= SHORTER;

@@ -47,6 +47,7 @@ pub fn scenarios_in<'j>(
     std::iter::from_fn(move || proposals.next()).take(runs).map(move |mut scenario| {
         scenario.inch = inch;
         given.into_iter().for_each(|given| given.start(&mut scenario));
+        scenario.as_stated = job.as_stated(program);
         let run = (job.source.execute)(&job.source.library, program, job.source.control, &scenario);
         (scenario, run)
     })

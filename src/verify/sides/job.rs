@@ -3,7 +3,8 @@
 use super::clock::Spent;
 use super::side::Side;
 use super::symbol_map::SymbolMap;
-use crate::assume::Assumption;
+use crate::assume::{Assumption, Predicate};
+use crate::canon::Group;
 use crate::control::ProgramRef;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,6 +26,18 @@ pub struct Job<'j> {
     pub effort: Effort,
     /// What was done for other programs.
     pub spent: &'j Spent,
+}
+
+impl Job<'_> {
+    /// The groups of which a program begins in what the profiles of the machines say.
+    pub fn as_stated(&self, program: ProgramRef) -> Vec<Group> {
+        let all = self.assumptions.get(&program).into_iter().flatten();
+        let ops = all.filter_map(|one| match &one.predicate {
+            Predicate::Start(ops) => Some(ops.iter().map(|op| op.group())),
+            _ => None,
+        });
+        ops.flatten().collect()
+    }
 }
 
 /// How much a verification may do.

@@ -120,7 +120,11 @@ pub fn excuse(tried: &[Tried<'_>], run: &Run, other: &Run, difference: &Differen
 fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> Held {
     match predicate {
         // The emulated controls go by the tables, and both sides are set to one unit and found with the tool.
-        Predicate::Fact(_) | Predicate::Unit | Predicate::Main | Predicate::Loaded(_) => Held::Kept,
+        Predicate::Fact(_)
+        | Predicate::Unit
+        | Predicate::Start(_)
+        | Predicate::Main
+        | Predicate::Loaded(_) => Held::Kept,
         Predicate::Substitute(_) | Predicate::Unseen => Held::Untried,
         Predicate::Subscripts(subscripts) => {
             let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
@@ -159,6 +163,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
     match predicate {
         Predicate::Fact(_)
         | Predicate::Unit
+        | Predicate::Start(_)
         | Predicate::Main
         | Predicate::Loaded(_)
         | Predicate::ShortArcs(_)

@@ -1,0 +1,102 @@
+//! What is in force on a machine when a program begins, as its profile says.
+
+use super::profile::Units;
+use super::{CodeMeaning, Control};
+use crate::canon::{Group, Op, Role};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// The section `[start]` of a profile.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Start {
+    /// The codes in force, as the machine shows them: `"G0 G17 G20 G54 G90 G94"`.
+    pub codes: Option<String>,
+}
+
+/// A code that is in force when a program begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartMode {
+    /// What it does.
+    pub op: Op,
+    /// The operands that it fixes: the number of a work offset.
+    pub fixed: BTreeMap<Role, f64>,
+}
+
+impl StartMode {
+    fn of(row: &CodeMeaning) -> Self {
+        Self { op: row.op, fixed: row.fixed.clone() }
+    }
+
+    /// The work offset that it selects, by its common number.
+    pub fn work_offset(&self) -> Option<u32> {
+        let number = self.fixed.get(&Role::WorkOffset).filter(|_| self.op == Op::SelectWork)?;
+        (number.fract() == 0.0 && (0.0..1e6).contains(number)).then_some(*number as u32)
+    }
+}
+
+/// The groups of which a machine may say what is in force. Cycles, lengths and compensation are cancelled when a program
+/// begins.
+const GROUPS: [Group; 6] =
+    [Group::Units, Group::Distance, Group::Plane, Group::FeedMode, Group::Motion, Group::WorkOffset];
+
+impl Control {
+    /// What is in force when a program begins; empty where the profile does not say it.
+    pub fn start(&self) -> &[StartMode] {
+        &self.start
+    }
+
+    /// Reads what the profile says.
+    ///
+    /// # Errors
+    /// A code that the control has not, or that is none of these; with what to do.
+    pub(super) fn read_start(&mut self) -> Result<(), (String, String)> {
+        let text = self.profile.start.codes.clone().unwrap_or_default();
+        let mut found: Vec<StartMode> = Vec::new();
+        for word in text.split_whitespace() {
+            let mode = self.start_mode(word)?;
+            if let Some(other) = found.iter().find(|other| other.op.group() == mode.op.group()) {
+                let message = format!("'{word}' stands beside '{}', and one of them is in force", other.op);
+                return Err((message, "leave one of them out".into()));
+            }
+            found.push(mode);
+        }
+        let unit = found.iter().find(|mode| mode.op.group() == Group::Units);
+        let unit = unit.map(|mode| if mode.op == Op::Inch { Units::Inch } else { Units::Metric });
+        if let (Some(unit), Some(stated)) = (unit, self.profile.units)
+            && unit != stated
+        {
+            return Err(("[start] names another unit than 'units'".into(), "correct one of them".into()));
+        }
+        self.profile.units = self.profile.units.or(unit);
+        self.start = found;
+        Ok(())
+    }
+
+    fn start_mode(&self, word: &str) -> Result<StartMode, (String, String)> {
+        let mut letters = word.chars();
+        let letter = letters.next().map(|letter| letter.to_ascii_uppercase());
+        let number: Option<f64> = letters.as_str().parse().ok();
+        let (Some(letter @ 'A'..='Z'), Some(number)) = (letter, number) else {
+            return Err((format!("'{word}' is no code"), "write codes as \"G90 G17 G54\"".into()));
+        };
+        let row = self.code(letter, number, &[]);
+        let row = row.ok_or_else(|| {
+            (format!("{} has no code {word}", self.dialect.title), "leave it out".to_owned())
+        })?;
+        let mode = StartMode::of(row);
+        let may = match mode.op.group() {
+            Group::Motion => matches!(mode.op, Op::Rapid | Op::Linear),
+            Group::WorkOffset => mode.work_offset().is_some_and(|number| number > 0),
+            group => GROUPS.contains(&group),
+        };
+        if may && row.modal != Some(false) {
+            return Ok(mode);
+        }
+        Err((
+            format!("'{word}' is nothing that a program begins in"),
+            "name the unit, absolute or incremental, the plane, the feed mode, G0 or G1, and the work offset"
+                .into(),
+        ))
+    }
+}

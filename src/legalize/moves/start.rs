@@ -1,0 +1,202 @@
+//! What is in force on the source's machine when a program begins, where the program does not say it.
+//!
+//! Law: a main program runs in what the machine begins in until it names a mode of that group. So the codes that the profile
+//! of the source has under `[start]` may stand at its head, as far as it comes to a use of modes before it names them; and a
+//! code at the head that the target begins in may go again.
+//! Side condition: nothing calls the program, it does not return, and nothing jumps to its head, where the codes would be run
+//! once more. The verifier starts the source so, and the target in anything that its own profile does not say.
+//! Counter-example: `N1 G91 X1. GOTO 1`: at the second time N1 is run in G91.
+
+use super::mains::{head, mains, returns};
+use crate::assume::Predicate;
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::StartMode;
+use crate::ir::analysis::may_come_back;
+use crate::ir::{BlockId, Callee, Expr, Module, NcItem, Program, SourceInfo, Stmt, StmtKind, TermKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+use std::collections::BTreeSet;
+
+/// True where the source's profile says what a program begins in.
+pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
+    !context.source.start().is_empty()
+}
+
+/// Puts the codes at the heads of main programs that rest on them.
+pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let called = context.called(module);
+    let back = may_come_back(module);
+    let counted = Counted::of(module);
+    let mut changed = false;
+    for root in mains(module, &called) {
+        let program = &mut module.programs[root];
+        if called.is_guessed(root) || returns(program) || is_entered_again(program, back) {
+            continue;
+        }
+        let named = named_first(program);
+        let rests = |mode: &&StartMode| {
+            let group = mode.op.group();
+            // The unit is told where `units` is.
+            group != Group::Units
+                && counted.has(group)
+                && named.as_ref().is_some_and(|named| !named.contains(&group))
+        };
+        // What the target cannot select it is in: every control here begins so.
+        let usual = |op| matches!(op, Op::Rapid | Op::Absolute | Op::PlaneXy | Op::FeedPerMinute);
+        let has =
+            |mode: &&StartMode| !usual(mode.op) || context.target.code_for(mode.op, &mode.fixed).is_some();
+        let modes: Vec<&StartMode> = context.source.start().iter().filter(rests).filter(has).collect();
+        if modes.is_empty() {
+            continue;
+        }
+        let codes: Vec<&str> = modes.iter().filter_map(|mode| spelled(context, mode)).collect();
+        let text = format!("begins in {}, as the machine's profile says", codes.join(" "));
+        let finding = Diagnostic::new(Code::StartsStated, program.site.span, text)
+            .assuming(Predicate::Start(modes.iter().map(|mode| mode.op).collect()));
+        head(program, modes.into_iter().flat_map(items).collect());
+        context.add(root, finding);
+        changed = true;
+    }
+    changed
+}
+
+/// Takes out what the target begins in anyway.
+pub fn drop_alike(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let called = context.called(module);
+    let mut changed = false;
+    for root in mains(module, &called) {
+        if is_entered_again(&module.programs[root], true) {
+            continue;
+        }
+        let Some(block) = module.programs[root].blocks.first_mut() else { continue };
+        let inserted =
+            |stmt: &Stmt| stmt.site == SourceInfo::default() && matches!(stmt.kind, StmtKind::Nc(_));
+        let at = block.stmts.iter().take_while(|stmt| matches!(stmt.kind, StmtKind::Comment)).count();
+        let Some(stmt) = block.stmts.get_mut(at).filter(|stmt| inserted(stmt)) else { continue };
+        let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+        let before = nc.items.len();
+        for mode in context.target.start() {
+            let all = items(mode);
+            if all.iter().all(|item| nc.items.contains(item)) {
+                nc.items.retain(|item| !all.contains(item));
+            }
+        }
+        changed |= nc.items.len() != before;
+        if nc.items.is_empty() {
+            block.stmts.remove(at);
+        }
+    }
+    changed
+}
+
+/// A mode as what a block says.
+fn items(mode: &StartMode) -> Vec<NcItem> {
+    let words = mode.fixed.iter().map(|(role, value)| NcItem::Word(*role, Expr::Number(*value)));
+    std::iter::once(NcItem::Op(mode.op)).chain(words).collect()
+}
+
+fn spelled<'c>(context: &'c Context<'_>, mode: &StartMode) -> Option<&'c str> {
+    context.source.code_for(mode.op, &mode.fixed).map(|row| row.code.as_str())
+}
+
+/// True if something in the program, or what it calls, may go on at its head.
+fn is_entered_again(program: &Program, may_come_back: bool) -> bool {
+    let labelled = program.blocks.first().is_some_and(|block| !block.labels.is_empty());
+    may_come_back && labelled
+        || program.blocks.iter().any(|block| {
+            let calls = |kind: &TermKind| match kind {
+                TermKind::Call { call, .. } => call.callee == Callee::Block(BlockId(0)),
+                _ => false,
+            };
+            block.term.kind.successors().contains(&BlockId(0)) || calls(&block.term.kind)
+        })
+}
+
+/// The groups that a program names before it uses any; none if it comes to no use.
+fn named_first(program: &Program) -> Option<BTreeSet<Group>> {
+    let mut named = BTreeSet::new();
+    let (mut at, mut seen) = (BlockId(0), BTreeSet::new());
+    while seen.insert(at) {
+        let block = program.block(at)?;
+        for stmt in &block.stmts {
+            if let StmtKind::Nc(nc) = &stmt.kind {
+                // A block that may be skipped may name nothing.
+                let sure = stmt.site.skip.is_none();
+                named.extend(nc.ops().filter(|op| sure && op.group() != Group::OneShot).map(Op::group));
+            }
+            if uses(&stmt.kind) {
+                return Some(named);
+            }
+        }
+        match &block.term.kind {
+            TermKind::Jump(to) => at = *to,
+            TermKind::End { .. } | TermKind::Stray => return None,
+            _ => return Some(named),
+        }
+    }
+    Some(named)
+}
+
+/// True for a statement in which modes count.
+fn uses(kind: &StmtKind) -> bool {
+    match kind {
+        StmtKind::Comment | StmtKind::ClearAll(_) => false,
+        StmtKind::Nc(nc) => nc.items.iter().any(|item| match item {
+            NcItem::Word(role, _) => role.is_axis() || role.is_length() || *role == Role::Feed,
+            NcItem::Code(..) => true,
+            NcItem::Op(_) => false,
+        }),
+        kind => {
+            let mut reads = !matches!(kind, StmtKind::Assign { .. });
+            kind.exprs(&mut |e| {
+                e.walk(&mut |part| reads |= matches!(part, Expr::System(..) | Expr::Indirect(..)))
+            });
+            reads
+        }
+    }
+}
+
+/// What a library has to do with groups that matter to few moves.
+struct Counted {
+    feed: bool,
+    plane: bool,
+}
+
+impl Counted {
+    fn of(module: &Module) -> Self {
+        let mut counted = Self { feed: false, plane: false };
+        for block in module.programs.iter().flat_map(|program| &program.blocks) {
+            for stmt in &block.stmts {
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                for item in &nc.items {
+                    match item {
+                        NcItem::Word(role, _) => counted.feed |= *role == Role::Feed,
+                        NcItem::Code(..) => counted = Self { feed: true, plane: true },
+                        NcItem::Op(op) => {
+                            let group = op.group();
+                            let turns = matches!(
+                                group,
+                                Group::RadiusComp
+                                    | Group::LengthComp
+                                    | Group::Cycle
+                                    | Group::Rotation
+                                    | Group::Plane
+                            );
+                            counted.plane |= turns || matches!(op, Op::ArcCw | Op::ArcCcw);
+                        }
+                    }
+                }
+            }
+        }
+        counted
+    }
+
+    fn has(&self, group: Group) -> bool {
+        match group {
+            Group::FeedMode => self.feed,
+            Group::Plane => self.plane,
+            _ => true,
+        }
+    }
+}
