@@ -17,7 +17,12 @@ pub fn read(paths: &[PathBuf]) -> Result<Vec<Input>, u8> {
 
 /// Reads the programs under the paths, and says what was left out.
 pub fn read_all(paths: &[PathBuf]) -> Result<(Vec<Input>, Vec<LeftOut>), u8> {
-    let Found { programs, mut left_out, errors } = gather(paths, &endings());
+    read_found(gather(paths, &endings()))
+}
+
+/// What was read, and what was left out.
+pub fn read_found(found: Found<Input>) -> Result<(Vec<Input>, Vec<LeftOut>), u8> {
+    let Found { programs, mut left_out, errors } = found;
     left_out.extend(errors.iter().filter_map(InputError::left_out));
     Ok((fit(programs, &errors)?, left_out))
 }

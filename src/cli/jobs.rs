@@ -1,13 +1,14 @@
 //! What a conversion is asked to do: by its arguments, and by the project file for what they leave out.
 
 use super::common::{
-    control, controls, dialect_of, doubt, meeting, names, own_profile, profile_files, read, read_all,
+    control, controls, dialect_of, doubt, endings, meeting, names, own_profile, profile_files, read,
+    read_all, read_found,
 };
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
-    Files, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots, certificate_of, plan, real_place,
-    same_file, slashed, withheld_of,
+    Files, Folder, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots, certificate_of, plan,
+    real_place, same_file, slashed, withheld_of,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -165,7 +166,7 @@ fn with_library(inputs: Vec<Input>, library: &[PathBuf]) -> Result<(Vec<Input>, 
 
 /// A library of the project file, and one of the machines that it goes to.
 struct Way<'p> {
-    path: PathBuf,
+    programs: Folder,
     source: Control,
     target: Control,
     folder: PathBuf,
@@ -198,8 +199,12 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
         for (machine, folder) in &library.targets {
             let (source, target) = meeting(control_of(&library.machine)?, control_of(machine)?)?;
             if wanted(wish.from, &source) && wanted(wish.to, &target) {
-                let (path, folder) = (short(&project.root.join(&library.path)), short(&root.join(folder)));
-                ways.push(Way { path, source, target, folder, name });
+                let folder = short(&root.join(folder));
+                for programs in library.folders(|path| short(&project.root.join(path)), &endings()) {
+                    let (source, target) = (source.clone(), target.clone());
+                    let folder = folder.join(&programs.name);
+                    ways.push(Way { programs, source, target, folder, name });
+                }
             }
         }
     }
@@ -209,7 +214,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
     let mut held = hold_all(&ways)?;
     let planned = ways.into_iter().map(|way| {
         let out = held.remove(&way.folder).map(|held| (way.folder.as_path(), held));
-        let (inputs, left_out) = read_all(&[way.path])?;
+        let (inputs, left_out) = read_found(way.programs.read(&way.source).0)?;
         let named = vec![true; inputs.len()];
         planned((inputs, named, left_out), way.source, way.target, out)
     });

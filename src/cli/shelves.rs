@@ -5,7 +5,7 @@ use super::jobs::short;
 use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
 use crate::dialect::{Control, registry};
-use crate::library::{Checks, Input, Library, Lock, Manifest, Project, gather, profiles_of};
+use crate::library::{Checks, Folder, Input, Library, Lock, Manifest, Project, profiles_of};
 use std::path::{Path, PathBuf};
 
 /// What arguments say of the libraries.
@@ -95,7 +95,15 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
     let wanted: Vec<PathBuf> = wanted.collect::<Result<_, u8>>()?;
     let mut shelves = Vec::new();
     for library in project.libraries.values() {
-        shelves.extend(of_library(asked, project, library, &wanted)?);
+        // A shared program is looked at with the first folder that has it.
+        for (at, programs) in
+            library.folders(|path| short(&project.root.join(path)), &endings()).into_iter().enumerate()
+        {
+            let targets =
+                library.targets.iter().map(|(to, folder)| (to.clone(), folder.join(&programs.name)));
+            let own = Library { targets: targets.collect(), ..library.clone() };
+            shelves.extend(of_folder(asked, project, &own, (programs, at == 0), &wanted)?);
+        }
     }
     let none = asked.paths.is_empty() && shelves.is_empty();
     if none {
@@ -110,11 +118,12 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
     })
 }
 
-/// A library of the project; none if no path that was named lies in it, nor in what it is converted to.
-fn of_library(
+/// A folder of a library of the project; none if no path that was named lies in it, nor in what it is converted to.
+fn of_folder(
     asked: &Asked<'_>,
     project: &Project,
     library: &Library,
+    (programs, is_first): (Folder, bool),
     wanted: &[PathBuf],
 ) -> Result<Option<Shelf>, u8> {
     let folder = project.root.join(&library.path);
@@ -129,7 +138,8 @@ fn of_library(
     if !whole && !meets(&real(&folder)) && !outputs.iter().any(meets) {
         return Ok(None);
     }
-    let found = gather(&[short(&folder)], &endings());
+    let control = machine(project, &library.machine)?;
+    let (found, own) = programs.read(&control);
     // One that cannot be read is told of, and the others are checked.
     for error in found.errors.iter().filter(|error| error.left_out().is_none()) {
         remark(error);
@@ -145,11 +155,11 @@ fn of_library(
         let of = |file: &PathBuf| wanted.iter().any(|path| file.starts_with(path));
         whole || of(&file) || converted.into_iter().any(|file| of(&file))
     };
-    let wanted: Vec<bool> = inputs.iter().map(is_wanted).collect();
+    let looked_at = |(at, input): (usize, &Input)| (at < own || is_first) && is_wanted(input);
+    let wanted: Vec<bool> = inputs.iter().enumerate().map(looked_at).collect();
     if !wanted.contains(&true) {
         return Ok(None);
     }
-    let control = machine(project, &library.machine)?;
     let round_trip = if asked.against.is_empty() { &project.checks.round_trip } else { asked.against };
     let mut rounds = Vec::new();
     for name in round_trip {

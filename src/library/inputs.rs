@@ -145,6 +145,12 @@ pub struct Source {
 }
 
 impl Source {
+    /// The same in another place of the output.
+    #[must_use]
+    pub fn named(self, name: String) -> Self {
+        Self { name, ..self }
+    }
+
     fn open(&self) -> Result<Box<dyn Read + '_>, InputError> {
         if self.path == Path::new("-") {
             return Ok(Box::new(self.start.chain(io::stdin())));

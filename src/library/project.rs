@@ -42,6 +42,12 @@ pub struct Library {
     pub path: PathBuf,
     /// The machine its programs are written for.
     pub machine: String,
+    /// True where each folder in it is a library of its own: copies for several machines, or a folder for each job.
+    #[serde(default)]
+    pub apart: bool,
+    /// Folders and files with programs that those of each folder may call.
+    #[serde(default)]
+    pub shared: Vec<PathBuf>,
     /// The machines it is converted to, and the folder each conversion goes to.
     #[serde(default)]
     pub targets: BTreeMap<String, PathBuf>,

@@ -33,6 +33,8 @@ pub enum WhyNot {
     Binary,
     /// An output folder: a run of macroglot wrote what it holds.
     Written,
+    /// It is shared, and its folder has a program of that number.
+    Own,
 }
 
 impl WhyNot {
@@ -47,6 +49,7 @@ impl WhyNot {
             Self::Empty => "empty",
             Self::Binary => "binary",
             Self::Written => "written by macroglot",
+            Self::Own => "shared, where the folder has its own",
         }
     }
 }

@@ -210,7 +210,7 @@ fn told(parts: &[Part<'_>], asks: bool) -> String {
     let mut out = String::new();
     for part in parts {
         if parts.len() > 1 {
-            let _ = writeln!(out, "{} to {}:", part.from, part.to);
+            let _ = writeln!(out, "{} to {}{}:", part.from, part.to, from_folder(part, parts));
         }
         list(&mut out, part);
         if let Some(advice) = part.advised() {
@@ -227,6 +227,16 @@ fn told(parts: &[Part<'_>], asks: bool) -> String {
     }
     let _ = writeln!(out, "{}", Totals::of(parts));
     out
+}
+
+/// `, from programs/job1`: the folder of a library, where several of them go the same way.
+fn from_folder(part: &Part<'_>, parts: &[Part<'_>]) -> String {
+    let alike = |other: &&Part<'_>| (other.from, other.to) == (part.from, part.to);
+    let folder = part.inputs.first().and_then(|input| input.path.to_str()?.strip_suffix(&input.name));
+    match folder.map(|folder| folder.trim_end_matches(['/', '\\'])).filter(|folder| !folder.is_empty()) {
+        Some(folder) if parts.iter().filter(alike).count() > 1 => format!(", from {}", shown(folder)),
+        _ => String::new(),
+    }
 }
 
 fn list(out: &mut String, part: &Part<'_>) {

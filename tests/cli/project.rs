@@ -85,3 +85,69 @@ fn a_program_for_another_machine_of_its_dialect_is_no_copy() {
     assert_eq!(shop.run("convert").code, 0);
     assert_eq!(super::unmarked(&shop.read("out/a.nc")), "O0001\nG20\nG0 X1.5\nM30\n");
 }
+
+/// A shop with a folder for each of two jobs, whose programs have the same numbers, and a folder of macros for both.
+fn two_jobs() -> Shop {
+    let main = "O1000\nG21 G17 G90 G40 G80 G94 G54\nG0 X0. Y0.\nG65 P9000 A10.\nG65 P9001 A1.\nM30\n";
+    let macro_of = |number: u32, axis: char| format!("O{number}\nG1 {axis}#1 F100.\nM99\n");
+    let project = PROJECT
+        .replace("machine = \"old\"", "machine = \"old\"\napart = true\nshared = [\"programs/macros\"]");
+    Shop::with(&[
+        ("macroglot.toml", &project),
+        ("programs/job1/main.nc", main),
+        ("programs/job2/main.nc", &main.replace("X0.", "X7.")),
+        // The second job has a macro of its own.
+        ("programs/job2/own.nc", &macro_of(9000, 'Z')),
+        ("programs/macros/o9000.nc", &macro_of(9000, 'X')),
+        ("programs/macros/o9001.nc", &macro_of(9001, 'Y')),
+    ])
+}
+
+#[test]
+fn folders_are_libraries_of_their_own_and_share_what_the_project_file_says() {
+    let shop = two_jobs();
+    let run = shop.run("convert");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let files = shop.files();
+    let written: Vec<&str> =
+        names(&files).into_iter().filter(|name| name.starts_with("out/") && name.ends_with(".nc")).collect();
+    assert_eq!(
+        written,
+        [
+            "out/job1/macros/o9000.nc",
+            "out/job1/macros/o9001.nc",
+            "out/job1/main.nc",
+            "out/job2/macros/o9001.nc",
+            "out/job2/main.nc",
+            "out/job2/own.nc"
+        ],
+        "a program of its own stands before a shared one"
+    );
+    assert!(shop.read("out/job2/own.nc").contains("G1 Z#1"));
+    let twice = shop.run("convert --verbose");
+    assert!(!twice.out.contains("MG0602") && !twice.out.contains("MG0603"), "{}", twice.out);
+    assert!(twice.out.contains("fanuc to haas, from programs/job2:"), "{}", twice.out);
+    assert!(
+        twice.out.contains("programs/macros/o9000.nc: shared, where the folder has its own"),
+        "{}",
+        twice.out
+    );
+    // Without the two lines it is one library, in which the numbers stand twice.
+    shop.write("macroglot.toml", PROJECT.as_bytes());
+    let one = shop.run("convert --out all --verbose");
+    assert!(one.out.contains("MG0602"), "{}", one.out);
+}
+
+/// Each folder is checked by itself, and a shared program once.
+#[test]
+fn folders_are_checked_by_themselves() {
+    let shop = two_jobs();
+    assert_eq!(shop.run("convert").code, 0);
+    let run = shop.run("check --cache cache --against new");
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(run.out.starts_with("5 files checked, nothing found"), "{}", run.out);
+    shop.write("programs/job2/own.nc", b"O9000\nG1 Z#1 F[100.\nM99\n");
+    let run = shop.run("check --cache cache --against new");
+    assert_eq!(run.code, 1, "{}", run.out);
+    assert!(run.out.contains("programs/job2/own.nc:2"), "{}", run.out);
+}
