@@ -6,11 +6,11 @@ use super::{Conversion, Input, Outcome};
 use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
+use crate::dialect::{Control, Side as Of};
 use crate::ir::analysis::dataflow::reached;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
-use crate::verify::{self, Certificate, Effort, Job, ProgramCertificate, Side, Spent};
+use crate::verify::{self, Certificate, Effort, Job, OpenFact, ProgramCertificate, Side, Spent};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -105,7 +105,9 @@ pub fn judge_telling(
     let mut callees = Callees::of(conversion, reports, refused);
     let mut found = BTreeMap::new();
     for (certificate, wanted) in verified.iter_mut().flatten().zip(wanted.iter().filter(|w| !w.is_empty())) {
-        for ((at, program), found_here) in wanted.iter().zip(std::mem::take(&mut certificate.programs)) {
+        for ((at, program), mut found_here) in wanted.iter().zip(std::mem::take(&mut certificate.programs)) {
+            let report = &mut conversion.programs[*at].diagnostics;
+            ask_of_machines(&mut found_here, report, place(*program), [source, target]);
             callees.look(*at, place(*program), &found_here);
             found.insert(*at, found_here);
         }
@@ -217,6 +219,24 @@ fn undecided(program: &mut super::ProgramReport, why: &str) {
     program.diagnostics.push(Diagnostic::new(Code::NotDecided, Span::default(), why));
     program.outcome = Outcome::Review;
     program.verdict = Some(verify::Outcome::Undecided);
+}
+
+/// Asks the machines for what a program rests on that no source confirms, and that the conversion did not know of. Who answers
+/// it answers for all programs: it is no reason to be undecided.
+fn ask_of_machines(
+    found: &mut ProgramCertificate,
+    report: &mut Vec<Diagnostic>,
+    span: Span,
+    [source, target]: [&Control; 2],
+) {
+    for OpenFact { fact, side, text } in std::mem::take(&mut found.open_facts) {
+        let control = if side == Of::Source { source } else { target };
+        found.reasons.retain(|reason| reason.text != text);
+        report.push(control.unconfirmed(side, &fact, None, span));
+    }
+    if found.outcome == verify::Outcome::Undecided && found.reasons.is_empty() {
+        found.outcome = verify::Outcome::Same;
+    }
 }
 
 /// Writes into a program's report what the verifier found.

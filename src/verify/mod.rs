@@ -26,8 +26,8 @@ mod tests;
 mod triage;
 
 pub use certificate::{
-    Assumed, Certificate, Change, Identity, Listing, Moment, Outcome, ProgramCertificate, Reason, Seen, Why,
-    Witness, implicate,
+    Assumed, Certificate, Change, Identity, Listing, Moment, OpenFact, Outcome, ProgramCertificate, Reason,
+    Seen, Why, Witness, implicate,
 };
 pub use driver::{Picture, listed, pictured, prepare, verify};
 pub use explore::NotReached;

@@ -7,7 +7,7 @@
 //! once more. The verifier starts the source so, and the target in anything that its own profile does not say.
 //! Counter-example: `N1 G91 X1. GOTO 1`: at the second time N1 is run in G91.
 
-use super::mains::{head, mains, returns};
+use super::mains::{head, mains, returns, uncalled};
 use crate::assume::Predicate;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -25,13 +25,12 @@ pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
 
 /// Puts the codes at the heads of main programs that rest on them.
 pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let called = context.called(module);
     let back = may_come_back(module);
     let counted = Counted::of(module);
     let mut changed = false;
-    for root in mains(module, &called) {
+    for root in alone(module, context) {
         let program = &mut module.programs[root];
-        if called.is_guessed(root) || returns(program) || is_entered_again(program, back) {
+        if is_entered_again(program, back) {
             continue;
         }
         let named = named_first(program);
@@ -63,9 +62,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
 
 /// Takes out what the target begins in anyway.
 pub fn drop_alike(module: &mut Module, context: &mut Context<'_>) -> bool {
-    let called = context.called(module);
     let mut changed = false;
-    for root in mains(module, &called) {
+    for root in alone(module, context) {
         if is_entered_again(&module.programs[root], true) {
             continue;
         }
@@ -88,6 +86,17 @@ pub fn drop_alike(module: &mut Module, context: &mut Context<'_>) -> bool {
         }
     }
     changed
+}
+
+/// The main programs that nothing calls, and that go back to nothing.
+fn alone(module: &Module, context: &Context<'_>) -> Vec<usize> {
+    let called = context.called(module);
+    let uncalled = uncalled(module, &called);
+    let mut all = mains(module, &called);
+    all.retain(|root| {
+        uncalled.contains(root) && !called.is_guessed(*root) && !returns(&module.programs[*root])
+    });
+    all
 }
 
 /// A mode as what a block says.

@@ -14,4 +14,4 @@ pub use listing::{Change, Listing, Seen};
 pub use moment::Moment;
 pub use outcome::{Outcome, Reason, Why};
 pub use program::{Assumed, Edit, ProgramCertificate, Witness};
-pub use unconfirmed::unconfirmed;
+pub use unconfirmed::OpenFact;

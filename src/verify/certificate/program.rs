@@ -2,6 +2,7 @@
 
 use super::moment::Moment;
 use super::outcome::{Outcome, Reason};
+use super::unconfirmed::OpenFact;
 use crate::control::{ProgramRef, Scenario};
 use crate::verify::explore::NotReached;
 use serde::Serialize;
@@ -65,6 +66,9 @@ pub struct ProgramCertificate {
     pub started: Vec<&'static str>,
     /// Where they differ.
     pub witness: Option<Witness>,
+    /// Those of the unconfirmed facts that the conversion did not report.
+    #[serde(skip)]
+    pub open_facts: Vec<OpenFact>,
     /// The programs that its runs came through.
     #[serde(skip)]
     pub entered: BTreeSet<ProgramRef>,

@@ -3,7 +3,7 @@
 use super::verifier::Verifier;
 use crate::canon::Op;
 use crate::control::ProgramRef;
-use crate::verify::certificate::{Outcome, ProgramCertificate, Reason, Why};
+use crate::verify::certificate::{OpenFact, Outcome, ProgramCertificate, Reason, Why};
 use crate::verify::explore::{Coverage, NotReached};
 use crate::verify::sides::Job;
 use crate::verify::triage::through;
@@ -23,8 +23,9 @@ impl Verifier<'_, '_> {
                 self.because(Why::NotReached, &in_words(missed, whose));
             }
         }
-        for text in self.unconfirmed.clone().into_values().flatten() {
-            self.because(Why::Unconfirmed, &text);
+        let open_facts: Vec<OpenFact> = self.unconfirmed.values().flatten().cloned().collect();
+        for open in &open_facts {
+            self.because(Why::Unconfirmed, &open.text);
         }
         let assumptions = self.assumptions();
         let mut outcome = match (&self.witness, self.reasons.is_empty()) {
@@ -82,6 +83,7 @@ impl Verifier<'_, '_> {
             texts: self.texts.into_iter().take(20).collect(),
             witness: self.witness,
             started: self.started,
+            open_facts,
             entered: self.entered,
             assumptions,
         }

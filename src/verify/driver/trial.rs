@@ -3,7 +3,8 @@
 use super::verifier::{Pair, Verifier};
 use crate::control::trace::EventKind;
 use crate::control::{End, ProgramRef, Run, Scenario};
-use crate::verify::certificate::{Moment, Why, unconfirmed};
+use crate::dialect::Side as Of;
+use crate::verify::certificate::{Moment, OpenFact, Why};
 use crate::verify::compare::{Difference, compare, is_cut, writes_elsewhere};
 use crate::verify::sides::Job;
 use crate::verify::triage::{ROUNDS, excuse, facts, told_substitutes, tried};
@@ -17,12 +18,12 @@ impl Verifier<'_, '_> {
         self.entered.extend(source.links().entered(run));
         let assumed = facts(self.job, run);
         let new_there = self.target_coverage.add(&other);
-        for (side, library, library_run) in [("source", source, run), ("target", target, &other)] {
+        for (of, library, library_run) in [(Of::Source, source, run), (Of::Target, target, &other)] {
             match &library_run.end {
-                End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {side}: {text}")),
+                End::Error { text, .. } => self.because(Why::CannotRun, &format!("the {of}: {text}")),
                 End::StepBudget | End::TimeBudget => {
-                    let text = format!("the {side} did not end in {} blocks", library_run.steps);
-                    let alone = side == "target" && !is_cut(run);
+                    let text = format!("the {of} did not end in {} blocks", library_run.steps);
+                    let alone = of == Of::Target && !is_cut(run);
                     if alone { self.because(Why::Endless, &text) } else { self.endless.extend([text]) }
                 }
                 End::Ended | End::Alarm { .. } => {}
@@ -32,7 +33,7 @@ impl Verifier<'_, '_> {
                     let is_new = !assumed.contains(fact.as_str());
                     let kept = self.unconfirmed.entry(fact.clone()).or_default();
                     if is_new && kept.is_none() {
-                        *kept = Some(unconfirmed(fact, side, &Moment::of(library, library_run, event)));
+                        *kept = Some(OpenFact::new(fact, of, &Moment::of(library, library_run, event)));
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! One program while it is verified: what was found of it so far.
 
 use crate::control::{ProgramRef, Run, Scenario};
-use crate::verify::certificate::{Edit, Why, Witness};
+use crate::verify::certificate::{Edit, OpenFact, Why, Witness};
 use crate::verify::compare::{Tolerance, is_cut};
 use crate::verify::entry::given;
 use crate::verify::explore::{Coverage, asked, on_target, set_by_hand};
@@ -45,7 +45,7 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) theirs: BTreeMap<String, f64>,
     pub(super) reasons: BTreeMap<Why, BTreeSet<String>>,
     /// Unconfirmed facts that mattered; with where they did, those that nobody reported.
-    pub(super) unconfirmed: BTreeMap<String, Option<String>>,
+    pub(super) unconfirmed: BTreeMap<String, Option<OpenFact>>,
     pub(super) texts: BTreeSet<(String, String)>,
     pub(super) tolerance: Tolerance,
     pub(super) largest: f64,
