@@ -25,6 +25,7 @@ mod model;
 mod origin;
 mod overlay;
 mod overlay_settings;
+mod overlay_variables;
 mod page;
 mod profile;
 mod questions;

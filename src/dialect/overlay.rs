@@ -3,7 +3,7 @@
 use super::extents;
 use super::profile::{Axis, Profile, VariableRun};
 use super::reader::Reader;
-use super::{Control, Dialect, Entry, Mark, SystemVariable, VariableClass, registry};
+use super::{Control, Dialect, Entry, Mark, SystemVariable, registry};
 use crate::diag::{Code, Diagnostic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,7 +25,7 @@ impl Control {
         overlay.limits(&mut dialect);
         extents::clamp(&mut dialect, &overlay.profile);
         overlay.axes(&mut dialect);
-        let reserved = overlay.runs("reserved", &overlay.profile.reserved.clone());
+        let reserved = overlay.reserved();
         overlay.keep_variables(&mut dialect);
         overlay.site(&mut dialect);
         overlay.signals(&mut dialect);
@@ -221,7 +221,16 @@ impl Overlay {
             .collect();
     }
 
-    fn runs(&mut self, section: &str, texts: &[String]) -> Vec<VariableRun> {
+    fn reserved(&mut self) -> Vec<VariableRun> {
+        let runs = self.runs("reserved", &self.profile.reserved.clone());
+        if let Some(kind) = runs.iter().find_map(|run| run.kind.clone()) {
+            let what = format!("'{kind}' says nothing of reserved variables");
+            self.fault("reserved", what, "leave it out; under 'variables' it says what they are".into());
+        }
+        runs
+    }
+
+    pub(super) fn runs(&mut self, section: &str, texts: &[String]) -> Vec<VariableRun> {
         let mut runs = Vec::new();
         for text in texts {
             match VariableRun::read(text) {
@@ -234,23 +243,6 @@ impl Overlay {
             }
         }
         runs
-    }
-
-    /// Cuts the classes down to the variables that there are.
-    fn keep_variables(&mut self, dialect: &mut Dialect) {
-        let Some(present) = self.profile.variables.clone() else { return };
-        let runs = self.runs("variables", &present);
-        dialect.variables = (dialect.variables.iter())
-            .flat_map(|class| {
-                let letter = class.class == "letter";
-                runs.iter().filter(move |run| run.name == class.name && run.letter == letter).filter_map(
-                    |run| {
-                        let (first, last) = (class.first.max(run.first), class.last.min(run.last));
-                        (first <= last).then(|| VariableClass { first, last, ..class.clone() })
-                    },
-                )
-            })
-            .collect();
     }
 }
 

@@ -52,7 +52,8 @@ pub struct Profile {
     pub start: Start,
     /// Variables that programs must not be given: `#149`, `#500-#549`, `VX`.
     pub reserved: Vec<String>,
-    /// The variables that there are; absent where the table's classes all are.
+    /// The variables that there are; absent where the table's classes all are. Ones that the table has not say what they are:
+    /// `#98000-#98499 retained`.
     pub variables: Option<Vec<String>>,
     /// Facts that the shop has checked, by the name that diagnostics give them.
     pub confirm: Vec<String>,
@@ -223,17 +224,23 @@ pub struct VariableRun {
     pub last: u32,
     /// True for a letter variable.
     pub letter: bool,
+    /// What it is, where the table has no such variables: `common` or `retained`.
+    pub kind: Option<String>,
 }
 
 impl VariableRun {
     /// Reads a run; none if it is not one.
     pub fn read(text: &str) -> Option<Self> {
+        let (text, kind) = match text.trim().split_once(' ') {
+            Some((text, kind)) => (text, Some(kind.trim().to_owned())),
+            None => (text.trim(), None),
+        };
         let (from, to) = text.split_once('-').unwrap_or((text, text));
         let (name, first, letter) = one(from.trim())?;
         let (other, last, other_letter) =
             one(to.trim()).or_else(|| Some((name, to.trim().parse().ok()?, letter)))?;
         let fits = name == other && letter == other_letter && first <= last;
-        fits.then(|| Self { name: name.into(), first, last, letter })
+        fits.then(|| Self { name: name.into(), first, last, letter, kind })
     }
 
     /// True where the run holds the variable.

@@ -212,7 +212,7 @@ fn what_a_machine_begins_in_is_run_and_verified() {
         ("new.toml", &begins("haas", "G90 G54")),
     ]);
     let there = shop.run("convert a.nc --from fanuc --to haas --machine old.toml --machine new.toml -o out");
-    assert!(there.err.contains("1 converted") && there.err.contains("1 verified"), "{}", there.err);
+    assert!(there.out.contains("1 converted") && there.out.contains("1 verified"), "{}", there.out);
     assert!(shop.read("out/a.nc").contains("\nG91\nG1 X1. F100.\n"), "{}", shop.read("out/a.nc"));
     // By G91 the second move ends at 3 mm, by G90 at 2.
     for (machine, control, end) in [("old.toml", "fanuc", "3.0"), ("new.toml", "haas", "2.0")] {

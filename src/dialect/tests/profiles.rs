@@ -184,3 +184,24 @@ fn a_machine_begins_in_what_its_profile_says() {
         "p.toml:3:1: MG0203: unknown field `code`, expected `codes`",
     );
 }
+
+#[test]
+fn a_machine_may_have_more_variables_than_the_table() {
+    let runs = |said: &str| format!("dialect = \"fanuc\"\nvariables = [{said}]");
+    let wide = Control::from_profile(&runs("\"#1-#33\", \"#100-#149\", \"#98000-#98499 retained\"")).unwrap();
+    let found: Vec<(u32, u32, Option<bool>)> =
+        wide.classes().iter().map(|class| (class.first, class.last, class.retained)).collect();
+    assert_eq!(found.last(), Some(&(98_000, 98_499, Some(true))));
+    assert!(found.contains(&(100, 149, Some(false))));
+    let told = |said: &str, fault: &str| wrong(&runs(said), fault);
+    told("\"#400-#499\"", "Fanuc Custom Macro B has no variables #400-#499");
+    told("\"#400-#499 kept\"", "'kept' is no kind of variable #400 may be");
+    told("\"#900000-#900099 common\"", "#900099 is past #99999, the last that is converted");
+    told("\"V400-V499 common\"", "'common' is no kind of variable V400 may be");
+    told("\"#1000-#1031 common\"", "#1000 is 'input'");
+    told("\"#100-#149\", \"#140-#160 common\"", "names variables that stand before it");
+    wrong(
+        "dialect = \"fanuc\"\nreserved = [\"#500 retained\"]",
+        "'retained' says nothing of reserved variables",
+    );
+}
