@@ -13,6 +13,7 @@ use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
 use crate::ir::analysis::reachable;
 use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, StmtKind, TermKind};
+use crate::syntax::cc100::PART;
 use crate::text::Span;
 
 /// Registers for values in between that a comment names, so that it fits into a line.
@@ -21,9 +22,6 @@ const SCRATCH_IN_A_LINE: usize = 6;
 /// V30 to V80 are for programs (seed 004:52).
 const CROWDED: &str = "the library has more variables than V30 to V80: this program uses others too, which belong to cycles of \
                        the maker and the builder. Make sure that no cycle of your control uses the ones at its head";
-
-/// What stands at the head of a part.
-const PART: &str = "A PART: PUT IT AFTER M30 OF THE PROGRAM THAT CALLS IT";
 
 /// Calls reach no other file.
 const PASTED: &str = "the program returns to one that calls it, and calls on the target reach no other file: put its blocks \
