@@ -15,7 +15,8 @@ use crate::legalize::codes::{
 };
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::layout::{blanks, heads, scratch, text_ends};
+use crate::legalize::expressions::halves;
+use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::lathe;
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
@@ -75,6 +76,9 @@ const EARLIER: &[Pass] = &[
     .when(counted_clears::concerns)
     .needs(&["heads"])
     .changes_flow(),
+    Pass::edits("counted", "numbers that only count an earlier conversion's blocks go", counted::run)
+        .when(counted::concerns)
+        .needs(&["heads"]),
     Pass::edits("text-ends", "jumps to the end of the text end it", text_ends::run)
         .when(text_ends::concerns)
         .needs(&["heads"])
@@ -104,6 +108,9 @@ const EARLIER: &[Pass] = &[
         "a value goes straight into the word that its temporary was set for",
     )
     .when(scratch::concerns),
+    Pass::edits("halves", "halves that an earlier conversion doubled are the numbers again", halves::run)
+        .when(halves::concerns)
+        .needs(&["heads"]),
 ];
 
 const TIDY: &[Pass] = &[
