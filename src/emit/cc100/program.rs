@@ -11,7 +11,7 @@ use crate::dialect::OperandPlace;
 use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
-use crate::ir::analysis::reachable;
+use crate::ir::analysis::{Cfg, reachable};
 use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, StmtKind, TermKind};
 use crate::syntax::cc100::PART;
 use crate::text::Span;
@@ -127,6 +127,8 @@ impl<'p> Emitter<'p> {
     fn tail(&mut self, count: usize) {
         let runs_out =
             self.program.blocks.last().is_some_and(|block| matches!(block.term.kind, TermKind::Stray));
+        let last = BlockId(count.saturating_sub(1) as u32);
+        let comes_to = count < 2 || !Cfg::whole(self.program, false).preds(last).is_empty();
         let own = self.labels.of(count);
         self.out.span = Span::default();
         self.flush_comments();
@@ -135,7 +137,8 @@ impl<'p> Emitter<'p> {
             return self.flush_comments();
         }
         let end = own.or_else(|| self.labels.of_stop().filter(|_| runs_out));
-        end.into_iter().for_each(|end| self.go_to(end));
+        // Behind a part nothing runs on.
+        end.into_iter().filter(|_| runs_out && comes_to).for_each(|end| self.go_to(end));
         self.stops();
         end.into_iter().for_each(|end| self.label_line(end));
         self.flush_comments();

@@ -17,7 +17,7 @@ use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words,
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::expressions::halves;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::lathe;
+use crate::legalize::moves::{joined, lathe};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
 use crate::legalize::variables::{
@@ -78,6 +78,9 @@ const EARLIER: &[Pass] = &[
     .changes_flow(),
     Pass::edits("counted", "numbers that only count an earlier conversion's blocks go", counted::run)
         .when(counted::concerns)
+        .needs(&["heads"]),
+    Pass::edits("joined", "codes that an earlier conversion wrote before their move go beside it", joined::run)
+        .when(joined::concerns)
         .needs(&["heads"]),
     Pass::edits("text-ends", "jumps to the end of the text end it", text_ends::run)
         .when(text_ends::concerns)
