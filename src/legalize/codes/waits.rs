@@ -8,9 +8,7 @@
 use crate::canon::Sys;
 use crate::dialect::{Control, Question};
 use crate::ir::analysis::{Cfg, may_come_back, modal_bodies};
-use crate::ir::{
-    Block, BlockId, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind,
-};
+use crate::ir::{Block, BlockId, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 use std::collections::BTreeSet;

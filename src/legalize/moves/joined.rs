@@ -66,8 +66,7 @@ fn is_place(nc: &Nc) -> bool {
         let centre = [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius];
         matches!(item, NcItem::Word(role, _) if role.is_axis() || centre.contains(role))
     };
-    let by_variable =
-        |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.constant().is_none());
+    let by_variable = |item: &NcItem| matches!(item, NcItem::Word(_, value) if value.constant().is_none());
     nc.moves() && nc.items.iter().all(words) && nc.items.iter().any(by_variable)
 }
 
