@@ -118,6 +118,7 @@ fn what_cannot_be_known_is_refused() {
         ("#FX49=1", "NotUnderstood"),
         ("#GOTO :NOWHERE", "TargetMissing"),
         ("#GOTO N77", "TargetMissing"),
+        ("M99 P77", "TargetMissing"),
     ] {
         let found = found(&format!("O1\n{source}"), "");
         assert!(found.contains(&code.to_owned()), "{source}: {found:?}");
