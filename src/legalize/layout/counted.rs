@@ -5,8 +5,8 @@
 //! put in between has none: each way there and back would count anew. So they go, and a block keeps the name that it is
 //! jumped to by: `:N10`, which such a control made of N10, is N10 again.
 //!
-//! Side conditions: an earlier conversion wrote the library, and the numbers of a program only grow. Numbers that jumps look
-//! for are labels, and stay. A name becomes a number where no block of the program has that number yet, and nothing jumps
+//! Side conditions: an earlier conversion wrote the library, none of its programs returns to a number of its caller, and the
+//! numbers of a program only grow. Numbers that jumps look for are labels, and stay. A name becomes a number where no block of the program has that number yet, and nothing jumps
 //! to a computed one. Counter-example: the numbers of a person, who stopped at N40 yesterday and goes on there.
 
 use crate::dialect::Control;
@@ -27,6 +27,10 @@ fn counts(control: &Control) -> bool {
 
 /// Takes such numbers away, and gives labels their numbers back; true if there were any.
 pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
+    let looks = |block: &Block| matches!(block.term.kind, TermKind::Return { to: Some(_) });
+    if module.programs.iter().any(|program| program.blocks.iter().any(looks)) {
+        return false;
+    }
     let mut changed = false;
     for program in module.programs.iter_mut().filter(|program| grow(program)) {
         let before: BTreeSet<u32> = program.blocks.iter().flat_map(numbers).collect();
