@@ -1,11 +1,11 @@
 //! Halves that are doubled, in what an earlier conversion wrote.
 //!
-//! Law: `(D5/2.)*2.` is D5. A control whose table holds radii doubles what a program reads there, and one whose table holds
-//! diameters halves it: going round, an expression would get both each time. A number halved and doubled is that number, as
-//! it is doubled and halved, but below 2^-1021, where the last binary digit is lost.
+//! Law: `(D5/2.)*2.` is D5. A control whose table holds radii doubles what a program reads there, and one whose table
+//! holds diameters halves it: going round, an expression would get both each time. A number halved and doubled is that
+//! number, as it is doubled and halved, but below 2^-1021, where the last binary digit is lost.
 //!
-//! Side conditions: an earlier conversion wrote the library; the number is never vacant, which its half is not either: half
-//! of a vacant value is 0. Counter-example: `#1/2*2` with `#1` vacant.
+//! Side conditions: an earlier conversion wrote the library; the number is never vacant, which its half is not either:
+//! half of a vacant value is 0. Counter-example: `#1/2*2` with `#1` vacant.
 
 use crate::ir::{BinOp, Expr, Module};
 use crate::legalize::Context;

@@ -1,13 +1,14 @@
 //! Sequence numbers that only count the blocks of a program that an earlier conversion wrote.
 //!
-//! Law: a sequence number does nothing where nothing looks for it. A control that has a number at each block, counted by
-//! one, gets them from whoever writes for it. Going on to another control they say nothing to anybody, and a block that is
-//! put in between has none: each way there and back would count anew. So they go, and a block keeps the name that it is
-//! jumped to by: `:N10`, which such a control made of N10, is N10 again.
+//! Law: a sequence number does nothing where nothing looks for it. A control that has a number at each block, counted
+//! by one, gets them from whoever writes for it. Going on to another control they say nothing to anybody, and a block
+//! that is put in between has none: each way there and back would count anew. So they go, and a block keeps the name
+//! that it is jumped to by: `:N10`, which such a control made of N10, is N10 again.
 //!
-//! Side conditions: an earlier conversion wrote the library, none of its programs returns to a number of its caller, and the
-//! numbers of a program only grow. Numbers that jumps look for are labels, and stay. A name becomes a number where no block of the program has that number yet, and nothing jumps
-//! to a computed one. Counter-example: the numbers of a person, who stopped at N40 yesterday and goes on there.
+//! Side conditions: an earlier conversion wrote the library, none of its programs returns to a number of its caller,
+//! and the numbers of a program only grow. Numbers that jumps look for are labels, and stay. A name becomes a number
+//! where no block of the program has that number yet, and nothing jumps to a computed one. Counter-example: the numbers
+//! of a person, who stopped at N40 yesterday and goes on there.
 
 use crate::dialect::Control;
 use crate::ir::{Block, Module, Program, SourceInfo, TermKind};

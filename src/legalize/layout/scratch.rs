@@ -1,14 +1,15 @@
 //! Registers that an earlier conversion took for values in between become temporaries again.
 //!
 //! Law: its head says `SCRATCH R5 V48`: nobody looks at what they hold when the program is done. So what a program only
-//! keeps there from one of its own statements to another is no variable of the shop's, and needs no register of that name.
+//! keeps there from one of its own statements to another is no variable of the shop's, and needs no register of that
+//! name.
 //!
-//! Side condition, of the whole library: each program that names such a register says so at its head, and every read of it
-//! finds what this program wrote before, on every way, with no call between that may write it. A called part is a program of
-//! its own here, which the target may make of it: what goes into it and out of it stays a variable. None is vacant where someone
-//! tells that from 0. No operator gives it, no computed number and no clearing reaches it, no earlier run has it in its lock, and it has
-//! no name. Counter-example: a person took R5 for the depth that a subprogram reads; there the read comes first, and R5 stays a
-//! variable in all programs.
+//! Side condition, of the whole library: each program that names such a register says so at its head, and every read of
+//! it finds what this program wrote before, on every way, with no call between that may write it. A called part is a
+//! program of its own here, which the target may make of it: what goes into it and out of it stays a variable. None is
+//! vacant where someone tells that from 0. No operator gives it, no computed number and no clearing reaches it, no
+//! earlier run has it in its lock, and it has no name. Counter-example: a person took R5 for the depth that a
+//! subprogram reads; there the read comes first, and R5 stays a variable in all programs.
 
 use crate::ir::analysis::dataflow::{Analysis, Cursor, Direction, Steps, solve};
 use crate::ir::analysis::{BitRow, Cfg, Summaries, Universe, Vacancy};

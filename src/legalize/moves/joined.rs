@@ -1,12 +1,12 @@
 //! Codes that an earlier conversion wrote into a block before their move.
 //!
-//! Law: a control that has no code and no number beside a variable gets `G2 F30`, then `X=V67 Y=V66 R=V69`. The first block moves
-//! nothing, and what it says is in force where the second one moves: one block says the same.
+//! Law: a control that has no code and no number beside a variable gets `G2 F30`, then `X=V67 Y=V66 R=V69`. The first
+//! block moves nothing, and what it says is in force where the second one moves: one block says the same.
 //!
-//! Side conditions: an earlier conversion wrote the library for such a control. The first block has motion codes, G90 or G91 and a feed
-//! alone, and the second, right behind it, words of axes and centres alone, one of them by a variable. No block of them may
-//! be skipped, and nothing drills, as a motion code would end that. Counter-example: `M3` before such a move, which then
-//! starts with it.
+//! Side conditions: an earlier conversion wrote the library for such a control. The first block has motion codes, G90
+//! or G91 and a feed alone, and the second, right behind it, words of axes and centres alone, one of them by a
+//! variable. No block of them may be skipped, and nothing drills, as a motion code would end that. Counter-example:
+//! `M3` before such a move, which then starts with it.
 
 use crate::canon::{Group, Op, Role};
 use crate::dialect::{Control, OperandPlace};

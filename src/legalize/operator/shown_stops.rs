@@ -1,12 +1,13 @@
 //! A text that is shown right before a stop or a fault, where the target shows texts at stops only.
 //!
-//! Law: when the moves are done the text is shown, and the machine stops: the operator reads it there, as a message with which
-//! the machine stops. A control that prints on its screen is told a message so. `ALARM 1 TEXT` before `R9=SQR(0.-1.)`, which no
-//! control computes, is an alarm: that is how one is written where programs raise none of their own.
+//! Law: when the moves are done the text is shown, and the machine stops: the operator reads it there, as a message
+//! with which the machine stops. A control that prints on its screen is told a message so. `ALARM 1 TEXT` before
+//! `R9=SQR(0.-1.)`, which no control computes, is an alarm: that is how one is written where programs raise none of
+//! their own.
 //!
-//! Side condition: the text is no value and ends its line, and nothing stands between the wait, the text and the stop. None of
-//! them may be skipped. What the fault is written into is never set, as the run ends there. Counter-example: `#PRINT "READY"`
-//! with a move before the stop, which the operator reads while it runs; `R9=SQR(V1)`, which may go on.
+//! Side condition: the text is no value and ends its line, and nothing stands between the wait, the text and the stop.
+//! None of them may be skipped. What the fault is written into is never set, as the run ends there. Counter-example:
+//! `#PRINT "READY"` with a move before the stop, which the operator reads while it runs; `R9=SQR(V1)`, which may go on.
 
 use crate::canon::{Func, Op};
 use crate::dialect::Control;
