@@ -133,6 +133,9 @@ pub struct Text {
     /// What counts as the length of a line.
     #[serde(default)]
     pub line_counts: LineCounts,
+    /// True where each block of a program has a number, and they are counted by one.
+    #[serde(default)]
+    pub counted: bool,
     /// Largest sequence number.
     pub sequence_max: u32,
     /// Largest program number.

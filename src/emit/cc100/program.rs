@@ -11,8 +11,9 @@ use crate::dialect::OperandPlace;
 use crate::emit::common::arrivals::{Arrivals, callees};
 use crate::emit::common::flow::{Abilities, Form, Plan};
 use crate::emit::common::taken::Taken;
-use crate::ir::analysis::reachable;
+use crate::ir::analysis::{Cfg, reachable};
 use crate::ir::{Block, BlockId, Cond, Expr, Relation, SourceInfo, StmtKind, TermKind};
+use crate::syntax::cc100::PART;
 use crate::text::Span;
 
 /// Registers for values in between that a comment names, so that it fits into a line.
@@ -21,9 +22,6 @@ const SCRATCH_IN_A_LINE: usize = 6;
 /// V30 to V80 are for programs (seed 004:52).
 const CROWDED: &str = "the library has more variables than V30 to V80: this program uses others too, which belong to cycles of \
                        the maker and the builder. Make sure that no cycle of your control uses the ones at its head";
-
-/// What stands at the head of a part.
-const PART: &str = "A PART: PUT IT AFTER M30 OF THE PROGRAM THAT CALLS IT";
 
 /// Calls reach no other file.
 const PASTED: &str = "the program returns to one that calls it, and calls on the target reach no other file: put its blocks \
@@ -129,6 +127,8 @@ impl<'p> Emitter<'p> {
     fn tail(&mut self, count: usize) {
         let runs_out =
             self.program.blocks.last().is_some_and(|block| matches!(block.term.kind, TermKind::Stray));
+        let last = BlockId(count.saturating_sub(1) as u32);
+        let comes_to = count < 2 || !Cfg::whole(self.program, false).preds(last).is_empty();
         let own = self.labels.of(count);
         self.out.span = Span::default();
         self.flush_comments();
@@ -137,7 +137,8 @@ impl<'p> Emitter<'p> {
             return self.flush_comments();
         }
         let end = own.or_else(|| self.labels.of_stop().filter(|_| runs_out));
-        end.into_iter().for_each(|end| self.go_to(end));
+        // Behind a part nothing runs on.
+        end.into_iter().filter(|_| runs_out && comes_to).for_each(|end| self.go_to(end));
         self.stops();
         end.into_iter().for_each(|end| self.label_line(end));
         self.flush_comments();

@@ -7,9 +7,11 @@
 
 use crate::canon::Sys;
 use crate::dialect::{Control, Question};
-use crate::ir::{Expr, Module, Place, SourceInfo, Stmt, StmtKind, Stmts};
+use crate::ir::analysis::{Cfg, may_come_back, modal_bodies};
+use crate::ir::{Block, BlockId, Expr, Module, Place, Program, SourceInfo, Stmt, StmtKind, Stmts, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
+use std::collections::BTreeSet;
 
 /// True if the library reads state, and the target reads it early unless it is told to wait.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -24,32 +26,58 @@ fn reads_early(target: &Control) -> bool {
 
 /// Waits before what would be early.
 pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
+    let come_back = may_come_back(module);
     let mut changed = false;
-    for block in module.programs.iter_mut().flat_map(|program| &mut program.blocks) {
-        let mut out = Stmts::with_capacity(block.stmts.len());
+    for program in &mut module.programs {
+        let follows = following(program, come_back);
         // Statements after a wait are at their place until the next move.
         let mut waited = false;
-        for stmt in std::mem::take(&mut block.stmts) {
-            if !waited && is_early(&stmt.kind) {
-                out.push(wait(&stmt.site));
-                (waited, changed) = (true, true);
-            }
-            match &stmt.kind {
-                StmtKind::Sync => waited = stmt.site.skip.is_none(),
-                StmtKind::Nc(nc) if !nc.items.is_empty() => waited = false,
-                StmtKind::ModalCall(_) => waited = false,
-                _ => {}
-            }
-            out.push(stmt);
+        for (block, follows) in program.blocks.iter_mut().zip(follows) {
+            waited &= follows;
+            changed |= look(block, &mut waited);
         }
-        let mut early = false;
-        block.term.kind.exprs(&mut |e| early |= reads(e));
-        if early && !waited {
-            out.push(wait(&block.term.site));
-            changed = true;
-        }
-        block.stmts = out;
     }
+    changed
+}
+
+/// By block: true where only the block before it leads there, and does no more than go on.
+fn following(program: &Program, come_back: bool) -> Vec<bool> {
+    let cfg = Cfg::whole(program, come_back);
+    let modal: BTreeSet<BlockId> = modal_bodies(program).collect();
+    let only = |id: BlockId| {
+        let before = id.index().checked_sub(1).and_then(|at| program.blocks.get(at));
+        let goes_on = before.is_some_and(|block| block.term.kind == TermKind::Jump(id));
+        goes_on && cfg.preds(id).len() == 1 && !cfg.roots().contains(&id) && !modal.contains(&id)
+    };
+    program.ids().map(only).collect()
+}
+
+/// Waits in a block; `waited` tells whether nothing moved since the last wait.
+fn look(block: &mut Block, waited: &mut bool) -> bool {
+    let mut changed = false;
+    let mut out = Stmts::with_capacity(block.stmts.len());
+    for stmt in std::mem::take(&mut block.stmts) {
+        let stands = stmt.site.skip.is_none();
+        if !*waited && is_early(&stmt.kind) {
+            out.push(wait(&stmt.site));
+            // One that may be skipped is no wait for what comes after it.
+            (*waited, changed) = (stands, true);
+        }
+        match &stmt.kind {
+            StmtKind::Sync => *waited = stands,
+            StmtKind::Nc(nc) if !nc.items.is_empty() => *waited = false,
+            StmtKind::ModalCall(_) => *waited = false,
+            _ => {}
+        }
+        out.push(stmt);
+    }
+    let mut early = false;
+    block.term.kind.exprs(&mut |e| early |= reads(e));
+    if early && !*waited {
+        out.push(wait(&block.term.site));
+        (*waited, changed) = (true, true);
+    }
+    block.stmts = out;
     changed
 }
 

@@ -120,6 +120,16 @@ fn convert(nc: &mut Nc, ms: bool, s: bool) -> bool {
     computed
 }
 
+/// A time in the other unit. One that comes from there, as a conversion wrote it, is what it was: what two roundings take
+/// from it is less than the least time that either unit counts. A vacant one would take its word away.
 fn scaled(op: BinOp, value: Expr) -> Expr {
+    let thousand = |e: &Expr| e.constant() == Some(1000.0);
+    if let Expr::Binary(inner, of) = &value
+        && matches!((op, inner), (BinOp::Div, BinOp::Mul) | (BinOp::Mul, BinOp::Div))
+        && thousand(&of[1])
+        && !of[0].may_be_vacant()
+    {
+        return of[0].clone();
+    }
     Expr::binary(op, value, Expr::Number(1000.0))
 }

@@ -24,8 +24,11 @@ pub fn run(program: &mut Program, _: usize, context: &mut Context<'_>) -> bool {
     let joined = context.target.is(Question::ConditionAndOr);
     let measure = Measure::new(context.target);
     let depth = context.target.limit("brackets").unwrap_or(u32::MAX);
-    let (beside, _) = split::beside(context.target, OperandPlace::Loop);
-    let room = context.target.room(OperandPlace::Loop).saturating_sub(beside);
+    // A control without loops has conditions in its IF alone, beside a longer text.
+    let loops = context.target.form(OperandPlace::Loop).is_some();
+    let place = if loops { OperandPlace::Loop } else { OperandPlace::Condition };
+    let (beside, _) = split::beside(context.target, place);
+    let room = context.target.room(place).saturating_sub(beside);
     let fits = |cond: &Cond| {
         let size = measure.cond(cond).bracketed();
         size.depth <= depth && size.length <= room

@@ -1,6 +1,7 @@
 //! Sequence numbers, program numbers and blocks without words.
 
 pub(in crate::legalize) mod blanks;
+pub(in crate::legalize) mod counted;
 pub(in crate::legalize) mod earlier;
 pub(in crate::legalize) mod emptied;
 mod head_text;

@@ -1,22 +1,25 @@
 //! Registers that an earlier conversion took for values in between become temporaries again.
 //!
 //! Law: its head says `SCRATCH R5 V48`: nobody looks at what they hold when the program is done. So what a program only
-//! keeps there from one of its own statements to another is no variable of the shop's, and needs no register of that name.
+//! keeps there from one of its own statements to another is no variable of the shop's, and needs no register of that
+//! name.
 //!
-//! Side condition, of the whole library: each program that names such a register says so at its head, and every read of it
-//! finds what this program wrote before, on every way, with no call between that may write it. None is vacant where someone
-//! tells that from 0. No operator gives it, no computed number and no clearing reaches it, no earlier run has it in its lock, and it has
-//! no name. Counter-example: a person took R5 for the depth that a subprogram reads; there the read comes first, and R5 stays a
-//! variable in all programs.
+//! Side condition, of the whole library: each program that names such a register says so at its head, and every read of
+//! it finds what this program wrote before, on every way, with no call between that may write it. A called part is a
+//! program of its own here, which the target may make of it: what goes into it and out of it stays a variable. None is
+//! vacant where someone tells that from 0. No operator gives it, no computed number and no clearing reaches it, no
+//! earlier run has it in its lock, and it has no name. Counter-example: a person took R5 for the depth that a
+//! subprogram reads; there the read comes first, and R5 stays a variable in all programs.
 
 use crate::ir::analysis::dataflow::{Analysis, Cursor, Direction, Steps, solve};
-use crate::ir::analysis::{BitRow, Cfg, Summaries, Universe, Vacancy, modal_bodies};
+use crate::ir::analysis::{BitRow, Cfg, Summaries, Universe, Vacancy};
 use crate::ir::{Bank, Block, BlockId, Callee, Expr, Module, Place, Program, Stmt, StmtKind, TermKind, Var};
 use crate::legalize::features::{Feature, Features};
 use crate::legalize::registers::names::{keeps_number, name_of};
 use crate::legalize::rewrite::highest_temp;
 use crate::legalize::variables::computed_numbers::constant_part;
 use crate::legalize::{Context, calls_of};
+use crate::syntax::Label;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -129,8 +132,10 @@ fn exposed(program: &Program, summaries: &Summaries, these: &BTreeSet<Var>) -> B
         return found;
     }
     let universe = Universe::new(these.iter().copied().collect());
-    let rules = Unwritten { program, summaries, universe };
-    let states = solve(&rules, program, &Cfg::whole(program, summaries.come_back()));
+    let returns = |block: &Block| matches!(block.term.kind, TermKind::Return { to: Some(_) });
+    let looked_for = summaries.come_back() || program.blocks.iter().any(returns);
+    let rules = Unwritten { program, summaries, universe, looked_for };
+    let states = solve(&rules, program, &Cfg::of(program));
     let vacancy = Vacancy::of(program, summaries, &BTreeSet::new());
     let mut written = BTreeSet::new();
     let targets = program.blocks.iter().flat_map(|block| &block.stmts).filter_map(|stmt| stmt.kind.target());
@@ -189,6 +194,30 @@ struct Unwritten<'u> {
     program: &'u Program,
     summaries: &'u Summaries,
     universe: Universe,
+    /// True where a run may come back to a sequence number.
+    looked_for: bool,
+}
+
+impl Unwritten<'_> {
+    /// What a part and the parts that it calls may write.
+    fn written_from(&self, entry: BlockId) -> impl Iterator<Item = usize> + '_ {
+        let (mut seen, mut open) = (BTreeSet::from([entry]), vec![entry]);
+        while let Some(block) = open.pop().and_then(|id| self.program.block(id)) {
+            let called = match &block.term.kind {
+                TermKind::Call { call, .. } => match call.callee {
+                    Callee::Block(entry) => Some(entry),
+                    _ => None,
+                },
+                _ => None,
+            };
+            open.extend(block.term.kind.successors().into_iter().chain(called).filter(|id| seen.insert(*id)));
+        }
+        let stmts = seen.into_iter().filter_map(|id| self.program.block(id)).flat_map(|block| &block.stmts);
+        stmts.filter_map(|stmt| match stmt.kind.target() {
+            Some(Place::Var(var)) => self.universe.place(*var),
+            _ => None,
+        })
+    }
 }
 
 impl Analysis for Unwritten<'_> {
@@ -196,11 +225,12 @@ impl Analysis for Unwritten<'_> {
     const DIRECTION: Direction = Direction::Forward;
 
     fn entries(&self, cfg: &Cfg) -> Vec<(BlockId, BitRow)> {
-        // A part is entered with what its calls leave, but for one that a modal call enters.
-        let modal: BTreeSet<BlockId> = modal_bodies(self.program).collect();
-        let open =
-            |root: &BlockId| *root == BlockId(0) || cfg.preds(*root).is_empty() || modal.contains(root);
-        cfg.roots().iter().copied().filter(open).map(|root| (root, self.universe.all())).collect()
+        // A run may come back to a number that another program names: nobody can tell what was written there.
+        let labelled = self.program.ids().zip(&self.program.blocks).filter(|(_, block)| {
+            self.looked_for && block.labels.iter().any(|label| matches!(label, Label::Number(_)))
+        });
+        let ids = cfg.roots().iter().copied().chain(labelled.map(|(id, _)| id));
+        ids.map(|id| (id, self.universe.all())).collect()
     }
 
     fn block(&self, id: BlockId, block: &Block, row: &mut BitRow) {
@@ -208,14 +238,12 @@ impl Analysis for Unwritten<'_> {
     }
 
     fn edge<'s>(&self, from: BlockId, _: BlockId, row: &'s BitRow) -> Option<Cow<'s, BitRow>> {
-        let Some(block) = self.program.block(from) else {
-            // Past the returns of parts nothing changes; at labels that calls come back to it may be anything.
-            let is_label = from.index() == self.program.blocks.len();
-            return Some(if is_label { Cow::Owned(self.universe.all()) } else { Cow::Borrowed(row) });
-        };
+        let block = self.program.block(from)?;
         let TermKind::Call { call, .. } = &block.term.kind else { return Some(Cow::Borrowed(row)) };
-        if matches!(call.callee, Callee::Block(_)) {
-            return Some(Cow::Borrowed(row));
+        if let Callee::Block(entry) = call.callee {
+            let mut row = row.clone();
+            self.written_from(entry).for_each(|at| row.insert(at));
+            return Some(Cow::Owned(row));
         }
         let (mut row, written) = (row.clone(), self.summaries.by_call(call));
         for (at, _) in self.universe.vars().iter().enumerate().filter(|(_, var)| written.contains(**var)) {

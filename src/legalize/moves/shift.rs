@@ -112,7 +112,9 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
     match cancelled {
         Some(Op::ShiftCancel) => {
             let first_word = nc.items.iter().position(|item| matches!(item, NcItem::Word(..)));
-            nc.items.insert(at.or(first_word).unwrap_or(0), NcItem::Op(Op::MachineOnce));
+            // Before the words that it is about, as each target writes it on the next way too.
+            let place = first_word.into_iter().chain(at).min();
+            nc.items.insert(place.unwrap_or(0), NcItem::Op(Op::MachineOnce));
             if state.op(Group::Cycle).is_some_and(|op| op != Op::CycleOff) {
                 return Some((
                     Code::NoEquivalent,

@@ -1,20 +1,23 @@
-//! A text that is shown right before a stop, where the target shows texts at stops only.
+//! A text that is shown right before a stop or a fault, where the target shows texts at stops only.
 //!
-//! Law: when the moves are done the text is shown, and the machine stops: the operator reads it there, as a message with which
-//! the machine stops. A control that prints on its screen is told a message so.
+//! Law: when the moves are done the text is shown, and the machine stops: the operator reads it there, as a message
+//! with which the machine stops. A control that prints on its screen is told a message so. `ALARM 1 TEXT` before
+//! `R9=SQR(0.-1.)`, which no control computes, is an alarm: that is how one is written where programs raise none of
+//! their own.
 //!
-//! Side condition: the text is no value and ends its line, and nothing stands between the wait, the text and the stop. None of
-//! them may be skipped. Counter-example: `#PRINT "READY"` with a move before the stop, which the operator reads while it runs.
+//! Side condition: the text is no value and ends its line, and nothing stands between the wait, the text and the stop.
+//! None of them may be skipped. What the fault is written into is never set, as the run ends there. Counter-example:
+//! `#PRINT "READY"` with a move before the stop, which the operator reads while it runs; `R9=SQR(V1)`, which may go on.
 
-use crate::canon::Op;
+use crate::canon::{Func, Op};
 use crate::dialect::Control;
-use crate::ir::{Expr, Module, NcItem, PrintPart, Program, Stmt, StmtKind, Stmts};
+use crate::ir::{BinOp, Expr, Module, NcItem, Place, PrintPart, Program, Stmt, StmtKind, Stmts};
 use crate::legalize::Context;
 use crate::legalize::features::{Feature, Features};
 
 /// True if texts are shown, and the target has messages and no screen for others.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    features.has(Feature::Print) && features.op(Op::Stop) && shows_at_stops(context.target)
+    features.has(Feature::Print) && shows_at_stops(context.target)
 }
 
 fn shows_at_stops(target: &Control) -> bool {
@@ -36,12 +39,10 @@ pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
         let mut rest = std::mem::take(&mut block.stmts);
         while let Some(text) = rest.windows(3).next().map(message) {
             match text {
-                Some(text) => {
+                Some(kind) => {
                     let mut three = rest.drain(..3);
                     // The comments of the wait and of the text stay before the stop.
                     out.extend(three.by_ref().take(2).filter_map(comments));
-                    let number = Expr::Number(1.0).into();
-                    let kind = StmtKind::StopMessage { number, text: text.trim().into() };
                     out.extend(three.map(|stop| Stmt { kind: kind.clone(), site: stop.site }));
                 }
                 None => out.push(rest.remove(0)),
@@ -59,14 +60,37 @@ fn goes_on(program: &Program) -> bool {
     stmts.any(|stmt| matches!(stmt.kind, StmtKind::Print { serial: false, stay: true, .. }))
 }
 
-/// The text that three statements stop with.
-fn message(three: &[Stmt]) -> Option<String> {
+/// The message or the alarm that three statements stop with.
+fn message(three: &[Stmt]) -> Option<StmtKind> {
     let [wait, shown, stop] = three else { return None };
     let StmtKind::Print { serial: false, parts, stay: false } = &shown.kind else { return None };
-    let ([PrintPart::Text(text)], StmtKind::Nc(nc)) = (parts.as_slice(), &stop.kind) else { return None };
-    let stops = nc.items.as_slice() == [NcItem::Op(Op::Stop)];
+    let [PrintPart::Text(text)] = parts.as_slice() else { return None };
     let always = three.iter().all(|stmt| stmt.site.skip.is_none());
-    (wait.kind == StmtKind::Sync && stops && always && !text.trim().is_empty()).then(|| text.clone())
+    if wait.kind != StmtKind::Sync || !always {
+        return None;
+    }
+    let (number, text, fault) = match &stop.kind {
+        StmtKind::Nc(nc) if nc.items.as_slice() == [NcItem::Op(Op::Stop)] => (1.0, text.trim(), false),
+        StmtKind::Assign { target: Place::Var(_), value } if never_computed(value) => {
+            let (number, text) = text.strip_prefix("ALARM ")?.split_once(' ')?;
+            let digits = number.bytes().all(|digit| digit.is_ascii_digit());
+            (number.parse().ok().filter(|_| digits)?, text.trim(), true)
+        }
+        _ => return None,
+    };
+    let (number, kept) = (Expr::Number(number).into(), text.into());
+    let kind = match fault {
+        true => StmtKind::Alarm { number, text: kept },
+        false => StmtKind::StopMessage { number, text: kept },
+    };
+    (!text.is_empty()).then_some(kind)
+}
+
+/// True for the root of 0 less 1, as a fault is written.
+fn never_computed(value: &Expr) -> bool {
+    let Expr::Call(Func::Sqrt, arguments) = value else { return false };
+    let Some(Expr::Binary(BinOp::Sub, of)) = arguments.first() else { return false };
+    (of[0].constant(), of[1].constant()) == (Some(0.0), Some(1.0))
 }
 
 /// What is left of a statement.

@@ -14,14 +14,15 @@ use crate::legalize::codes::{
     substitutes, waits,
 };
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
+use crate::legalize::expressions::halves;
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::layout::{blanks, heads, scratch, text_ends};
-use crate::legalize::moves::{lathe, start};
+use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
+use crate::legalize::moves::{joined, lathe, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
 use crate::legalize::variables::{
-    banks, computed_numbers, counted_clears, modal_reads, output_codes, probe_points, signals, state,
-    subscript_chains, timers, touch_points, vacant_writes,
+    banks, computed_numbers, counted_clears, modal_reads, output_codes, output_states, probe_points, signals,
+    state, subscript_chains, timers, touch_points, vacant_writes,
 };
 use crate::opt::{
     Branches, CopyPropagation, DeadStores, Fold, Nested, Retarget, Unreachable, WholeParts, WordValues,
@@ -75,6 +76,16 @@ const EARLIER: &[Pass] = &[
     .when(counted_clears::concerns)
     .needs(&["heads"])
     .changes_flow(),
+    Pass::edits("counted", "numbers that only count an earlier conversion's blocks go", counted::run)
+        .when(counted::concerns)
+        .needs(&["heads"]),
+    Pass::edits(
+        "joined",
+        "codes that an earlier conversion wrote before their move go beside it",
+        joined::run,
+    )
+    .when(joined::concerns)
+    .needs(&["heads"]),
     Pass::edits("text-ends", "jumps to the end of the text end it", text_ends::run)
         .when(text_ends::concerns)
         .needs(&["heads"])
@@ -104,6 +115,9 @@ const EARLIER: &[Pass] = &[
         "a value goes straight into the word that its temporary was set for",
     )
     .when(scratch::concerns),
+    Pass::edits("halves", "halves that an earlier conversion doubled are the numbers again", halves::run)
+        .when(halves::concerns)
+        .needs(&["heads"]),
 ];
 
 const TIDY: &[Pass] = &[
@@ -279,9 +293,12 @@ const VARIABLES: &[Pass] = &[
         .when(output_codes::concerns)
         .needs(&["computed-numbers"])
         .changes_flow(),
+    Pass::each("output-states", "outputs are switched by the target's variables", output_states::run)
+        .when(output_states::concerns)
+        .needs(&["output-codes"]),
     Pass::each("signals", "inputs and outputs are on where they were on", signals::run)
         .when(|c, _| c.has(Feature::System))
-        .needs(&["output-codes"]),
+        .needs(&["output-states"]),
     Pass::edits_some("state", "state of the machine is read and written in the target's form", state::run)
         .when(|c, _| state::concerns(c))
         .needs(&[

@@ -6,6 +6,7 @@ pub(in crate::legalize) mod counted_clears;
 mod cycle_seconds;
 pub(in crate::legalize) mod modal_reads;
 pub(in crate::legalize) mod output_codes;
+pub(in crate::legalize) mod output_states;
 pub(in crate::legalize) mod probe_points;
 pub(in crate::legalize) mod retention;
 pub(in crate::legalize) mod signals;

@@ -44,7 +44,8 @@ pub fn lower(parsed: &ParsedFile<'_>, file: usize, name: &str, control: &Control
     let span = Span::new(0, parsed.source.len() as u32);
     let mut program =
         build.finish(number.map(cycle_name), file, SourceInfo { span, ..SourceInfo::default() });
-    parts::check(&program, &ends, &mut findings);
+    let pasted = parts::take_mark(&mut program);
+    parts::check(&program, &ends, pasted, &mut findings);
     register::resolve(&mut program, &mut findings);
     whole::resolve(&mut program, &mut findings);
     cycle::resolve(&mut program, &mut findings);

@@ -4,12 +4,16 @@
 //! return is still open, and what the control does with it no source says. The
 //! end of a cycle inside a called part would, in the common form, go back to
 //! the call of the part and not to the cycle's caller, so it is refused.
+//!
+//! A file that a conversion wrote as a part of others, and says so at its head, is no program of its own: its return goes
+//! to whoever it is pasted into.
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::dataflow::reached;
 use crate::ir::analysis::{own_call, reachable};
-use crate::ir::{Block, BlockId, Callee, Program, TermKind};
+use crate::ir::{Block, BlockId, Callee, Program, Stmt, StmtKind, TermKind};
 use crate::lower::common::Findings;
+use crate::syntax::cc100::PART;
 use crate::text::Span;
 use std::collections::BTreeSet;
 
@@ -18,13 +22,23 @@ pub fn leaves(block: &Block) -> bool {
     matches!(&block.term.kind, TermKind::Call { call, .. } if !matches!(call.callee, Callee::Block(_)))
 }
 
-/// Reports the jumps out of called parts. `ends` are the places of a cycle's own ends.
-pub fn check(program: &Program, ends: &BTreeSet<Span>, findings: &mut Findings<'_>) {
+/// Takes away the comment at the head of a file that says it is a part of others; true if there is one.
+pub fn take_mark(program: &mut Program) -> bool {
+    let Some(block) = program.blocks.first_mut() else { return false };
+    let head = block.stmts.iter().take_while(|stmt| stmt.kind == StmtKind::Comment).count();
+    let marked = |stmt: &Stmt| matches!(stmt.site.comments.as_slice(), [only] if only.text == PART);
+    let found = block.stmts.iter().take(head).position(marked);
+    found.into_iter().for_each(|at| drop(block.stmts.remove(at)));
+    found.is_some()
+}
+
+/// Reports the jumps out of called parts. `ends` are the places of a cycle's own ends; `pasted` tells a part of others.
+pub fn check(program: &Program, ends: &BTreeSet<Span>, pasted: bool, findings: &mut Findings<'_>) {
     let main = reachable(program, BlockId(0));
     let returns = |block: &&Block| matches!(block.term.kind, TermKind::Return { .. });
     for block in main.iter().filter_map(|id| program.block(*id)).filter(returns) {
         let span = block.term.site.span;
-        if !ends.contains(&span) {
+        if !pasted && !ends.contains(&span) {
             findings.not_understood(span, "no source says what a return does when no part was called");
         }
     }

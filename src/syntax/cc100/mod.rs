@@ -13,6 +13,9 @@ use crate::text::Span;
 use grammar::{Grammar, Rule};
 use pest::Parser as _;
 
+/// What stands at the head of a part that a conversion wrote into a file of its own.
+pub const PART: &str = "A PART: PUT IT AFTER M30 OF THE PROGRAM THAT CALLS IT";
+
 /// Reads the one block of a line. Nothing nests in this language, so no line is
 /// too deep.
 pub fn parse_line(source: &[u8], line: Span, out: &mut Vec<Block>) {

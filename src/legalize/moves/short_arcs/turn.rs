@@ -53,7 +53,8 @@ impl Turn {
             match item {
                 NcItem::Word(Role::X | Role::Y | Role::ArcI | Role::ArcJ, _) => {}
                 NcItem::Word(Role::Feed, _) => lead.push(item.clone()),
-                NcItem::Op(op) if matches!(op.group(), Group::Motion | Group::Distance | Group::FeedMode) => {
+                NcItem::Op(op) if op.group() == Group::Motion => {}
+                NcItem::Op(op) if matches!(op.group(), Group::Distance | Group::FeedMode) => {
                     lead.push(item.clone());
                 }
                 _ => return None,
@@ -79,10 +80,13 @@ impl Turn {
         let set = |builder: &mut Builder, var: Var, value: Expr| {
             builder.push(StmtKind::Assign { target: Place::Var(var), value }, aside());
         };
+        // Each piece names its code: the pieces of a loop are come to from two sides.
+        let code = NcItem::Op(if self.ccw { Op::ArcCcw } else { Op::ArcCw });
         let move_by = |builder: &mut Builder, [x, y]: [Expr; 2], radius: Var| {
             let radius = Expr::Negate(Box::new(Expr::Var(radius)));
-            let items = [(Role::X, x), (Role::Y, y), (Role::ArcRadius, radius)];
-            let items = items.into_iter().map(|(role, value)| NcItem::Word(role, value)).collect();
+            let words = [(Role::X, x), (Role::Y, y), (Role::ArcRadius, radius)];
+            let words = words.into_iter().map(|(role, value)| NcItem::Word(role, value));
+            let items = std::iter::once(code.clone()).chain(words).collect();
             builder.push(StmtKind::Nc(Nc { items }), aside());
         };
         // Where the start lies from the centre, how far the end is, and the radius, negative.

@@ -124,7 +124,7 @@ fn what_cannot_be_known_is_refused() {
 
 #[test]
 fn a_jump_to_nowhere_is_an_alarm() {
-    for source in ["#GOTO :NOWHERE", "#GOTO N77"] {
+    for source in ["#GOTO :NOWHERE", "#GOTO N77", "M99 P77"] {
         let found = found(&format!("O1\n{source}"), "");
         assert_eq!(found, ["TargetMissing", "behaviour:goto.missing.alarms"], "{source}");
     }

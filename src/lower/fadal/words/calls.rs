@@ -104,10 +104,8 @@ impl<'b> Lowering<'b> {
             return Some(());
         };
         let here = self.rely(Question::M99PJumpsHere, span) != Some("false");
-        if here
-            && let Some(goal) = return_goal(items, codes)
-            && self.shape.goals.contains_key(&goal)
-        {
+        // One that no block has goes nowhere: not to the caller's, which no source says.
+        if here && let Some(goal) = return_goal(items, codes) {
             let to = self.block_of(&goal, span);
             self.end(TermKind::Jump(to));
             return Some(());
