@@ -24,14 +24,19 @@ impl Local {
     }
 }
 
+/// The first of the subroutines that the control keeps: L9101.
+const FIRST_FIXED: u32 = 91;
+
 impl Interpreter<'_, '_> {
     /// Runs a subroutine of the running program.
     pub(super) fn call_local(&mut self, call: Local) -> Flow<()> {
         let Some(index) = self.outline().subroutine(call.number) else {
             let number = call.number;
             return Err(match number {
-                10.. => Halt::Error(format!("the control's own subroutine L{number:02}.. is not emulated")),
-                _ => Halt::Error(format!("subroutine L{number}00 is not there")),
+                FIRST_FIXED.. => {
+                    Halt::Error(format!("the control's own subroutine L{number:02}.. is not emulated"))
+                }
+                _ => self.session.no_label(&format!("subroutine L{number}00 is not there")),
             });
         };
         if call.count == 0 {

@@ -9,7 +9,7 @@ macro_rules! lowering_codes {
 If a machine builder defined the word, give its meaning in the machine profile."
 
     "0310" TargetMissing Review "no block has this label"
-"A jump goes to a sequence number or a label that no block of the program has. The control stops with an alarm when it gets there, and the converted program does the same. If the jump is never made, the program runs as before.
+"A jump goes to a sequence number or a label that no block of the program has, or a call to a subroutine that the program has not. The control stops with an alarm when it gets there, and the converted program does the same. If the jump is never made, the program runs as before.
 
 Correct the jump or add the label, if it is meant to be made."
 
@@ -57,11 +57,6 @@ Add the code that closes the area."
 "A jump goes out of a subroutine or into one, or a subroutine runs into the end of its area. No source says what the control does with the return that is still open.
 
 End the subroutine by its own code, and jump within it only."
-
-    "0320" SubroutineMissing Error "the program has no such subroutine"
-"A call goes to a subroutine that is kept in the program itself, and the program has none with this number.
-
-Add the subroutine, or correct the number."
 
     "0330" RegisterUnset Error "the condition register is not set here"
 "The jump looks at the condition register. On one path to it nothing has set the register, neither arithmetic nor a test, or a cycle ran in between and may have changed it. No source says what it holds then.

@@ -128,4 +128,6 @@ fn a_jump_to_nowhere_is_an_alarm() {
         let found = found(&format!("O1\n{source}"), "");
         assert_eq!(found, ["TargetMissing", "behaviour:goto.missing.alarms"], "{source}");
     }
+    // So is a call of a subroutine that the program does not have.
+    assert!(found("O1\nL301", "").contains(&"TargetMissing".to_owned()));
 }

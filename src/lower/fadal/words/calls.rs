@@ -257,9 +257,8 @@ impl<'b> Lowering<'b> {
             self.once(Code::FixedSubroutine, &name.to_string(), span, message);
             return Some(Callee::Cycle(name));
         }
-        let message = format!("the program has no subroutine L{sub}00");
-        self.findings.add(Diagnostic::new(Code::SubroutineMissing, span, message));
-        None
+        let missing = format!("L{sub}00");
+        Some(Callee::Block(self.nowhere.block(missing, span, &mut self.builder, &mut self.findings)))
     }
 
     /// A call of a subroutine that the control keeps, with the words of its block as
