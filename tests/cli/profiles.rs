@@ -217,7 +217,7 @@ fn what_a_machine_begins_in_is_run_and_verified() {
     // By G91 the second move ends at 3 mm, by G90 at 2.
     for (machine, control, end) in [("old.toml", "fanuc", "3.0"), ("new.toml", "haas", "2.0")] {
         let run = shop.run(&format!("run a.nc --dialect {control} --machine {machine} --trace json"));
-        let last = run.out.lines().filter(|line| line.contains("\"feed\",")).next_back().unwrap();
+        let last = run.out.lines().rfind(|line| line.contains("\"feed\",")).unwrap();
         assert!(last.contains(&format!("\"to\":{{\"x\":{end},")), "{last}");
     }
 }
