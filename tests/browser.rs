@@ -14,9 +14,8 @@ use tempfile::TempDir;
 
 const CLEAN: &str = "%\nO1234\nG20 G17 G90 G40 G80 G94\nG0 X1.\nG1 X2. F10.\nM30\n%\n";
 const REFUSED: &str = "%\nO1235\nG20 G17 G90 G40 G80 G94\nG0 X1.\nM38\nG1 X2. F10.\nM30\n%\n";
-/// Its unit is not named, so that it is for review.
-const REVIEW: &str =
-    "%\nO1236\nG17 G90 G40 G80 G94\n#500=#501+1.\nG0 X#500\nG1 Y2. F10.\nG2 X3. Y1. I1. J0.\nM30\n%\n";
+/// No block has the number that it jumps to, so that it is for review.
+const REVIEW: &str = "%\nO1236\nG17 G90 G40 G80 G94\n#500=#501+1.\nIF[#501EQ9.]GOTO30\nG0 X#500\nG1 Y2. F10.\nG2 X3. Y1. I1. J0.\nM30\n%\n";
 
 /// Markup, quotes, signs that act in a terminal, and an end of a comment of HTML.
 const HOSTILE: &str = "%\nO1237\n(</td></table><script>window.acted=1</script><img src=x onerror=window.acted=2>)\n\

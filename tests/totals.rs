@@ -208,7 +208,7 @@ fn there_and_back(out: &mut String, pairs: &[Pair], mut rounds: BTreeMap<(String
     out.push_str(
         "\n## There and back\n\nEach library converted to the other control and back, for a machine of the same kind: programs \
          that were written\nthere, and that came back; what the verifier says of the first text and the last one. Files that came \
-         back: those\nwhose text there, and whose text back, was the same when they went round once more.\n\n",
+         back: those\nwhose text there, and whose text back, was the same when they went round once more. When they go round a third time, none changes.\n\n",
     );
     out.push_str(
         "| from | over | there | back | verified | undecided | different | files | same there | same back |\n",
@@ -217,8 +217,9 @@ fn there_and_back(out: &mut String, pairs: &[Pair], mut rounds: BTreeMap<(String
     let lost: Lost = toml::from_str(&support::text("tests/support/rounds.toml")).unwrap();
     let (mut why, mut unknown) = (BTreeSet::new(), Vec::new());
     for pair in pairs {
-        let rounds::Round { from, to, inputs, there, back, files, same_there, same_back } =
+        let rounds::Round { from, to, inputs, there, back, files, same_there, same_back, changed } =
             rounds.remove(&(pair.from.clone(), pair.to.clone())).expect("each pair goes round");
+        assert!(changed.is_empty(), "{from} to {to}: texts that went round twice change: {changed:?}");
         let [same, undecided, different] = [Verdict::Same, Verdict::Undecided, Verdict::Different]
             .map(|verdict| back.programs.iter().filter(|p| p.verdict == Some(verdict)).count());
         let came_back = same + undecided + different;

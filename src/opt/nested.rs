@@ -4,16 +4,17 @@
 //! the two nothing is written that `e` reads. Two signs are none, and a number times 2 over 2 is that number, as it is below
 //! 2^1023.
 //!
-//! **Side condition.** `t` is a temporary. Between the two stand comments and assignments of temporaries alone. `e` is never vacant, and
-//! reads no state of the machine. Nothing else in the assignment can stop the run, so that what stops it is what did. No
-//! statement of them may be skipped by the operator, and the first has no comment. Not after legalization: the target may
-//! not take expressions.
+//! **Side condition.** `t` is a temporary. Between the two stand comments and assignments of temporaries alone. `e` is
+//! never vacant, and reads no state of the machine. Nothing else in the assignment can stop the run; nor can what stands
+//! between, unless `e` cannot, so that what stops it is what did. No statement of them may be skipped by the operator, and
+//! the first has no comment. Not after legalization: the target may not take expressions.
 //!
 //! **Counter-examples.** `tmp.1 = #2; #3 = tmp.1` with `#2` vacant: `#3` is 0. `tmp.1 = #1/#2; #3 = tmp.1 + SQRT[#4]`, where
 //! both may stop the run: which one does is what the operator reads.
 
 use super::pass::{Level, Library, Pass};
 use super::retarget::drop_statements;
+use crate::canon::Func;
 use crate::ir::analysis::Liveness;
 use crate::ir::{BinOp, Block, BlockId, Class, Expr, Place, Program, Stmt, StmtKind, Var};
 
@@ -119,18 +120,26 @@ fn reads(e: &Expr, var: Var) -> usize {
     count
 }
 
-/// True where a statement neither reads nor writes the temporary, writes nothing that the value reads, and cannot stop the run.
+/// True where a statement neither reads nor writes the temporary, writes nothing that the value reads, and one of the two cannot
+/// stop the run.
 fn keeps(stmt: &Stmt, temp: Var, value: &Expr) -> bool {
     let Some((written, other)) = set(stmt) else { return stmt.kind == StmtKind::Comment };
-    let mut goes_on = true;
-    other.walk(&mut |part| {
-        goes_on &= match part {
-            Expr::Var(_) | Expr::Number(_) | Expr::Negate(_) => true,
-            Expr::Binary(op, _) => matches!(op, BinOp::Add | BinOp::Sub | BinOp::Mul),
+    let goes_on = is_sure(other) || is_sure(value);
+    goes_on && written != temp && reads(other, temp) == 0 && reads(value, written) == 0
+}
+
+/// True for what has a value whatever its variables hold.
+fn is_sure(e: &Expr) -> bool {
+    let mut sure = true;
+    e.walk(&mut |part| {
+        sure &= match part {
+            Expr::Var(_) | Expr::Number(_) | Expr::Negate(_) | Expr::Call(Func::Fix, _) => true,
+            Expr::Binary(BinOp::Add | BinOp::Sub | BinOp::Mul, _) => true,
+            Expr::Binary(BinOp::Div, operands) => operands[1].constant().is_some_and(|by| by != 0.0),
             _ => false,
         };
     });
-    goes_on && written != temp && reads(other, temp) == 0 && reads(value, written) == 0
+    sure
 }
 
 /// True for an expression that is computed, of variables and numbers.

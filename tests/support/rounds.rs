@@ -39,6 +39,8 @@ pub struct Round {
     pub same_there: usize,
     /// Files whose text was the same after the second way back.
     pub same_back: usize,
+    /// Files that had gone round twice, and whose text a third way there and back changed.
+    pub changed: Vec<String>,
 }
 
 /// A machine of the project file for programs of others, set to the unit.
@@ -53,7 +55,7 @@ fn machine(name: &str, unit: &str) -> Control {
     Control::new(registry::find(name).unwrap(), Profile::read(&text).unwrap()).unwrap()
 }
 
-/// Takes a library there and back, twice, between two machines of the project file that measure alike.
+/// Takes a library there and back, three times, between two machines of the project file that measure alike.
 pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
     // The course's programs are metric, and so is their machine; all others measure in inches.
     let unit = if from == "cc100" { "metric" } else { "inch" };
@@ -66,6 +68,10 @@ pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
     let home_again = inputs_of(&there, &second);
     let there_again = inputs_of(&home_again, &plain(&home_again, &home, &away));
     let back_again = inputs_of(&there_again, &plain(&there_again, &away, &home));
+    let there_thrice = inputs_of(&back_again, &plain(&back_again, &home, &away));
+    let back_thrice = inputs_of(&there_thrice, &plain(&there_thrice, &away, &home));
+    let settled = |input: &&Input| !back_again.contains(input);
+    let changed = back_thrice.iter().filter(settled).map(|input| input.name.clone()).collect();
     let same =
         |before: &[Input], after: &[Input]| after.iter().filter(|input| before.contains(input)).count();
     Round {
@@ -77,6 +83,7 @@ pub fn round(from: &str, to: &str, inputs: &[Input]) -> Round {
         files: home_again.len(),
         same_there: same(&there, &there_again),
         same_back: same(&home_again, &back_again),
+        changed,
     }
 }
 

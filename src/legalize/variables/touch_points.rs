@@ -30,8 +30,16 @@ fn by_number(control: &Control) -> bool {
 /// Keeps places as point 1, and reads them there.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let facts = context.modal_facts(module);
+    let rapid = || StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Rapid)] });
+    let mut said_again = false;
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         let before = state.op(Group::Motion);
+        // Who names the motion next needs no code said again.
+        let names = stmt.kind.nc().is_some_and(|nc| nc.ops().any(|op| op.group() == Group::Motion));
+        let last = out.last().is_some_and(|last| last.kind == rapid());
+        if std::mem::take(&mut said_again) && last && names && stmt.site.skip.is_none() {
+            out.pop();
+        }
         state.step(&stmt);
         let site = SourceInfo { span: stmt.site.span, skip: stmt.site.skip, ..SourceInfo::default() };
         let probes = stmt.kind.nc().is_some_and(|nc| nc.has(Op::Probe));
@@ -46,8 +54,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         out.push(stmt);
         match before.filter(|_| probes) {
             Some(Op::Rapid) => {
-                let kind = StmtKind::Nc(Nc { items: vec![NcItem::Op(Op::Rapid)] });
-                out.push(Stmt { kind, site });
+                out.push(Stmt { kind: rapid(), site });
+                said_again = true;
             }
             Some(Op::Linear) => {}
             _ if !probes => {}
