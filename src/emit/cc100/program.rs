@@ -137,7 +137,7 @@ impl<'p> Emitter<'p> {
             return self.flush_comments();
         }
         let end = own.or_else(|| self.labels.of_stop().filter(|_| runs_out));
-        // Behind a part nothing runs on.
+        // Nothing runs on after a part.
         end.into_iter().filter(|_| runs_out && comes_to).for_each(|end| self.go_to(end));
         self.stops();
         end.into_iter().for_each(|end| self.label_line(end));

@@ -1,7 +1,7 @@
 //! Jumps to the end of the text, in programs that an earlier conversion wrote.
 //!
-//! Law: a block with nothing in it behind which the text ends is that end, and whoever jumps there ends there. Where something
-//! has to stand behind a program, the target gets such a jump; coming back, each round would add one more.
+//! Law: an empty block at the end of the text is that end, and whoever jumps there ends there. Where something
+//! has to stand after a program, the target gets such a jump; coming back, each round would add one more.
 //! Side condition: an earlier conversion wrote the program, so that the jump is its own. Counter-example: `GOTO 90` of a
 //! person's, with N90 at the end, which a reader looks for.
 

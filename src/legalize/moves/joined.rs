@@ -4,7 +4,7 @@
 //! block moves nothing, and what it says is in force where the second one moves: one block says the same.
 //!
 //! Side conditions: an earlier conversion wrote the library for such a control. The first block has motion codes, G90
-//! or G91 and a feed alone, and the second, right behind it, words of axes and centres alone, one of them by a
+//! or G91 and a feed alone, and the second, right after it, words of axes and centres alone, one of them by a
 //! variable. No block of them may be skipped, and nothing drills, as a motion code would end that. Counter-example:
 //! `M3` before such a move, which then starts with it.
 
@@ -44,7 +44,7 @@ pub fn run(module: &mut Module, _: &mut Context<'_>) -> bool {
     changed
 }
 
-/// True for codes, and their move behind them.
+/// True for codes, and their move after them.
 fn fits(codes: &Stmt, words: &Stmt) -> bool {
     let (Some(first), Some(second)) = (codes.kind.nc(), words.kind.nc()) else { return false };
     let always = codes.site.skip.is_none() && words.site.skip.is_none();
@@ -70,7 +70,7 @@ fn is_place(nc: &Nc) -> bool {
     nc.moves() && nc.items.iter().all(words) && nc.items.iter().any(by_variable)
 }
 
-/// Puts the words of a move behind its codes.
+/// Puts the words of a move after its codes.
 fn join(codes: &mut Stmt, words: Stmt) {
     let (StmtKind::Nc(first), StmtKind::Nc(second)) = (&mut codes.kind, words.kind) else { return };
     first.items.extend(second.items);

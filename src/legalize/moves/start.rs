@@ -3,7 +3,7 @@
 //! Law: a main program runs in what the machine begins in until it names a mode of that group. So the codes that the profile
 //! of the source has under `[start]` may stand at its head, as far as it comes to a use of modes before it names them; and a
 //! code at the head that the target begins in may go again.
-//! Side condition: nothing calls the program, it does not return, and nothing jumps to its head, where the codes would be run
+//! Side condition, else a reviewer is told: nothing calls the program, it does not return, and nothing jumps to its head, where the codes would be run
 //! once more. The verifier starts the source so, and the target in anything that its own profile does not say.
 //! Counter-example: `N1 G91 X1. GOTO 1`: at the second time N1 is run in G91.
 
@@ -28,11 +28,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
     let back = may_come_back(module);
     let counted = Counted::of(module);
     let mut changed = false;
-    for root in alone(module, context) {
+    let called = context.called(module);
+    let alone = alone(module, context);
+    for root in uncalled(module, &called) {
         let program = &mut module.programs[root];
-        if is_entered_again(program, back) {
-            continue;
-        }
         let named = named_first(program);
         let rests = |mode: &&StartMode| {
             let group = mode.op.group();
@@ -50,6 +49,20 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
             continue;
         }
         let codes: Vec<&str> = modes.iter().filter_map(|mode| spelled(context, mode)).collect();
+        if !alone.contains(&root) || is_entered_again(program, back) {
+            let alike = |mode: &&StartMode| context.target.start().contains(mode);
+            if !modes.iter().all(alike) {
+                let what = format!(
+                    "the old machine begins in {}, and this may be called, or goes back to its head, so that no code is \
+                     written there: if an operator starts it, see that the target begins so",
+                    codes.join(" ")
+                );
+                let help = "if it does, put these codes under [start] in the machine profile of the target";
+                context
+                    .add(root, Diagnostic::new(Code::Conditional, program.site.span, what).with_help(help));
+            }
+            continue;
+        }
         let text = format!("begins in {}, as the machine's profile says", codes.join(" "));
         let finding = Diagnostic::new(Code::StartsStated, program.site.span, text)
             .assuming(Predicate::Start(modes.iter().map(|mode| mode.op).collect()));

@@ -1,7 +1,7 @@
 //! Outputs that the target switches by a variable alone.
 //!
 //! Law: a code that switches an output in a block of its own does it when the moves before are done; so does a number
-//! that is written to that output, 1 or 0, behind a wait where the target works out macro statements early. Side
+//! that is written to that output, 1 or 0, after a wait where the target works out macro statements early. Side
 //! conditions: the target has no code for that output, and a variable for it; nothing else stands in the block.
 //! Counter-example: `G1 X5. M21`, where no source says whether the output is switched before the move.
 
