@@ -36,12 +36,14 @@ pub struct Diagnostic {
     pub assumes: Option<Arc<Predicate>>,
     /// The code, letter and number, of which the source's machine profile may say what the builder made of it.
     pub asks: Option<(char, f64)>,
+    /// True for what a person decides once for the library and its machines: a program has a note of it.
+    pub once: bool,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
     pub fn new(code: Code, span: Span, message: impl Into<Arc<str>>) -> Self {
-        Self { code, span, message: message.into(), help: None, assumes: None, asks: None }
+        Self { code, span, message: message.into(), help: None, assumes: None, asks: None, once: false }
     }
 
     /// Adds what to do about it.
@@ -55,6 +57,13 @@ impl Diagnostic {
     #[must_use]
     pub fn asking(mut self, letter: char, number: f64) -> Self {
         self.asks = Some((letter, number));
+        self
+    }
+
+    /// Asks it of the library and its machines once, since the answer is the same for all programs.
+    #[must_use]
+    pub fn asked_once(mut self) -> Self {
+        self.once = true;
         self
     }
 
@@ -92,5 +101,13 @@ impl Diagnostic {
     /// The severity of its code.
     pub fn severity(&self) -> Severity {
         self.code.severity()
+    }
+
+    /// How grave it is for the program that it is found in. What is asked of the library or of a machine is a note there.
+    pub fn in_program(&self) -> Severity {
+        match self.severity() {
+            Severity::Review if self.once || self.code.is_of_machine() => Severity::Note,
+            severity => severity,
+        }
     }
 }

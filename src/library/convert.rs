@@ -170,9 +170,9 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
     Conversion { programs: reports, texts, lock, taken, states_reserved: target.states_reserved(), links }
 }
 
-/// What becomes of a program with these findings. What is open of a machine is asked of the machine.
+/// What becomes of a program with these findings. What is asked of the library or of a machine is a note here.
 pub fn outcome(diagnostics: &[Diagnostic]) -> Outcome {
-    match diagnostics.iter().map(|finding| finding.code.in_program()).max() {
+    match diagnostics.iter().map(|finding| finding.in_program()).max() {
         Some(Severity::Error) => Outcome::Refused,
         Some(Severity::Review) => Outcome::Review,
         _ => Outcome::Converted,

@@ -68,7 +68,8 @@ pub fn report_duplicates(module: &Module, inputs: &[Input], found: &mut [Vec<Dia
             let others = places.iter().filter(|(other, count)| **other != place(index) || **count > 1);
             let others = others.map(|(other, _)| *other).collect::<Vec<_>>().join(", ");
             let what = format!("{name} is also in {others}: a control can hold only one of them");
-            found[*index].push(Diagnostic::new(Code::TwinProgram, module.programs[*index].site.span, what));
+            let finding = Diagnostic::new(Code::TwinProgram, module.programs[*index].site.span, what);
+            found[*index].push(finding.asked_once());
         }
     }
     let all = |indexes: &Vec<usize>| indexes.iter().map(place).collect::<Vec<_>>().join(", ");

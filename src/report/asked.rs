@@ -13,17 +13,12 @@ const ALONE: usize = 3;
 /// what is counted alone: `--verbose draws`.
 pub fn asked(questions: &Questions<'_>, all_by: &str) -> String {
     let mut out = String::new();
-    for all in questions.open.chunk_by(|a, b| a.code == b.code) {
-        let Some(Question { code, .. }) = all.first() else { continue };
-        let _ = writeln!(out, "\n{} {}: {}", grade(code.severity()), code.number(), code.title());
-        let (alone, shared): (Vec<_>, Vec<_>) = all.iter().partition(|question| question.programs == 1);
-        shared.iter().chain(alone.iter().take(ALONE)).for_each(|question| open(&mut out, question));
-        match alone.len().saturating_sub(ALONE) {
-            0 => {}
-            1 => _ = writeln!(out, "  and one more, in one program; {all_by} it"),
-            more => _ = writeln!(out, "  and {more} more, each in one program; {all_by} them"),
-        }
+    let (of_programs, of_library) = questions.of_programs_and_library();
+    by_code(&mut out, of_programs, all_by);
+    if !of_library.is_empty() {
+        out.push_str("\nWhat is decided once for the library; no program is for review because of it:\n");
     }
+    by_code(&mut out, of_library, all_by);
     if !questions.machines.is_empty() {
         out.push_str(
             "\nWhat is open of the machines (MG0201, MG0205): check it on the machine, then put it into the machine's \
@@ -37,6 +32,21 @@ pub fn asked(questions: &Questions<'_>, all_by: &str) -> String {
         more => _ = writeln!(out, "\n{more} notes, which ask nothing; {all_by} them"),
     }
     out
+}
+
+/// Questions under the heads of their codes.
+fn by_code(out: &mut String, questions: &[Question<'_>], all_by: &str) {
+    for all in questions.chunk_by(|a, b| a.code == b.code) {
+        let Some(Question { code, .. }) = all.first() else { continue };
+        let _ = writeln!(out, "\n{} {}: {}", grade(code.severity()), code.number(), code.title());
+        let (alone, shared): (Vec<_>, Vec<_>) = all.iter().partition(|question| question.programs == 1);
+        shared.iter().chain(alone.iter().take(ALONE)).for_each(|question| open(out, question));
+        match alone.len().saturating_sub(ALONE) {
+            0 => {}
+            1 => _ = writeln!(out, "  and one more, in one program; {all_by} it"),
+            more => _ = writeln!(out, "  and {more} more, each in one program; {all_by} them"),
+        }
+    }
 }
 
 fn open(out: &mut String, question: &Question<'_>) {

@@ -1,10 +1,10 @@
 //! A conversion as JSON. Its keys are a contract: `programs` with `source`, `target`, `program`,
-//! `outcome`, `diagnostics`; `totals`; and `machines`, if something is open of them, `notes`, `folders` and `left_out`, if there is something to be said of the
+//! `outcome`, `diagnostics`; `totals`; and `machines` and `library`, if something is open of them, `notes`, `folders` and `left_out`, if there is something to be said of the
 //! programs as a whole, of files of earlier runs, or of files that were not read.
 //!
 //! It is written piece by piece: a library of many findings makes more of it than of itself.
 
-use super::questions::{Machine, Questions};
+use super::questions::{Machine, Question, Questions};
 use super::{Part, Totals};
 use crate::diag::{Code, Severity};
 use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
@@ -23,6 +23,9 @@ struct Report<'a> {
     totals: Totals,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     machines: Vec<Open>,
+    /// What is decided once for all programs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    library: Vec<Asked>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -51,16 +54,22 @@ struct Asked {
     places: Vec<String>,
 }
 
+impl Asked {
+    fn of(question: &Question<'_>) -> Self {
+        Self {
+            code: question.code,
+            severity: question.code.severity(),
+            message: question.text.to_owned(),
+            help: question.help.map(str::to_owned),
+            programs: question.programs,
+            places: question.places.clone(),
+        }
+    }
+}
+
 impl Open {
     fn of(machine: &Machine<'_>) -> Self {
-        let questions = machine.facts.iter().map(|fact| Asked {
-            code: fact.asked.code,
-            severity: fact.asked.code.severity(),
-            message: fact.asked.text.to_owned(),
-            help: fact.asked.help.map(str::to_owned),
-            programs: fact.asked.programs,
-            places: fact.asked.places.clone(),
-        });
+        let questions = machine.facts.iter().map(|fact| Asked::of(&fact.asked));
         let file = machine.control.profile().file.as_ref();
         Self {
             dialect: machine.control.name().to_owned(),
@@ -117,8 +126,11 @@ pub fn write_conversion(parts: &[Part<'_>], out: impl Write) -> io::Result<()> {
     let notes = parts.iter().flat_map(said).collect();
     let left_out = parts.iter().flat_map(|part| part.left_out).collect();
     let folders = parts.iter().map(|part| part.folder).filter(|told| !told.is_empty()).collect();
-    let machines = Questions::of(parts).machines.iter().map(Open::of).collect();
-    let report = Report { programs: parts, totals: Totals::of(parts), machines, notes, folders, left_out };
+    let questions = Questions::of(parts);
+    let machines = questions.machines.iter().map(Open::of).collect();
+    let library = questions.of_programs_and_library().1.iter().map(Asked::of).collect();
+    let report =
+        Report { programs: parts, totals: Totals::of(parts), machines, library, notes, folders, left_out };
     write_json_pretty(&report, &mut out)?;
     out.write_all(b"\n")?;
     out.flush()
@@ -177,7 +189,7 @@ fn findings<'a, S: Serializer>(
         let help = help.transpose().map_err(S::Error::custom)?;
         all.serialize_element(&Finding {
             code: d.code,
-            severity: d.code.in_program(),
+            severity: d.in_program(),
             file,
             line,
             column,

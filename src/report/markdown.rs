@@ -47,8 +47,15 @@ fn asked(out: &mut Sheet, questions: &Questions<'_>) {
         questions.open.iter().partition(|question| question.code.severity() == Severity::Error);
     open.sort_by_key(|question| (question.danger, question.code, std::cmp::Reverse(question.programs)));
     let facts = questions.machines.iter().flat_map(|machine| machine.facts.iter().map(|fact| &fact.asked));
-    let all: Vec<&Question<'_>> = open.into_iter().chain(facts).collect();
-    for (title, box_, all) in [("Questions", "- [ ] ", all), ("Refused", "- ", refused)] {
+    let (library, programs): (Vec<&Question<'_>>, Vec<_>) =
+        open.into_iter().partition(|question| question.once);
+    let all = [
+        ("Questions", "- [ ] ", programs),
+        ("Decided once for the library", "- [ ] ", library),
+        ("Asked of the machines", "- [ ] ", facts.collect()),
+        ("Refused", "- ", refused),
+    ];
+    for (title, box_, all) in all {
         if all.is_empty() {
             continue;
         }

@@ -36,6 +36,8 @@ pub struct Question<'a> {
     pub spots: Vec<Spot>,
     /// How much depends on it: 0 is most.
     pub danger: usize,
+    /// True for what is decided once for the library, and makes no program one for review.
+    pub once: bool,
 }
 
 /// A place in a program.
@@ -70,7 +72,7 @@ pub struct Machine<'a> {
 /// All that is asked of a person.
 #[derive(Clone, Debug, Default)]
 pub struct Questions<'a> {
-    /// What no profile settles: refusals, then reviews.
+    /// What no profile settles: refusals, then reviews, then what is decided once for the library.
     pub open: Vec<Question<'a>>,
     /// What the profiles of machines can settle.
     pub machines: Vec<Machine<'a>>,
@@ -145,7 +147,8 @@ impl<'a> Questions<'a> {
             let Gathered { finding, programs, places, line, spots } = gathered;
             let (text, help) = (&*finding.message, finding.help.as_deref());
             let (code, programs, danger) = (key.code, programs.len(), danger(finding));
-            let asked = Question { code, text, help, programs, places, line, spots, danger };
+            let once = finding.in_program() == Severity::Note;
+            let asked = Question { code, text, help, programs, places, line, spots, danger, once };
             match key.settled {
                 Some((machine, settled_by)) => {
                     questions.machines[machine].facts.push(Fact { settled_by, asked });
@@ -155,7 +158,7 @@ impl<'a> Questions<'a> {
         }
         let order = |question: &Question<'_>| {
             let severity = std::cmp::Reverse(question.code.severity());
-            (severity, question.code, std::cmp::Reverse(question.programs))
+            (severity, question.once, question.code, std::cmp::Reverse(question.programs))
         };
         questions.open.sort_by_key(order);
         for machine in &mut questions.machines {
@@ -163,6 +166,11 @@ impl<'a> Questions<'a> {
         }
         questions.machines.retain(|machine| !machine.facts.is_empty());
         questions
+    }
+
+    /// What no profile settles: what is asked of single programs, and what is decided once for the library.
+    pub fn of_programs_and_library(&self) -> (&[Question<'a>], &[Question<'a>]) {
+        self.open.split_at(self.open.partition_point(|question| !question.once))
     }
 }
 

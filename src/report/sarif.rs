@@ -102,7 +102,7 @@ fn of_part<S: SerializeSeq>(part: &Part<'_>, pairs: Option<&Pairs<'_>>, out: &mu
             let mut result = json!({
                 "ruleId": d.code.number(),
                 "ruleIndex": ALL.iter().position(|code| *code == d.code),
-                "level": level(d.code.in_program()),
+                "level": level(d.in_program()),
                 "message": { "text": message(d) },
                 "locations": [{ "physicalLocation": region(file, d.span) }],
                 "partialFingerprints": { "macroglot/v1": key },

@@ -146,7 +146,7 @@ impl<'b> Sheet<'b> {
         // Only the first line of a place is drawn.
         let next = self.starts.get(self.starts.line(start) + 1).map_or(length, |next| next - 1);
         let end = (span.end as usize).clamp(start, length).min(next.max(start)).min(start + 4 * ABOUT);
-        let severity = match diagnostic.code.in_program() {
+        let severity = match diagnostic.in_program() {
             Severity::Error => miette::Severity::Error,
             Severity::Review => miette::Severity::Warning,
             Severity::Note => miette::Severity::Advice,

@@ -55,12 +55,6 @@ macro_rules! codes {
                 matches!(self, Code::UnconfirmedFact | Code::StartUnknown)
             }
 
-            /// How grave it is for the program that it is found in. What is open of a machine is asked of the machine, and is
-            /// a note there.
-            pub const fn in_program(self) -> Severity {
-                if self.is_of_machine() { Severity::Note } else { self.severity() }
-            }
-
             /// What it is, in a few words.
             pub const fn title(self) -> &'static str {
                 match self { $(Code::$name => $title,)* }

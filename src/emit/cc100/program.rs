@@ -68,7 +68,7 @@ impl<'p> Emitter<'p> {
         self.tail(count);
         if self.page.crowded {
             self.out.span = program.site.span;
-            self.out.review(Code::Conditional, CROWDED.into());
+            self.out.review_once(Code::Conditional, CROWDED.into());
         }
         if self.labels.short {
             self.out.span = program.site.span;

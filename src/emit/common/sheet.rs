@@ -72,6 +72,11 @@ impl Sheet<'_> {
         self.emitted.findings.push(Diagnostic::new(code, self.span, message));
     }
 
+    /// Adds what is decided once for the library.
+    pub fn review_once(&mut self, code: Code, message: String) {
+        self.emitted.findings.push(Diagnostic::new(code, self.span, message).asked_once());
+    }
+
     /// Notes that the target's table lacks something.
     pub fn unmapped(&mut self, what: impl std::fmt::Display) {
         let message = format!("{} has no way to write {what}", self.control.dialect().title);

@@ -245,7 +245,7 @@ fn leave_first(module: &mut Module, calls: &[BTreeMap<usize, Span>], context: &m
                  file of its own",
             ),
         };
-        context.add_once(index, what, Diagnostic::new(code, program.site.span, what));
+        context.add_once(index, what, Diagnostic::new(code, program.site.span, what).asked_once());
     }
     let keep = |at: &mut usize| {
         *at += 1;

@@ -130,7 +130,8 @@ fn stands_for(
             return None;
         }
     };
-    context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()));
+    // Once for the library: the profile says it, and no program does.
+    context.add_once(index, &what, Diagnostic::new(Code::Conditional, span, what.clone()).asked_once());
     kind
 }
 

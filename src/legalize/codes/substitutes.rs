@@ -109,7 +109,8 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
                     None => drop(nc.items.remove(at)),
                 }
                 let told = Diagnostic::new(Code::Conditional, stmt.site.span, *what);
-                context.add_once(index, what, told.assuming(Predicate::Substitute(*op)));
+                // Whether it will do is a question of the machine, not of a program.
+                context.add_once(index, what, told.assuming(Predicate::Substitute(*op)).asked_once());
             }
         }
         changed |= drop_emptied(block);

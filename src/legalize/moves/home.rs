@@ -38,7 +38,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             context.add_once(index, UNKNOWN, Diagnostic::new(Code::NoEquivalent, span, UNKNOWN));
             return out.push(stmt);
         };
-        context.add_once(index, ZERO, Diagnostic::new(Code::Conditional, span, ZERO));
+        context.add_once(index, ZERO, Diagnostic::new(Code::Conditional, span, ZERO).asked_once());
         if before.op(Group::Motion).is_none() && state.op(Group::Motion).is_none() {
             context.add_once(index, MOTION, Diagnostic::new(Code::Conditional, span, MOTION));
         }

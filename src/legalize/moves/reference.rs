@@ -78,9 +78,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                      G91 is in force: write one of them before it",
                 ),
             };
-            context.add(index, Diagnostic::new(code, span, what));
+            context.add(index, Diagnostic::new(code, span, what).asked_once());
             if [Role::A, Role::B, Role::C].into_iter().any(|role| target.letter(role, None).is_none()) {
-                context.add_once(index, ROTARY, Diagnostic::new(Code::Conditional, span, ROTARY));
+                context.add_once(
+                    index,
+                    ROTARY,
+                    Diagnostic::new(Code::Conditional, span, ROTARY).asked_once(),
+                );
             }
         }
         out.push(stmt);

@@ -14,6 +14,10 @@ use crate::legalize::{Context, Modal};
 use crate::text::Span;
 use std::collections::BTreeMap;
 
+/// A move whose work offset no block before it selects.
+const INHERITED: &str = "the work offset in force here depends on what ran before: the target keeps the one that it has. If \
+                         programs of the old machine begin in one, name it in its profile, under [start]: codes = \"G54\"";
+
 /// Marks the moves under cancelled shifts.
 pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let lacks = context.target.code_for(Op::ShiftCancel, &BTreeMap::new()).is_none()
@@ -42,7 +46,10 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                     context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
                 }
                 if let Some((code, what)) = mark(stmt, &state, incremental) {
-                    context.add_once(index, what, Diagnostic::new(code, stmt.site.span, what));
+                    let finding = Diagnostic::new(code, stmt.site.span, what);
+                    // What programs begin in is asked of the machine.
+                    let finding = if what == INHERITED { finding.asked_once() } else { finding };
+                    context.add_once(index, what, finding);
                 }
             }
             let mut reads = false;
@@ -160,10 +167,6 @@ fn mark(stmt: &mut Stmt, state: &Modal, incremental: bool) -> Option<(Code, &'st
             "all zero shifts are cancelled on some paths to this move and not on others: the target needs \
              the same on all of them",
         )),
-        None => Some((
-            Code::Conditional,
-            "the work offset in force here depends on what ran before: the target keeps the one that it has. If \
-             programs of the old machine begin in one, name it in its profile, under [start]: codes = \"G54\"",
-        )),
+        None => Some((Code::Conditional, INHERITED)),
     }
 }

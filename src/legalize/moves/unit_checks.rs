@@ -55,7 +55,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             let what = format!(
                 "other programs of the library use the other unit: set the control to {name} for this one"
             );
-            let finding = Diagnostic::new(Code::Conditional, program.site.span, what);
+            let finding = Diagnostic::new(Code::Conditional, program.site.span, what).asked_once();
             context.add_once(index, "unit to be set", finding);
         }
         check_units(program);

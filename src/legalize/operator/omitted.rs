@@ -22,7 +22,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     let has = |name: &str| context.target.statement(name).is_some();
     let (prints, outputs) = (has("print"), has("output.formatted"));
     for (index, program) in module.programs.iter_mut().enumerate() {
-        let (mut first, mut count) = (None, 0);
+        let mut first = None;
         for block in &mut program.blocks {
             let asked = questions(block);
             for (at, stmt) in block.stmts.iter_mut().enumerate() {
@@ -34,17 +34,13 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 if goes {
                     stmt.kind = StmtKind::Comment;
                     first = first.or(Some(stmt.site.span));
-                    count += 1;
                 }
             }
         }
         if let Some(span) = first {
-            let blocks = if count == 1 { "one block".into() } else { format!("{count} blocks") };
-            let what = format!(
-                "{blocks} of output left out of this program, as the target's profile says (outputs = \"omit\"): make \
-                 sure that nobody waits for what it sends"
-            );
-            context.add(index, Diagnostic::new(Code::Conditional, span, what));
+            let what = "output is left out, as the target's profile says (outputs = \"omit\"): make sure that nobody waits \
+                        for what the programs send";
+            context.add(index, Diagnostic::new(Code::Conditional, span, what).asked_once());
         }
     }
 }

@@ -97,7 +97,7 @@ fn ask(
     };
     let whose = if serial { "what the serial line sends" } else { "the answer" };
     let what = format!("the operator must enter {whose} in {register} at the stop, before cycle start");
-    context.add(index, Diagnostic::new(Code::Conditional, span, what));
+    context.add(index, Diagnostic::new(Code::Conditional, span, what).asked_once());
     context.rests_on_source(index, span, Question::InputDefaultZero);
     if context.source.behaviour(Question::InputDefaultZero).is_some_and(|row| row.value == "false") {
         let what = "an empty answer is not 0 on the source, but the conversion sets the register to 0 before it \
@@ -148,11 +148,12 @@ pub fn prints(module: &mut Module, context: &mut Context<'_>) {
                         context.add_once(
                             index,
                             &what,
-                            Diagnostic::new(Code::Conditional, site.span, what.clone()),
+                            Diagnostic::new(Code::Conditional, site.span, what.clone()).asked_once(),
                         );
                         for text in altered(&parts) {
                             let what = format!("the text '{}' becomes '{}'", text.trim(), plain(text).trim());
-                            let finding = Diagnostic::new(Code::MessageAltered, site.span, what.clone());
+                            let code = if loses(text) { Code::MessageAltered } else { Code::LettersReplaced };
+                            let finding = Diagnostic::new(code, site.span, what.clone());
                             context.add_once(index, &what, finding);
                         }
                         if opens && !open {
@@ -235,6 +236,12 @@ fn altered(parts: &[PrintPart]) -> impl Iterator<Item = &str> {
         PrintPart::Value(_) => None,
     });
     texts.filter(|text| !plain(text).trim().eq_ignore_ascii_case(text.trim()))
+}
+
+/// True for a text with a letter that has no substitute, or with a sign of comparison: without it the text says something
+/// else.
+fn loses(text: &str) -> bool {
+    text.chars().any(|c| !c.is_ascii() || "<>".contains(c))
 }
 
 /// The text in characters that formatted output takes: brackets and signs that begin a value or

@@ -172,7 +172,11 @@ impl Finding {
             Finding::Wiring => {
                 let what = "the number of this input or output depends on the machine's wiring: on the \
                             target it may be another signal";
-                context.add_once(index, "wiring", Diagnostic::new(Code::Conditional, span, what));
+                context.add_once(
+                    index,
+                    "wiring",
+                    Diagnostic::new(Code::Conditional, span, what).asked_once(),
+                );
             }
         }
     }

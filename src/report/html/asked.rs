@@ -7,7 +7,7 @@ use crate::diag::Severity;
 use crate::dialect::Settled;
 use std::fmt::Write;
 
-/// All questions; what was refused stands behind them.
+/// All questions; what was refused stands after them.
 pub fn questions(out: &mut String, parts: &[Part<'_>], numbers: &Numbers) {
     let questions = Questions::of(parts);
     let (refused, mut open): (Vec<_>, Vec<_>) =
@@ -24,7 +24,14 @@ pub fn questions(out: &mut String, parts: &[Part<'_>], numbers: &Numbers) {
         );
     }
     let mut asker = Asker { parts, numbers, next: 1 };
-    open.iter().for_each(|question| asker.ask(out, question, None));
+    let (library, programs): (Vec<_>, Vec<_>) = open.into_iter().partition(|question| question.once);
+    programs.iter().for_each(|question| asker.ask(out, question, None));
+    if !library.is_empty() {
+        out.push_str(
+            "<h3>What is decided once for the library</h3>\n<p class=\"small\">No program is for review because of it.</p>\n",
+        );
+    }
+    library.iter().for_each(|question| asker.ask(out, question, None));
     for machine in questions.machines.iter().filter(|machine| !machine.facts.is_empty()) {
         let title = &machine.control.dialect().title;
         let place = match &machine.control.profile().file {

@@ -78,8 +78,10 @@ fn why(out: &mut String, part: &Part<'_>, program: &ProgramReport) {
         Outcome::Review => Severity::Review,
         Outcome::Refused => Severity::Error,
     };
-    let reasons = codes(program).into_iter().filter(|code| code.in_program() == deciding);
-    let reasons = reasons.map(|code| format!("{} ({})", super::code(code), escaped(code.title())));
+    let reasons = program.diagnostics.iter().filter(|finding| finding.in_program() == deciding);
+    let reasons: BTreeSet<_> = reasons.map(|finding| finding.code).collect();
+    let reasons =
+        reasons.into_iter().map(|code| format!("{} ({})", super::code(code), escaped(code.title())));
     let reasons = reasons.collect::<Vec<_>>().join(", ");
     let is_draft = program.outcome == Outcome::Refused && !program.map.is_empty();
     let says = match (program.outcome, reasons.is_empty()) {

@@ -168,7 +168,7 @@ impl Writer<'_> {
     fn findings(&mut self, out: &mut String, findings: &[&Diagnostic], line: Option<usize>) {
         let room = self.left.min(OF_A_LINE);
         for finding in findings.iter().take(room) {
-            let severity = grade(finding.code.in_program());
+            let severity = grade(finding.in_program());
             let at = line.map(|line| format!(", line {}", self.first[0] + line)).unwrap_or_default();
             let help = finding.help.as_deref().map(|help| format!("<br>{}", ticked(help)));
             let _ = writeln!(
