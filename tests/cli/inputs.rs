@@ -105,7 +105,8 @@ fn one_name_in_two_folders_is_an_error_and_one_file_named_twice_is_not() {
     assert_eq!(run.code, 0, "{}", run.err);
 }
 
-/// Two programs with one number: both are converted, and a person must choose which one to load.
+/// Two programs with one number: both are converted, and a person must choose which one to load. The library is asked that,
+/// once.
 /// A call of that number cannot be converted, because it is not known which one is meant.
 #[test]
 fn two_programs_with_one_number() {
@@ -122,10 +123,12 @@ fn two_programs_with_one_number() {
             assert_eq!(program["outcome"], "refused");
             assert!(codes.contains(&"MG0603"), "{codes:?}");
         } else {
-            assert_eq!(program["outcome"], "review");
+            assert_eq!(program["outcome"], "converted");
             assert!(codes.contains(&"MG0602"), "{codes:?}");
         }
     }
+    let asked: Vec<_> = json["library"].as_array().unwrap().iter().map(|asked| &asked["code"]).collect();
+    assert_eq!(asked, ["MG0602", "MG0602"], "a question for each file that it names");
 }
 
 /// What is not read is counted, with the reason, and named if that is asked for.

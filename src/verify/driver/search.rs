@@ -26,8 +26,9 @@ const ENDLESS: usize = 4;
 /// Runs of both sides for ways that the target alone has left, after the source has gone all of its own.
 const FOR_THE_TARGET: usize = 48;
 
-/// Scenarios from which others are steered, about.
+/// Scenarios from which others are steered: the first ones, and those that went a new way.
 const STARTS: usize = 8;
+const NEW_STARTS: usize = 40;
 
 /// Telling scenarios that are kept, at the most, and those that are, whether they go new ways or not.
 const TELLING: usize = 4;
@@ -78,7 +79,7 @@ impl Verifier<'_, '_> {
                 endless += 1;
             }
             let telling = proposals.are_telling();
-            if starts.len() < STARTS || new && starts.len() < 2 * STARTS {
+            if starts.len() < STARTS || new && starts.len() < NEW_STARTS {
                 starts.push(Circumstances { scenario: scenario.clone(), theirs: self.theirs.clone() });
             }
             let spare = self.compared < effort.fewest && self.tried.is_multiple_of(2);

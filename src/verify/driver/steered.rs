@@ -6,11 +6,12 @@ use crate::control::{ProgramRef, Run, Scenario};
 use crate::text::Span;
 use crate::verify::compare::is_cut;
 use crate::verify::explore::{Attempt, Circumstances, Inputs, Steer, inputs_of};
+use crate::verify::sides::class_of;
 use std::collections::BTreeSet;
 
 /// Runs for one way, and for all ways of a program.
-const FOR_ONE: usize = 90;
-const FOR_ALL: usize = 360;
+const FOR_ONE: usize = 120;
+const FOR_ALL: usize = 480;
 /// The same for ways of the target alone, each of which takes a run of both sides: most are what a conversion writes to be
 /// safe, and nothing reaches them.
 const FOR_ONE_THERE: usize = 40;
@@ -22,6 +23,14 @@ type Way = ((usize, Span), i64);
 struct Start {
     circumstances: Circumstances,
     near: [Option<Vec<(Way, f64)>>; 2],
+    /// The variables that the source came to by computed numbers.
+    reached: BTreeSet<String>,
+}
+
+impl Start {
+    fn new(circumstances: Circumstances) -> Self {
+        Self { circumstances, near: [None, None], reached: BTreeSet::new() }
+    }
 }
 
 impl Verifier<'_, '_> {
@@ -31,7 +40,7 @@ impl Verifier<'_, '_> {
             .into_iter()
             .map(|mut circumstances| {
                 circumstances.scenario.nearness = true;
-                Start { circumstances, near: [None, None] }
+                Start::new(circumstances)
             })
             .collect();
         for (on_target, all, one) in [(false, FOR_ALL, FOR_ONE), (true, FOR_ALL_THERE, FOR_ONE_THERE)] {
@@ -43,20 +52,18 @@ impl Verifier<'_, '_> {
                 };
                 given_up.insert(way);
                 let Some(start) = starts.get(from) else { break };
-                let (begin, mut found) = (start.circumstances.clone(), None);
-                let order = inputs_of(inputs, &begin.scenario);
+                let (begin, mut came) = (start.circumstances.clone(), Vec::new());
+                let order = inputs_of(inputs, &start.reached, &begin.scenario);
                 let mut attempt = |circumstances: &Circumstances| {
                     left = left.saturating_sub(1);
-                    let attempt = self.attempt(there, circumstances, way, on_target);
-                    if attempt == Attempt::Reached {
-                        found = Some(circumstances.clone());
+                    let (attempt, new) = self.attempt(there, circumstances, way, on_target);
+                    if new || attempt == Attempt::Reached {
+                        came.push(circumstances.clone());
                     }
                     attempt
                 };
                 Steer::new(begin, distance, one.min(all), &mut attempt).run(&order);
-                if let Some(circumstances) = found {
-                    starts.push(Start { circumstances, near: [None, None] });
-                }
+                starts.extend(came.into_iter().map(Start::new));
             }
         }
         self.theirs.clear();
@@ -83,6 +90,7 @@ impl Verifier<'_, '_> {
         for start in starts.iter_mut().filter(|start| start.near[usize::from(on_target)].is_none()) {
             let Circumstances { scenario, theirs } = &start.circumstances;
             let mut run = self.run_source(scenario);
+            start.reached = self.reached(&run);
             if on_target {
                 self.theirs = theirs.clone();
                 run = self.job.target.run(there, &self.circumstances(scenario, &run));
@@ -100,16 +108,24 @@ impl Verifier<'_, '_> {
         ways.iter().find_map(near)
     }
 
-    /// One run, compared on both sides if it goes a new way.
+    /// The variables of the source that a run came to by computed numbers, where its scenario may set them.
+    fn reached(&self, run: &Run) -> BTreeSet<String> {
+        let control = self.job.source.control;
+        let Some(letter) = control.numbered() else { return BTreeSet::new() };
+        let names = run.computed_numbers.iter().map(|computed| format!("{letter}{}", computed.what));
+        names.filter(|name| class_of(control, name).is_some_and(|class| class.class != "local")).collect()
+    }
+
+    /// One run, compared on both sides if it goes a new way. Also true if it does.
     fn attempt(
         &mut self,
         there: ProgramRef,
         circumstances: &Circumstances,
         way: Way,
         on_target: bool,
-    ) -> Attempt {
+    ) -> (Attempt, bool) {
         if self.is_spent() || self.witness.is_some() {
-            return Attempt::Stop;
+            return (Attempt::Stop, false);
         }
         self.theirs = circumstances.theirs.clone();
         let run = self.run_source(&circumstances.scenario);
@@ -129,8 +145,8 @@ impl Verifier<'_, '_> {
             self.tell(scenario, &run, new || new_there);
         }
         match went {
-            true => Attempt::Reached,
-            false => Attempt::Near(near.filter(|_| !is_cut(&run))),
+            true => (Attempt::Reached, new),
+            false => (Attempt::Near(near.filter(|_| !is_cut(&run))), new),
         }
     }
 }

@@ -1,122 +1,13 @@
 //! A search for circumstances in which a branch goes the way that it never went.
 //!
 //! One input after the other is changed a little. Where that brings the numbers of the condition nearer to each other, the
-//! search goes on in that direction: to where they would meet if the distance were linear, and in strides that double. What
+//! search goes on in that direction: to where they would meet if the distance were linear, and in strides that double. If
+//! little changes tell nothing, as under FIX or in a count of digits, it tries large ones, and what nothing ever set. What
 //! it finds is tried like any scenario, so a wrong turn costs a run and nothing else.
 
-use super::inputs::Inputs;
-use crate::canon::Sys;
-use crate::control::Scenario;
-use crate::control::scenario::Probe;
-use std::collections::BTreeMap;
+mod outside;
 
-/// The circumstances of a run: a scenario, and what is in registers that the target alone has.
-#[derive(Clone, Debug)]
-pub struct Circumstances {
-    /// What both sides meet.
-    pub scenario: Scenario,
-    /// What is in registers of the target alone.
-    pub theirs: BTreeMap<String, f64>,
-}
-
-/// One number that a program takes from outside.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Input {
-    /// A variable, and whether it is one that the target alone has.
-    Variable(String, bool),
-    /// A value of machine state, by place.
-    State(usize),
-    /// An answer of the operator, by place.
-    Answer(usize),
-    /// A work offset: its number, and the axis from 0.
-    Work(u32, usize),
-    /// The length of a tool.
-    Length(u32),
-    /// The radius of a tool.
-    Radius(u32),
-    /// How far a probe move gets, by place.
-    Probe(usize),
-    /// Where the machine stands at the start: the axis from 0.
-    Start(usize),
-}
-
-/// Answers and probe moves that are steered.
-const FIRST: usize = 4;
-/// Inputs that are steered, at the most.
-const MOST_INPUTS: usize = 40;
-
-/// The inputs of a program, those first that conditions ask most.
-pub fn inputs_of(inputs: &Inputs, scenario: &Scenario) -> Vec<Input> {
-    let variables = inputs.variables.iter().map(|input| Input::Variable(input.name.clone(), input.theirs));
-    let cells = inputs.cells.keys().filter_map(|(state, subscripts)| match (state, subscripts.as_slice()) {
-        (Sys::WorkOffset, [number, axis]) => Some(Input::Work(*number, (*axis as usize).checked_sub(1)?)),
-        (Sys::LengthGeometry | Sys::ToolOffset | Sys::LengthWear, [number]) => Some(Input::Length(*number)),
-        (Sys::RadiusGeometry | Sys::RadiusWear, [number]) => Some(Input::Radius(*number)),
-        _ => None,
-    });
-    let state = (0..scenario.state.len()).map(Input::State);
-    let answers = (0..if inputs.asks { FIRST.min(scenario.answers.len()) } else { 0 }).map(Input::Answer);
-    let probes = (0..FIRST.min(scenario.probes.len())).map(Input::Probe);
-    let start = (0..3).map(Input::Start);
-    variables.chain(answers).chain(cells).chain(state).chain(probes).chain(start).take(MOST_INPUTS).collect()
-}
-
-impl Input {
-    fn get(&self, from: &Circumstances) -> f64 {
-        let Circumstances { scenario, theirs } = from;
-        let found = match self {
-            Input::Variable(name, false) => scenario.variables.get(name).copied(),
-            Input::Variable(name, true) => theirs.get(name).copied(),
-            Input::State(at) => scenario.state.get(*at).map(|state| state.value),
-            Input::Answer(at) => scenario.answers.get(*at).copied(),
-            Input::Work(number, axis) => {
-                scenario.work_offsets.get(number).and_then(|axes| axes.get(*axis)).copied()
-            }
-            Input::Length(number) => scenario.tools.get(number).map(|tool| tool.length),
-            Input::Radius(number) => scenario.tools.get(number).map(|tool| tool.radius),
-            Input::Probe(at) => match scenario.probes.get(*at) {
-                Some(Probe::Part(part)) => Some(*part),
-                _ => Some(1.0),
-            },
-            Input::Start(axis) => scenario.start.get(*axis).copied(),
-        };
-        found.unwrap_or(0.0)
-    }
-
-    /// The same circumstances with another value here; none where it cannot be.
-    fn set(&self, from: &Circumstances, value: f64) -> Option<Circumstances> {
-        // What nobody would enter proves nothing.
-        if !value.is_finite() || value.abs() > 1e6 {
-            return None;
-        }
-        let mut out = from.clone();
-        let scenario = &mut out.scenario;
-        match self {
-            Input::Variable(name, theirs) => {
-                let all = if *theirs { &mut out.theirs } else { &mut scenario.variables };
-                all.insert(name.clone(), value);
-            }
-            Input::State(at) => scenario.state.get_mut(*at)?.value = value.round().abs(),
-            Input::Answer(at) => *scenario.answers.get_mut(*at)? = value,
-            Input::Work(number, axis) => {
-                *scenario.work_offsets.entry(*number).or_default().get_mut(*axis)? = value
-            }
-            Input::Length(number) => scenario.tools.entry(*number).or_default().length = value,
-            Input::Radius(number) => scenario.tools.entry(*number).or_default().radius = value.abs(),
-            Input::Probe(at) => {
-                *scenario.probes.get_mut(*at)? =
-                    if (0.0..=1.0).contains(&value) { Probe::Part(value) } else { Probe::Miss };
-            }
-            Input::Start(axis) => *scenario.start.get_mut(*axis)? = value,
-        }
-        Some(out)
-    }
-
-    /// The first step away from where it is.
-    fn step(&self) -> f64 {
-        if matches!(self, Input::Probe(_)) { 0.25 } else { 1.0 }
-    }
-}
+pub use outside::{Circumstances, Input, inputs_of};
 
 /// What a run came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,22 +45,46 @@ impl<'s> Steer<'s> {
 
     /// Searches; whoever makes the attempts knows whether it came there.
     pub fn run(mut self, inputs: &[Input]) {
+        while self.descend(inputs).and_then(|()| self.leap(inputs)).is_ok_and(|nearer| nearer) {}
+    }
+
+    /// Goes nearer in small steps, input by input, as long as any of them helps.
+    fn descend(&mut self, inputs: &[Input]) -> Result<(), Ended> {
         let mut live: Vec<&Input> = inputs.iter().collect();
         loop {
             let before = self.distance;
             let mut matter = Vec::new();
             for input in live {
-                match self.along(input) {
-                    Ok(true) => matter.push(input),
-                    Ok(false) => {}
-                    Err(Ended) => return,
+                if self.along(input)? {
+                    matter.push(input);
                 }
             }
             if self.distance >= before || matter.is_empty() {
-                return;
+                return Ok(());
             }
             live = matter;
         }
+    }
+
+    /// Tries large changes of one input after the other. True where one of them came nearer.
+    fn leap(&mut self, inputs: &[Input]) -> Result<bool, Ended> {
+        let before = self.distance;
+        for input in inputs {
+            let from = input.get(&self.best);
+            if let Some(unset) = input.unset(&self.best) {
+                self.attempt(unset)?;
+            }
+            let step = input.step();
+            let far = [100.0, -100.0, 6.0, -6.0, 1000.0, -1000.0].map(|times| from + step * times);
+            let ends = [from * 10.0, from * 1000.0, -from, 0.0];
+            for to in ends.into_iter().chain(far).filter(|to| *to != from) {
+                self.at(input, to)?;
+                if self.distance < before {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(self.distance < before)
     }
 
     /// Changes one input as long as that helps. False where it changes nothing.
@@ -218,9 +133,14 @@ impl<'s> Steer<'s> {
         }
     }
 
-    /// Runs with another value of an input, and keeps it if that comes nearer. How near; none if not to the branch.
+    /// Runs with another value of an input.
     fn at(&mut self, input: &Input, value: f64) -> Result<Option<f64>, Ended> {
         let Some(circumstances) = input.set(&self.best, value) else { return Ok(None) };
+        self.attempt(circumstances)
+    }
+
+    /// Runs in other circumstances, and keeps them if that comes nearer. How near; none if not to the branch.
+    fn attempt(&mut self, circumstances: Circumstances) -> Result<Option<f64>, Ended> {
         self.runs = self.runs.checked_sub(1).ok_or(Ended)?;
         match (self.attempt)(&circumstances) {
             Attempt::Reached | Attempt::Stop => Err(Ended),
@@ -237,6 +157,8 @@ impl<'s> Steer<'s> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::Scenario;
+    use std::collections::BTreeMap;
 
     fn start(values: &[(&str, f64)]) -> Circumstances {
         let variables = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
@@ -250,7 +172,9 @@ mod tests {
     /// Runs needed until `distance` is 0 or less; none if it never is.
     fn runs(values: &[(&str, f64)], distance: impl Fn(&dyn Fn(&str) -> f64) -> f64) -> Option<usize> {
         let names: Vec<&str> = values.iter().map(|(name, _)| *name).collect();
-        let of = |from: &Circumstances| distance(&|name: &str| from.scenario.variables[name]);
+        let value =
+            |from: &Circumstances, name: &str| from.scenario.variables.get(name).copied().unwrap_or(0.0);
+        let of = |from: &Circumstances| distance(&|name: &str| value(from, name));
         let (mut count, mut found) = (0, None);
         let first = start(values);
         let far = of(&first);
@@ -282,6 +206,14 @@ mod tests {
     fn two_variables_are_met_one_after_the_other() {
         let distance = |v: &dyn Fn(&str) -> f64| (v("x") - 40.0).abs() + (v("y") * 2.0 + 10.5).abs();
         assert!(runs(&[("x", 0.0), ("y", 0.0)], distance).is_some_and(|n| n < 120));
+    }
+
+    #[test]
+    fn what_only_large_changes_move_is_leapt_to() {
+        // The digits of a number, and a part of the day.
+        let digits = |x: f64| if x < 1.0 { 0.0 } else { x.log10().floor() + 1.0 };
+        assert!(runs(&[("y", 3.0), ("x", 2.0)], |v| 5.0 - digits(v("x"))).is_some_and(|n| n < 90));
+        assert!(runs(&[("x", 120.0)], |v| (v("x") / 500.0).trunc() - 3.0 + 6.0).is_some_and(|n| n < 90));
     }
 
     #[test]

@@ -45,6 +45,29 @@ fn what_is_measured() {
     hides("fanuc", offsets, ("N9G0X2.", "N9G0X3."));
 }
 
+/// What no small change shows: a part of the time of day, a count of digits, the day.
+#[test]
+fn what_only_large_changes_show() {
+    let shift = "O1\nG21G90G54G17G94\n#1=FIX[#3012/10000]\nIF[#1GE22]GOTO9\nIF[#1LT6]GOTO8\nN8G0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("fanuc", shift, ("N9G0X2.", "N9G0X3."));
+    hides("haas", shift, ("N9G0X2.", "N9G0X3."));
+    let digits = "O1\nG21G90G54G17G94\n#2=#500\n#3=0\nWHILE[#2GE1]DO1\n#2=FIX[#2/10]\n#3=#3+1\nEND1\nIF[#3GE5]GOTO9\n\
+                  G0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("haas", digits, ("N9G0X2.", "N9G0X3."));
+    let day = "O1\nG21G90G54G17G94\n#1=#3011-FIX[#3011/100]*100\nIF[#1EQ15]GOTO9\nG0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("fanuc", day, ("N9G0X2.", "N9G0X3."));
+}
+
+/// A variable whose number is computed, and the tool in the spindle.
+#[test]
+fn what_a_computed_number_reaches() {
+    let life = "O1\nG21G90G54G17G94\nIF[#4120LT1]GOTO7\nIF[#4120GT40]GOTO7\n#1=#[600+#4120]\nIF[#1EQ#0]GOTO7\n\
+                IF[#1LT#[700+#4120]]GOTO7\n#3006=1(WORN)\nG0X2.\nM30\nN7G0X1.\nM30\n";
+    hides("haas", life, ("G0X2.", "G0X3."));
+    let none = "O1\nG21G90G54G17G94\nIF[#4120LT1]GOTO9\nG0X1.\nM30\nN9G0X2.\nM30\n";
+    hides("fanuc", none, ("N9G0X2.", "N9G0X3."));
+}
+
 /// A way that nothing goes costs a bounded number of runs, and is told.
 #[test]
 fn what_cannot_be_is_left() {
