@@ -254,6 +254,10 @@ impl Finding {
                     named(context.source, number.into())
                 ),
             ),
+            Finding::Any if safe.last().is_none() => (
+                Code::NoEquivalent,
+                format!("the number of a variable is computed, and no number means the same on {title}"),
+            ),
             Finding::Any => (
                 Code::Conditional,
                 format!(

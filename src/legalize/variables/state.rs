@@ -101,7 +101,7 @@ impl Finding {
             Finding::Missing(state) if is_signal(state) => {}
             Finding::Missing(Sys::Act) => {
                 let what =
-                    format!("{title} has no variable for one that a code of the builder reads or sets here");
+                    format!("{title} has no variable for one that a builder's code reads or sets here");
                 let help = "name it in the target's profile at the code: sets = { \"VARIABLE\" = \"NAME\" }, or reads, with the \
                             name that the source's profile has";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
@@ -172,11 +172,8 @@ impl Finding {
             Finding::Wiring => {
                 let what = "the number of this input or output depends on the machine's wiring: on the \
                             target it may be another signal";
-                context.add_once(
-                    index,
-                    "wiring",
-                    Diagnostic::new(Code::Conditional, span, what).asked_once(),
-                );
+                let finding = Diagnostic::new(Code::Conditional, span, what);
+                context.add_once(index, "wiring", finding.asked_once());
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::meaning::{Meaning, State, last_number, meaning, meaning_by};
-use super::shift::constant_part;
+use super::shift::{constant_part, walks};
 use crate::canon::{Pause, Running, Sys};
 use crate::dialect::Control;
 use crate::ir::Expr;
@@ -118,7 +118,11 @@ impl<'c> Numbers<'c> {
             let finding = start.map_or(Finding::Any, |start| self.look_up(start));
             self.known.insert(key, finding);
         }
-        self.known.get(&key).unwrap_or(&Finding::Any)
+        match self.known.get(&key).unwrap_or(&Finding::Any) {
+            // It walks out of the run that it starts in.
+            Finding::Alike(..) if walks(number, f64::from(GAP)) => &Finding::Any,
+            finding => finding,
+        }
     }
 
     fn look_up(&self, start: u32) -> Finding {

@@ -17,6 +17,17 @@ pub fn constant_part(number: &Expr) -> Option<f64> {
     }
 }
 
+/// True if a number walks in steps of `gap` or more, as `5201+#19*20` does: from one axis's numbers to the next's.
+pub(super) fn walks(number: &Expr, gap: f64) -> bool {
+    match number {
+        Expr::Binary(BinOp::Add | BinOp::Sub, operands) => operands.iter().any(|part| walks(part, gap)),
+        Expr::Binary(BinOp::Mul, operands) => {
+            operands.iter().filter_map(Expr::constant).any(|step| step.abs() >= gap)
+        }
+        _ => false,
+    }
+}
+
 /// Adds the distance to computed numbers that the target has elsewhere, and names what it counts otherwise; true if
 /// there are any.
 pub(super) fn shift(program: &mut Program, numbers: &mut Numbers<'_>) -> bool {
