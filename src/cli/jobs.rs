@@ -31,6 +31,8 @@ pub struct Job {
     pub lock: Lock,
     /// What was said of the programs as a whole.
     pub notes: Vec<String>,
+    /// The library and the machine, by their names in the project file; none if it is not of one.
+    pub way: Option<[String; 2]>,
 }
 
 impl Job {
@@ -171,6 +173,7 @@ struct Way<'p> {
     target: Control,
     folder: PathBuf,
     name: &'p str,
+    machine: &'p str,
 }
 
 /// One job for each library and target of the project file.
@@ -203,7 +206,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
                 for programs in library.folders(|path| short(&project.root.join(path)), &endings()) {
                     let (source, target) = (source.clone(), target.clone());
                     let folder = folder.join(&programs.name);
-                    ways.push(Way { programs, source, target, folder, name });
+                    ways.push(Way { programs, source, target, folder, name, machine });
                 }
             }
         }
@@ -216,7 +219,9 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
         let out = held.remove(&way.folder).map(|held| (way.folder.as_path(), held));
         let (inputs, left_out) = read_found(way.programs.read(&way.source).0)?;
         let named = vec![true; inputs.len()];
-        planned((inputs, named, left_out), way.source, way.target, out)
+        let names = Some([way.name.to_owned(), way.machine.to_owned()]);
+        let job = planned((inputs, named, left_out), way.source, way.target, out)?;
+        Ok(Job { way: names, ..job })
     });
     planned.collect()
 }
@@ -282,7 +287,7 @@ fn planned(
         None => (None, fresh),
     };
     let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, named, left_out, source, target, out, lock, notes })
+    Ok(Job { inputs, named, left_out, source, target, out, lock, notes, way: None })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

@@ -20,6 +20,25 @@ pub enum Severity {
     Error,
 }
 
+/// That a person looked at what a diagnostic asks, and found it to be as it should.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub struct Accepted {
+    /// Who.
+    pub who: String,
+    /// The day, as `2026-11-26`.
+    pub when: String,
+    /// Why, if that was said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+impl std::fmt::Display for Accepted {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "accepted by {} on {}", self.who, self.when)?;
+        self.why.as_ref().map_or(Ok(()), |why| write!(f, ": {why}"))
+    }
+}
+
 /// One finding, at a place of one source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
@@ -36,12 +55,14 @@ pub struct Diagnostic {
     pub assumes: Option<Arc<Predicate>>,
     /// The code, letter and number, of which the source's machine profile may say what the builder made of it.
     pub asks: Option<(char, f64)>,
+    /// Who accepted it, if somebody did: it asks nothing then.
+    pub accepted: Option<Arc<Accepted>>,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
     pub fn new(code: Code, span: Span, message: impl Into<Arc<str>>) -> Self {
-        Self { code, span, message: message.into(), help: None, assumes: None, asks: None }
+        Self { code, span, message: message.into(), help: None, assumes: None, asks: None, accepted: None }
     }
 
     /// Adds what to do about it.
@@ -87,6 +108,14 @@ impl Diagnostic {
             None => return None,
         };
         Some(Assumption { place: self.span, text: self.message.clone(), predicate })
+    }
+
+    /// How grave it is for its program. What was accepted is a note.
+    pub fn in_program(&self) -> Severity {
+        match self.accepted {
+            Some(_) => Severity::Note,
+            None => self.code.in_program(),
+        }
     }
 
     /// The severity of its code.

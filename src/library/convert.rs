@@ -21,6 +21,8 @@ use crate::verify;
 pub enum Outcome {
     /// It does the same on the target, by all that is known.
     Converted,
+    /// It does the same if what its diagnostics name is so, and a person has accepted each of them.
+    Accepted,
     /// It does the same if what the diagnostics name is so: a person must look.
     Review,
     /// It has no runnable conversion.
@@ -172,7 +174,7 @@ fn whole(inputs: &[Input], source: &Control, target: &Control, lock: Lock, optio
 
 /// What becomes of a program with these findings. What is open of a machine is asked of the machine.
 pub fn outcome(diagnostics: &[Diagnostic]) -> Outcome {
-    match diagnostics.iter().map(|finding| finding.code.in_program()).max() {
+    match diagnostics.iter().map(|finding| finding.in_program()).max() {
         Some(Severity::Error) => Outcome::Refused,
         Some(Severity::Review) => Outcome::Review,
         _ => Outcome::Converted,

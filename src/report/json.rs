@@ -6,7 +6,7 @@
 
 use super::questions::{Machine, Questions};
 use super::{Part, Totals};
-use crate::diag::{Code, Severity};
+use crate::diag::{Accepted, Code, Severity};
 use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
 use crate::text::{LineIndex, Texts, write_json_pretty};
 use crate::verify;
@@ -93,6 +93,8 @@ struct Finding<'a> {
     message: &'a RawValue,
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<&'a RawValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accepted: Option<&'a Accepted>,
 }
 
 /// The conversions as JSON text.
@@ -177,12 +179,13 @@ fn findings<'a, S: Serializer>(
         let help = help.transpose().map_err(S::Error::custom)?;
         all.serialize_element(&Finding {
             code: d.code,
-            severity: d.code.in_program(),
+            severity: d.in_program(),
             file,
             line,
             column,
             message: &message,
             help: help.as_deref(),
+            accepted: d.accepted.as_deref(),
         })?;
     }
     all.end()
