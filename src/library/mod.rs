@@ -34,8 +34,8 @@ mod walk;
 mod withdrawn;
 
 pub use accepted::{
-    Answered, Asked, Chosen, Edit, Entry, Fit, Question, Scopes, Signer, acceptable, answered, edited, edits,
-    questions,
+    Answered, Answers, Asked, Chosen, Edit, Entry, Fit, OfPrograms, Question, Scopes, Signer, acceptable,
+    answered, edited, edits, questions,
 };
 pub use callees::linked_files;
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome};

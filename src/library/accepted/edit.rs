@@ -15,6 +15,10 @@ pub enum Edit {
     Drop(usize),
 }
 
+/// Why a change cannot be put in.
+const UNFIT: &str = "the entries do not fit into this file; nothing was written. Write those that stand there as `macroglot accept` \
+                     does, each under [[accepted]]";
+
 /// What stands in place of a part of the text.
 type Splice = (Range<usize>, String);
 
@@ -75,7 +79,8 @@ pub fn edited(text: &str, entries: &[Entry], edits: &[Edit]) -> Result<String, S
         }
         out.replace_range(range, &new);
     }
-    let mut after = read(&out)?;
+    let unfit = || UNFIT.to_owned();
+    let mut after = read(&out).map_err(|_| unfit())?;
     let mut now: Vec<Entry> = std::mem::take(&mut after.accepted);
     let mut then: Vec<Entry> = wanted.into_iter().flatten().chain(added.into_iter().cloned()).collect();
     let order = |entry: &Entry| entry.lines();
@@ -84,10 +89,7 @@ pub fn edited(text: &str, entries: &[Entry], edits: &[Edit]) -> Result<String, S
     let rest = Project { accepted: Vec::new(), ..before.clone() };
     match now == then && after == rest {
         true => Ok(out),
-        false => {
-            Err("the entries are not in the form that `macroglot accept` writes, each under [[accepted]]"
-                .into())
-        }
+        false => Err(unfit()),
     }
 }
 

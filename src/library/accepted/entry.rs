@@ -45,12 +45,12 @@ pub fn acceptable(code: Code) -> Result<(), String> {
     let number = code.number();
     let why = if code == Code::VerifiedDifferent {
         "says that the machines do not do the same"
+    } else if number.starts_with("MG09") {
+        "is what `macroglot check` finds: [[checks.allow]] is for that"
     } else if code.severity() == Severity::Error {
         "is an error: what it refuses has no conversion"
     } else if code.is_of_machine() {
         "is asked of the machine: its profile answers it for all programs"
-    } else if number.starts_with("MG09") {
-        "is what `macroglot check` finds: [[checks.allow]] is for that"
     } else if code.severity() == Severity::Note {
         "is a note, which asks nothing"
     } else {

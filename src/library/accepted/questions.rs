@@ -56,9 +56,10 @@ impl Question {
 /// What is asked of the programs that have a conversion. Files are seen from `root`.
 pub fn questions(inputs: &[Input], conversion: &Conversion, scopes: &Scopes, root: &Path) -> Vec<Question> {
     let mut counts = vec![0; inputs.len()];
-    let of_file =
-        |file: usize| conversion.programs.iter().filter(move |program| program.file == file).count();
-    let totals: Vec<usize> = (0..inputs.len()).map(of_file).collect();
+    let mut totals = vec![0; inputs.len()];
+    for program in &conversion.programs {
+        totals.get_mut(program.file).into_iter().for_each(|total| *total += 1);
+    }
     let mut lines: Option<(usize, LineIndex)> = None;
     let mut all = Vec::new();
     for (at, program) in conversion.programs.iter().enumerate() {
