@@ -17,6 +17,9 @@ const OF_THE_SOURCE: &[Code] =
 /// What the first of all sections has codes for: what the text alone shows.
 const OF_THE_TEXT: &str = "MG01";
 
+/// What makes several findings of a file one: the file, the code, what is said, and by whom it was accepted.
+type Told<'a> = (usize, Code, &'a str, Option<&'a Accepted>);
+
 /// By file, true where every program of it is understood.
 pub fn sound(library: &Understood, files: usize) -> Vec<bool> {
     let mut sound = vec![true; files];
@@ -39,7 +42,7 @@ pub fn findings(
     pages: &Pages<'_>,
 ) -> Vec<Finding> {
     let mut found = Vec::new();
-    let mut told: BTreeMap<(usize, Code, &str, Option<&Accepted>), (usize, usize)> = BTreeMap::new();
+    let mut told: BTreeMap<Told<'_>, (usize, usize)> = BTreeMap::new();
     for (at, (program, diagnostics)) in library.module.programs.iter().zip(&library.found).enumerate() {
         if !shelf.wanted[program.file] {
             continue;

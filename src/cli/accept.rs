@@ -7,7 +7,6 @@ use crate::library::{
     Chosen, Conversion, Edit, Entry, Fit, Options, Project, Signer, convert as converted, edited, edits,
     write_file,
 };
-use crate::opt::Level;
 use crate::report::{Accepting, Date, accepting};
 use std::path::{Path, PathBuf};
 
@@ -37,6 +36,9 @@ pub struct Arguments {
     /// Why it is as it should
     #[arg(long, value_name = "TEXT")]
     why: Option<String>,
+    /// How much to optimize, as `convert` is told it: what is asked may depend on it
+    #[arg(short = 'O', value_name = "LEVEL", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=2))]
+    optimize: u8,
     /// Say what would be written, and write nothing
     #[arg(long)]
     dry_run: bool,
@@ -62,7 +64,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         job.way.as_ref().is_some_and(|way| chosen.takes_way(way.each_ref().map(String::as_str)))
     });
     let files: usize = jobs.iter().map(|job| job.inputs.len()).sum();
-    let options = Options { level: Level::O1, draft: false, marks: true };
+    let options = Options { level: convert::level(arguments.optimize), draft: false, marks: true };
     let mut conversions: Vec<Conversion> = common::with_spinner(format!("converting {files} files"), || {
         let made = |job: &Job| converted(&job.inputs, &job.source, &job.target, job.lock(false), options);
         rayon::scope(|_| jobs.iter().map(made).collect())
@@ -101,11 +103,13 @@ fn chosen(arguments: &Arguments, project: &Project) -> Result<Chosen, u8> {
             "say what is accepted: files, --code, --program, or --all. `macroglot convert` lists what is asked",
         ));
     }
-    let files = paths.iter().map(|path| {
+    let mut files = Vec::new();
+    for path in paths {
         let missing = |_| complain(format!("{}: there is no such file or folder", path.display()));
-        Ok(project.place_of(&std::fs::canonicalize(path).map_err(missing)?))
-    });
-    let files = files.collect::<Result<Vec<String>, u8>>()?;
+        // A link is known by its own place, and by the one that it leads to.
+        files.push(project.place_of(&std::fs::canonicalize(path).map_err(missing)?));
+        files.push(project.place_of(path));
+    }
     for name in library {
         if !project.libraries.contains_key(name) {
             return Err(complain(format!("--library {name}: macroglot.toml has no such library")));

@@ -84,7 +84,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         library: &arguments.library,
     })?;
     outcome::check_reports(&arguments.report, &jobs, &read)?;
-    let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
+    let level = level(arguments.optimize);
     let options = Options { level, draft: arguments.draft, marks: true };
     let files: usize = jobs.iter().map(|job| job.inputs.len()).sum();
     // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
@@ -144,6 +144,11 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     }
     let refused = report::Totals::of(&parts).refused > 0;
     Ok(if refused { FOUND } else { WELL })
+}
+
+/// How much is optimized.
+pub(super) fn level(named: u8) -> Level {
+    [Level::O0, Level::O1, Level::O2][usize::from(named.min(2))]
 }
 
 /// The certificates of every job's files; the outcomes then rest on them.

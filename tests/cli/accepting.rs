@@ -183,6 +183,57 @@ fn a_change_of_nothing_that_it_concerns_asks_nothing() {
     }
 }
 
+/// Programs of one file are told apart: their lines count from their own start.
+#[test]
+fn programs_of_one_file_have_their_own_answers() {
+    let body = |text: &str| text.trim_start_matches("%\n").trim_end_matches("%\n").to_owned();
+    let file = |first: &str, second: &str, third: &str| {
+        format!("%\n{}{}{}%\n", body(first), body(second), body(third))
+    };
+    let other = ASKS.replace("O2000", "O2001").replace("X#100", "Y#100");
+    let shop = shop();
+    shop.write("programs/asks.nc", file(CALLED, ASKS, &other).as_bytes());
+    std::fs::remove_file(shop.path("programs/called.nc")).unwrap();
+    let run = shop.run("accept --all --who Ann");
+    assert!(run.out.contains("programs/asks.nc O2001, shop to new: MG0314, line 17: "), "{}", run.out);
+    let both = "2 accepted, 0 for review";
+    assert!(summary(&shop).contains(both), "{}", summary(&shop));
+    // A line more in the last program is the first one's no matter.
+    shop.write("programs/asks.nc", file(CALLED, ASKS, &other.replace("M30", "(A)\nM30")).as_bytes());
+    assert!(summary(&shop).contains("1 accepted, 1 for review"), "{}", summary(&shop));
+    // A line more in a program that stands before both, and that neither calls.
+    let apart = |text: &str| text.replace("P9000", "P9001");
+    shop.write("programs/asks.nc", file(CALLED, &apart(ASKS), &apart(&other)).as_bytes());
+    assert_eq!(shop.run("accept --all --who Ann").code, 0);
+    assert!(summary(&shop).contains(both), "{}", summary(&shop));
+    let longer = CALLED.replace("G0 Y#1", "(A)\n(B)\nG0 Y#1");
+    shop.write("programs/asks.nc", file(&longer, &apart(ASKS), &apart(&other)).as_bytes());
+    assert!(summary(&shop).contains(both), "{}", summary(&shop));
+    // One more place at which the same is asked.
+    let more = apart(ASKS).replace("G0 Z#5063", "G0 Z#5063\nG0 X#5063");
+    shop.write("programs/asks.nc", file(&longer, &more, &apart(&other)).as_bytes());
+    assert!(summary(&shop).contains("1 accepted, 1 for review"), "{}", summary(&shop));
+}
+
+/// A program that asks something else than what was accepted is told nothing of that.
+#[test]
+fn another_question_is_no_stale_answer() {
+    let shop = accepted();
+    shop.write("programs/asks.nc", ASKS.replace("#100", "#101").as_bytes());
+    let run = shop.run("convert");
+    let told = |code: &str| {
+        run.out.split(code).nth(1).unwrap().split("\n\n").next().unwrap().contains("It was accepted")
+    };
+    assert!(told("review MG0314") && !told("review MG0404"), "{}", run.out);
+    assert!(
+        run.err.contains("1 [[accepted]] entry matches nothing") && run.err.contains("MG0404"),
+        "{}",
+        run.err
+    );
+    let run = shop.run("accept --all --who Bob");
+    assert!(run.out.ends_with("1 accepted, 1 renewed, 1 dropped\n"), "{}", run.out);
+}
+
 /// Which program a computed number calls is not known: a change of any asks again.
 #[test]
 fn a_computed_call_reaches_all_programs() {
@@ -340,6 +391,7 @@ fn reports_say_what_was_accepted() {
         );
         assert_eq!(of(code)["accepted"]["when"].as_str().unwrap().len(), "2026-11-26".len());
     }
+    super::sarif::valid(&shop.read("r.sarif"));
     let sarif: Value = serde_json::from_str(&shop.read("r.sarif")).unwrap();
     let results = sarif["runs"][0]["results"].as_array().unwrap();
     for result in results {

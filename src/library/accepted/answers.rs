@@ -79,16 +79,14 @@ pub fn answered(asked: &[Asked<'_>], entries: &[Entry], ways: &BTreeSet<[&str; 2
         }));
         fits.push(found);
     }
-    // What is left is of an earlier text: first to what says the same, then to what has the same code.
-    for says_the_same in [true, false] {
-        for (one, fits) in asked.iter().zip(&mut fits) {
-            for (question, fit) in one.questions.iter().zip(fits).filter(|(_, fit)| **fit == Fit::Open) {
-                let same = |entry: &Entry| **entry.says.get_ref() == *question.says;
-                let mut left = about(one, question).into_iter().filter(|(at, _)| !used.contains(at));
-                if let Some((at, _)) = left.find(|(_, entry)| !says_the_same || same(entry)) {
-                    used.insert(at);
-                    *fit = Fit::Stale(at);
-                }
+    // What is left and says the same is of an earlier text. What reads otherwise is another question.
+    for (one, fits) in asked.iter().zip(&mut fits) {
+        for (question, fit) in one.questions.iter().zip(fits).filter(|(_, fit)| **fit == Fit::Open) {
+            let left = about(one, question).into_iter().filter(|(at, _)| !used.contains(at));
+            let mut left = left.filter(|(_, entry)| **entry.says.get_ref() == *question.says);
+            if let Some((at, _)) = left.next() {
+                used.insert(at);
+                *fit = Fit::Stale(at);
             }
         }
     }

@@ -14,6 +14,9 @@ use toml::value::Datetime;
 /// Letters of a line that are told.
 const SHOWN: usize = 60;
 
+/// A code, and what is said under it.
+pub(super) type Said = (Code, Arc<str>);
+
 /// Something that is asked at one or more places of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
@@ -98,8 +101,8 @@ pub(super) fn of_program<'d>(
     asked: impl Iterator<Item = &'d Diagnostic>,
     (input, lines): (&Input, &LineIndex),
     (scopes, scope): (&Scopes, &Scope),
-) -> Vec<((Code, Arc<str>), String, String)> {
-    let mut places: BTreeMap<(Code, Arc<str>), BTreeSet<(i64, u32)>> = BTreeMap::new();
+) -> Vec<(Said, String, String)> {
+    let mut places: BTreeMap<Said, BTreeSet<(i64, u32)>> = BTreeMap::new();
     for finding in asked {
         let line = i64::from(lines.place(finding.span.start).0);
         let places = places.entry((finding.code, Arc::clone(&finding.message))).or_default();
@@ -125,7 +128,9 @@ pub(super) fn of_program<'d>(
 /// A file as it is seen from a folder, with `/` between parts.
 pub fn seen_from(file: &Path, root: &Path) -> String {
     let whole = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    let seen = whole.strip_prefix(root).unwrap_or(file);
+    let real = || std::fs::canonicalize(file).ok()?.strip_prefix(root).ok().map(Path::to_owned);
+    let seen = whole.strip_prefix(root).ok().map(Path::to_owned).or_else(real);
+    let seen = seen.as_deref().unwrap_or(file);
     let parts = seen.components().filter(|part| !matches!(part, Component::CurDir));
     let parts: Vec<String> = parts.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
     parts.join("/").replacen("//", "/", 1)

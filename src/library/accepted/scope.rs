@@ -84,21 +84,38 @@ fn half(text: &str) -> String {
     hash
 }
 
-/// By program, the line that it begins on and the hash of its text.
+/// By program, the line that it begins on and the hash of its text. Where programs of a file do not stand one after the
+/// other, each has all of it.
 fn texts(module: &Module, inputs: &[Input]) -> Vec<(u32, String)> {
     let lines: Vec<LineIndex> = inputs.iter().map(|input| LineIndex::new(&input.bytes)).collect();
-    let programs = &module.programs;
-    let is_first = |at: usize| at == 0 || programs[at - 1].file != programs[at].file;
-    let texts = programs.iter().enumerate().map(|(at, program): (usize, &Program)| {
-        let bytes: &[u8] = inputs.get(program.file).map_or(&[], |input| &input.bytes);
-        let start = if is_first(at) { 0 } else { program.site.span.start };
-        let next = programs.get(at + 1).filter(|next| next.file == program.file);
-        let end = next.map_or(bytes.len() as u32, |next| next.site.span.start);
-        let text = bytes.get(start as usize..end as usize).unwrap_or(bytes);
-        let line = lines.get(program.file).map_or(1, |lines| lines.place(start).0);
-        (line, hash_of_text(text))
-    });
-    texts.collect()
+    let mut all = Vec::with_capacity(module.programs.len());
+    for programs in module.programs.chunk_by(|a, b| a.file == b.file) {
+        let file = programs.first().map_or(0, |first| first.file);
+        let bytes: &[u8] = inputs.get(file).map_or(&[], |input| &input.bytes);
+        let length = bytes.len() as u32;
+        let starts = std::iter::once(0).chain(programs.iter().skip(1).map(|program| program.site.span.start));
+        let starts: Vec<u32> = starts.collect();
+        let ends = starts.iter().skip(1).copied().chain([length]);
+        let parts: Vec<Span> =
+            starts.iter().zip(ends).map(|(start, end)| Span { start: *start, end }).collect();
+        let is_cut = programs.iter().zip(&parts).all(|(program, part)| holds(*part, program));
+        for part in parts {
+            let part = if is_cut { part } else { Span::new(0, length) };
+            let line = lines.get(file).map_or(1, |lines| lines.place(part.start).0);
+            all.push((line, hash_of_text(bytes.get(part.range()).unwrap_or(bytes))));
+        }
+    }
+    all
+}
+
+/// True if all that a program has stands in this part of its file.
+fn holds(part: Span, program: &Program) -> bool {
+    let inside = |span: Span| span == Span::default() || part.start <= span.start && span.end <= part.end;
+    let mut blocks = program.blocks.iter();
+    part.start < part.end
+        && blocks.all(|block| {
+            inside(block.term.site.span) && block.stmts.iter().all(|stmt| inside(stmt.site.span))
+        })
 }
 
 /// The hash of a text, however its lines end and whatever blanks and frames stand at its end.
