@@ -4,8 +4,8 @@ use super::jobs::{Job, Wish, jobs};
 use super::streams::{complain, print};
 use super::{FOUND, WELL, common, convert, reviews};
 use crate::library::{
-    Chosen, Conversion, Edit, Entry, Fit, Options, Project, Signer, convert as converted, edited, edits,
-    write_file,
+    Chosen, Conversion, Edit, Entry, Fit, Options, OutputError, Project, Signer, convert as converted,
+    edited, edits, write_file,
 };
 use crate::report::{Accepting, Date, accepting};
 use std::path::{Path, PathBuf};
@@ -156,5 +156,8 @@ fn write(project: &Project, edits: &[Edit]) -> Result<(), u8> {
     let text = std::fs::read_to_string(&path).map_err(|error| fault(error.to_string()))?;
     let entries: &[Entry] = &project.accepted;
     let text = edited(&text, entries, edits).map_err(fault)?;
-    write_file(&path, text.as_bytes(), false).map_err(complain)
+    write_file(&path, text.as_bytes(), false).map_err(|error| match error {
+        OutputError::ReadOnly(_) => fault("is read-only; nothing was written".into()),
+        error => complain(error),
+    })
 }

@@ -215,6 +215,29 @@ fn programs_of_one_file_have_their_own_answers() {
     assert!(summary(&shop).contains("1 accepted, 1 for review"), "{}", summary(&shop));
 }
 
+/// What a reviewer reads in an entry is what was asked: who changes it by hand takes the answer away.
+#[test]
+fn an_entry_that_was_changed_by_hand_answers_nothing() {
+    let shop = accepted();
+    let text = shop.read("macroglot.toml");
+    let asked = text.lines().find(|line| line.starts_with("says = ")).unwrap();
+    for (from, to) in [
+        (asked, "says = \"all is well\""),
+        ("file = \"programs/asks.nc\"", "file = \"programs/clean.nc\""),
+        ("program = \"O2000\"", "program = \"O2001\""),
+        ("code = \"MG0314\"", "code = \"MG0405\""),
+        ("target = \"new\"", "target = \"old\""),
+    ] {
+        shop.write("macroglot.toml", text.replacen(from, to, 1).as_bytes());
+        assert_eq!(summary(&shop), FOR_REVIEW, "{to}");
+    }
+    // Where, by whom and why is for people to say.
+    let own =
+        text.replace("who = \"Ann\"", "who = \"Ann and Bob\"").replace("at = \"line", "at = \"about line");
+    shop.write("macroglot.toml", own.as_bytes());
+    assert_eq!(summary(&shop), ALL_ACCEPTED);
+}
+
 /// A program that asks something else than what was accepted is told nothing of that.
 #[test]
 fn another_question_is_no_stale_answer() {

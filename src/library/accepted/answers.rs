@@ -69,7 +69,7 @@ pub fn answered(asked: &[Asked<'_>], entries: &[Entry], ways: &BTreeSet<[&str; 2
     for one in asked {
         let fit = |question: &Question| {
             let mut entries = about(one, question).into_iter();
-            let found = entries.find(|(_, entry)| *entry.hash.get_ref() == question.hash);
+            let found = entries.find(|(_, entry)| entry.answers(&question.hash, &question.says));
             found.map_or(Fit::Open, |(at, _)| Fit::Accepted(at))
         };
         let found: Vec<Fit> = one.questions.iter().map(fit).collect();
@@ -145,6 +145,11 @@ impl Fit {
 }
 
 impl Entry {
+    /// True if it is about this. What a reviewer reads in it is held to what is asked, too.
+    pub(super) fn answers(&self, hash: &str, says: &str) -> bool {
+        self.hash.get_ref() == hash && self.says.get_ref() == says
+    }
+
     /// What is told where the entry is about another text, or other machines, than the question.
     fn is_stale_for(&self, question: &Question) -> String {
         let (ours, theirs) = (halves(self.hash.get_ref()), halves(&question.hash));

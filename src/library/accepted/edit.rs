@@ -195,3 +195,61 @@ fn header(text: &str, first: usize) -> usize {
 fn line_after(text: &str, at: usize) -> usize {
     text.get(at..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| at + end + 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(file: &str, why: Option<&str>) -> String {
+        let why = why.map(|why| format!("why = {why}\n")).unwrap_or_default();
+        format!(
+            "[[accepted]]\nlibrary = \"l\"\ntarget = \"t\"\nfile = \"{file}\"\ncode = \"MG0405\"\nsays = \"s\"\nat = \"a\"\n\
+             who = \"w\"\nwhen = 2026-11-26\n{why}hash = \"0123456789abcdef-0123456789abcdef\"\n"
+        )
+    }
+
+    fn read(text: &str) -> Vec<Entry> {
+        toml::from_str::<Project>(text).unwrap().accepted
+    }
+
+    /// What looks like a comment, a header or an entry inside of a text is a part of that text.
+    #[test]
+    fn a_text_over_several_lines_goes_with_its_entry() {
+        let why = "'''\n# no comment\n\n[[accepted]]\nwho = \"x\"\n'''";
+        let (first, last) = (entry("a", Some(why)), entry("b", None));
+        let text = format!("# head\n\n{first}\n# about b\n{last}");
+        assert_eq!(
+            edited(&text, &read(&text), &[Edit::Drop(0)]).unwrap(),
+            format!("# head\n\n# about b\n{last}")
+        );
+        assert_eq!(
+            edited(&text, &read(&text), &[Edit::Drop(1)]).unwrap(),
+            format!("# head\n\n{first}\n# about b\n")
+        );
+        let both = edited(&text, &read(&text), &[Edit::Drop(1), Edit::Drop(0)]).unwrap();
+        assert_eq!(both, "# head\n\n# about b\n");
+        let new = read(&entry("a", Some("\"short\""))).remove(0);
+        let renewed = edited(&text, &read(&text), &[Edit::Renew(0, new)]).unwrap();
+        assert_eq!(renewed, text.replace(why, "\"short\""));
+    }
+
+    #[test]
+    fn a_file_that_changed_meanwhile_is_left_alone() {
+        let (text, other) = (entry("a", None), entry("b", None));
+        let why = edited(&text, &read(&other), &[Edit::Drop(0)]).unwrap_err();
+        assert!(why.contains("changed meanwhile"), "{why}");
+        assert!(edited("[[accepted]", &[], &[]).is_err());
+    }
+
+    #[test]
+    fn a_new_entry_goes_beside_those_of_its_file() {
+        let text = format!("{}\n{}\n[checks] # last", entry("a", None), entry("b", None));
+        let new = read(&entry("a", Some("\"more\""))).remove(0);
+        let all = edited(&text, &read(&text), &[Edit::Add(new.clone())]).unwrap();
+        let with = format!("{}\n{}\n", entry("a", None), entry("a", Some("\"more\"")));
+        assert_eq!(all, text.replace(&format!("{}\n", entry("a", None)), &with));
+        // The last line of a file may have no end.
+        let open = edited("[checks] # last", &[], &[Edit::Add(new)]).unwrap();
+        assert_eq!(open, format!("[checks] # last\n\n{}", entry("a", Some("\"more\""))));
+    }
+}

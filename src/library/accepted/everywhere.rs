@@ -75,7 +75,8 @@ impl Answers {
             for ((code, says), _, hash) in of_program(asked, (input, lines), (scopes, scope)) {
                 let (library, code_text) = (self.library.clone(), code.number().to_owned());
                 let key = [library, target.to_owned(), file.clone(), name.clone(), code_text];
-                if let Some(entry) = entries.get(&(key, hash.as_str())) {
+                let entry = entries.get(&(key, hash.as_str()));
+                if let Some(entry) = entry.filter(|entry| entry.answers(&hash, &says)) {
                     all.insert((at, code, says), entry.accepted());
                 }
             }
