@@ -4,6 +4,7 @@ use super::common::{
     control, controls, dialect_of, doubt, endings, meeting, names, own_profile, profile_files, read,
     read_all, read_found,
 };
+use super::reviews::way_of;
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
@@ -33,6 +34,8 @@ pub struct Job {
     pub notes: Vec<String>,
     /// The library and the machine, by their names in the project file; none if it is not of one.
     pub way: Option<[String; 2]>,
+    /// True if all of that library is here, as the project file has it.
+    pub is_whole: bool,
 }
 
 impl Job {
@@ -130,12 +133,14 @@ fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let own = own_profile(wish.from, &inputs)?;
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
     read_too.extend(profile_files(own.iter()));
-    planned(
+    let way = way_of(&inputs, &source, &target);
+    let job = planned(
         (inputs, named, left_out),
         source,
         target,
         wish.out.map(|folder| hold(folder).map(|held| (folder, held))).transpose()?,
-    )
+    )?;
+    Ok(Job { way, ..job })
 }
 
 /// The programs with the rest of their library, and which of them were named. A file that stands in the library has its name
@@ -221,7 +226,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
         let named = vec![true; inputs.len()];
         let names = Some([way.name.to_owned(), way.machine.to_owned()]);
         let job = planned((inputs, named, left_out), way.source, way.target, out)?;
-        Ok(Job { way: names, ..job })
+        Ok(Job { way: names, is_whole: true, ..job })
     });
     planned.collect()
 }
@@ -287,7 +292,7 @@ fn planned(
         None => (None, fresh),
     };
     let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, named, left_out, source, target, out, lock, notes, way: None })
+    Ok(Job { inputs, named, left_out, source, target, out, lock, notes, way: None, is_whole: false })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

@@ -215,6 +215,35 @@ fn programs_of_one_file_have_their_own_answers() {
     assert!(summary(&shop).contains("1 accepted, 1 for review"), "{}", summary(&shop));
 }
 
+/// Files that are named by hand are of the project if they go where it goes.
+#[test]
+fn files_that_are_named_are_of_their_project() {
+    let shop = accepted();
+    let of = |line: &str| {
+        let run = shop.run(&format!("convert {line} --no-verify --out by-hand"));
+        assert!(
+            !run.err.contains("[[accepted]]") && !run.out.contains("It was accepted"),
+            "{}{}",
+            run.out,
+            run.err
+        );
+        run.out.lines().last().unwrap_or_default().to_owned()
+    };
+    assert_eq!(of("programs --to haas --machine new.toml"), ALL_ACCEPTED);
+    let one = of("programs/asks.nc --library programs --to haas --machine new.toml");
+    assert!(one.contains("0 converted, 1 accepted, 0 for review"), "{one}");
+    // What it calls is not here; another machine.
+    assert!(of("programs/asks.nc --to haas --machine new.toml").contains("1 for review"));
+    assert!(of("programs --to haas").contains("1 for review"));
+    // Nothing is looked up in a project file that cannot be read.
+    let text = shop.read("macroglot.toml");
+    shop.write("macroglot.toml", text.replacen("who = \"Ann\"", "who = 1", 1).as_bytes());
+    assert!(of("programs --from fanuc --to haas --machine new.toml").contains("1 for review"));
+    shop.write("macroglot.toml", text.as_bytes());
+    shop.write("other.toml", format!("{NEW}units = \"inch\"\n").as_bytes());
+    assert!(of("programs --to haas --machine other.toml").contains("1 for review"));
+}
+
 /// What a reviewer reads in an entry is what was asked: who changes it by hand takes the answer away.
 #[test]
 fn an_entry_that_was_changed_by_hand_answers_nothing() {
