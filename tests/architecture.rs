@@ -88,6 +88,7 @@ const OTHER_SIGNS: &[(&str, &str)] = &[
     ("src/legalize/operator/questions.rs", "signs of texts that formatted output reads as something else"),
     ("src/verify/compare/letters.rs", "letters of texts, as operators read them"),
     ("src/verify/compare/texts.rs", "signs of texts that read alike"),
+    ("src/library/accepted/edit.rs", "the sign of a comment in a project file"),
     ("src/report/markdown.rs", "the sign of a heading"),
     ("src/report/html/mod.rs", "a number of a character, and the sign of a link in a page"),
     ("src/report/plot.rs", "colours"),

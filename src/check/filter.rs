@@ -106,7 +106,7 @@ impl Allowed {
     }
 }
 
-/// A finding that the project file allows.
+/// A finding that the project file allows, or that somebody accepted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suppressed {
     /// The finding.
@@ -119,6 +119,10 @@ pub struct Suppressed {
 pub fn allow(found: Vec<Finding>, allowed: &[Allowed]) -> (Vec<Finding>, Vec<Suppressed>) {
     let (mut open, mut suppressed) = (Vec::new(), Vec::new());
     for finding in found {
+        if let Some(reason) = finding.accepted.clone() {
+            suppressed.push(Suppressed { finding, reason });
+            continue;
+        }
         match allowed.iter().find(|allowed| allowed.covers(&finding)) {
             Some(by) => suppressed.push(Suppressed { finding, reason: by.reason.clone() }),
             None => open.push(finding),

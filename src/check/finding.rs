@@ -36,6 +36,9 @@ pub struct Finding {
     pub help: Option<String>,
     /// What stays the same when other lines change: the code, the file, the line's text, and which one of several.
     pub fingerprint: String,
+    /// By whom it was accepted, when and why, if it was.
+    #[serde(skip)]
+    pub accepted: Option<String>,
 }
 
 impl Finding {
@@ -51,6 +54,7 @@ impl Finding {
             message,
             help: Some(help),
             fingerprint: String::new(),
+            accepted: None,
         }
     }
 }
@@ -115,6 +119,7 @@ impl<'a> Pages<'a> {
             message,
             help,
             fingerprint: String::new(),
+            accepted: None,
         }
     }
 }

@@ -20,7 +20,7 @@ pub use filter::{Allowed, Selection, Suppressed};
 pub use finding::Finding;
 
 use crate::dialect::Control;
-use crate::library::{Input, understood};
+use crate::library::{Answers, Input, OfPrograms, understood};
 use crate::verify::Effort;
 use finding::Pages;
 use std::path::{Path, PathBuf};
@@ -39,6 +39,8 @@ pub struct Shelf {
     pub rounds: Vec<(String, Control)>,
     /// Where its conversions stand.
     pub outputs: Vec<Output>,
+    /// What somebody accepted of it; none if it is of no project.
+    pub answers: Option<Answers>,
 }
 
 /// A folder of conversions.
@@ -135,7 +137,10 @@ fn of_shelf(shelf: &Shelf, request: &Request<'_>, checked: &mut Checked) -> Vec<
     if is(Part::Read) || is(Part::Lint) || is(Part::Round) {
         let library = understood(&shelf.inputs, &shelf.control);
         if is(Part::Read) {
-            found.extend(understood::findings(shelf, &library, &pages));
+            let answers = shelf.answers.as_ref();
+            let accepted = answers.map(|answers| answers.everywhere(&library, &shelf.inputs, &shelf.control));
+            let accepted: OfPrograms = accepted.unwrap_or_default();
+            found.extend(understood::findings(shelf, &library, &accepted, &pages));
         }
         if is(Part::Lint) {
             let wanted = |code| request.selection.wants(code);

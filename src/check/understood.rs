@@ -2,11 +2,12 @@
 
 use super::Shelf;
 use super::finding::{Finding, Pages};
-use crate::diag::{Code, Severity};
-use crate::library::Understood;
+use crate::diag::{Accepted, Code, Severity};
+use crate::library::{OfPrograms, Understood};
 use crate::syntax::parse_totals;
 use crate::text::Span;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What reading and lowering tell of the source itself, beside errors and what the text alone shows. The other questions
 /// of lowering are about a conversion.
@@ -15,6 +16,9 @@ const OF_THE_SOURCE: &[Code] =
 
 /// What the first of all sections has codes for: what the text alone shows.
 const OF_THE_TEXT: &str = "MG01";
+
+/// What makes several findings of a file one: the file, the code, what is said, and by whom it was accepted.
+type Told<'a> = (usize, Code, &'a str, Option<&'a Accepted>);
 
 /// By file, true where every program of it is understood.
 pub fn sound(library: &Understood, files: usize) -> Vec<bool> {
@@ -30,11 +34,16 @@ pub fn is_of_source(code: Code) -> bool {
     ["MG01", "MG03"].iter().any(|section| code.number().starts_with(section)) || OF_THE_SOURCE.contains(&code)
 }
 
-/// The findings of the files that are looked at.
-pub fn findings(shelf: &Shelf, library: &Understood, pages: &Pages<'_>) -> Vec<Finding> {
+/// The findings of the files that are looked at; those that somebody `accepted` say so.
+pub fn findings(
+    shelf: &Shelf,
+    library: &Understood,
+    accepted: &OfPrograms,
+    pages: &Pages<'_>,
+) -> Vec<Finding> {
     let mut found = Vec::new();
-    let mut told: BTreeMap<(usize, Code, &str), (usize, usize)> = BTreeMap::new();
-    for (program, diagnostics) in library.module.programs.iter().zip(&library.found) {
+    let mut told: BTreeMap<Told<'_>, (usize, usize)> = BTreeMap::new();
+    for (at, (program, diagnostics)) in library.module.programs.iter().zip(&library.found).enumerate() {
         if !shelf.wanted[program.file] {
             continue;
         }
@@ -45,11 +54,13 @@ pub fn findings(shelf: &Shelf, library: &Understood, pages: &Pages<'_>) -> Vec<F
         };
         for diagnostic in diagnostics.iter().filter(|diagnostic| is_one(diagnostic.code)) {
             // What a file says at many places is told at the first.
-            let key = (program.file, diagnostic.code, &*diagnostic.message);
+            let by = accepted.get(&(at, diagnostic.code, Arc::clone(&diagnostic.message)));
+            let key = (program.file, diagnostic.code, &*diagnostic.message, by);
             let (_, more) = told.entry(key).or_insert((found.len(), 0));
             *more += 1;
             if *more == 1 {
-                found.push(pages.finding(program.file, diagnostic));
+                let by = by.map(ToString::to_string);
+                found.push(Finding { accepted: by, ..pages.finding(program.file, diagnostic) });
             }
         }
     }

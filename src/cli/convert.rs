@@ -1,7 +1,7 @@
 //! `macroglot convert PATH...`.
 
 use super::jobs::{Job, Wish, jobs};
-use super::{FOUND, WELL, common, outcome, streams};
+use super::{FOUND, WELL, common, outcome, reviews, streams};
 use crate::library::{Certificates, Conversion, Options, Outcome, ProgramReport, convert, judge_telling};
 use crate::opt::Level;
 use crate::report::{self, Part};
@@ -84,7 +84,7 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
         library: &arguments.library,
     })?;
     outcome::check_reports(&arguments.report, &jobs, &read)?;
-    let level = [Level::O0, Level::O1, Level::O2][usize::from(arguments.optimize.min(2))];
+    let level = level(arguments.optimize);
     let options = Options { level, draft: arguments.draft, marks: true };
     let files: usize = jobs.iter().map(|job| job.inputs.len()).sum();
     // On a thread of the pool, whose other work then takes up the memory that a pass gives back.
@@ -93,7 +93,12 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock(arguments.prune), options);
         rayon::scope(|_| jobs.iter().map(made).collect())
     });
-    let certificates = verified(arguments, &jobs, &mut conversions);
+    let is_verified = arguments.verify || !arguments.no_verify;
+    let certificates = match is_verified {
+        true => verified(&arguments.time, &jobs, &mut conversions),
+        false => Vec::new(),
+    };
+    reviews::apply(&jobs, &mut conversions, is_verified)?;
     jobs.iter().zip(&conversions).for_each(|(job, conversion)| outcome::tell_of_library(job, conversion));
     let (mut changes, mut folders) = (Vec::new(), Vec::new());
     for (at, (job, conversion)) in jobs.iter().zip(&conversions).enumerate() {
@@ -141,15 +146,21 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
     Ok(if refused { FOUND } else { WELL })
 }
 
-/// The certificates of every job's files, unless they are not wanted; the outcomes then rest on them.
-fn verified(arguments: &Arguments, jobs: &[Job], conversions: &mut [Conversion]) -> Vec<Certificates> {
-    if arguments.no_verify && !arguments.verify {
-        return Vec::new();
-    }
+/// How much is optimized.
+pub(super) fn level(named: u8) -> Level {
+    [Level::O0, Level::O1, Level::O2][usize::from(named.min(2))]
+}
+
+/// The certificates of every job's files; the outcomes then rest on them.
+pub(super) fn verified(
+    time: &common::Time,
+    jobs: &[Job],
+    conversions: &mut [Conversion],
+) -> Vec<Certificates> {
     let open = |program: &&ProgramReport| program.outcome != Outcome::Refused;
     let all = conversions.iter().map(|conversion| conversion.programs.iter().filter(open).count()).sum();
     common::with_progress("verifying", all, |done| {
-        let effort = common::effort(&arguments.time);
+        let effort = common::effort(time);
         let judged = jobs.iter().zip(conversions).map(|(job, conversion)| {
             match job.source.is_same_machine(&job.target) {
                 // A program that stays on its machine is copied, byte for byte.

@@ -4,6 +4,7 @@ use super::common::{
     control, controls, dialect_of, doubt, endings, meeting, names, own_profile, profile_files, read,
     read_all, read_found,
 };
+use super::reviews::way_of;
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
@@ -31,6 +32,10 @@ pub struct Job {
     pub lock: Lock,
     /// What was said of the programs as a whole.
     pub notes: Vec<String>,
+    /// The library and the machine, by their names in the project file; none if it is not of one.
+    pub way: Option<[String; 2]>,
+    /// True if all of that library is here, as the project file has it.
+    pub is_whole: bool,
 }
 
 impl Job {
@@ -128,12 +133,14 @@ fn of_paths(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Job, u8> {
     let own = own_profile(wish.from, &inputs)?;
     let (source, target) = controls(&from, to, wish.machines, own.as_deref())?;
     read_too.extend(profile_files(own.iter()));
-    planned(
+    let way = way_of(&inputs, &source, &target);
+    let job = planned(
         (inputs, named, left_out),
         source,
         target,
         wish.out.map(|folder| hold(folder).map(|held| (folder, held))).transpose()?,
-    )
+    )?;
+    Ok(Job { way, ..job })
 }
 
 /// The programs with the rest of their library, and which of them were named. A file that stands in the library has its name
@@ -171,6 +178,7 @@ struct Way<'p> {
     target: Control,
     folder: PathBuf,
     name: &'p str,
+    machine: &'p str,
 }
 
 /// One job for each library and target of the project file.
@@ -203,7 +211,7 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
                 for programs in library.folders(|path| short(&project.root.join(path)), &endings()) {
                     let (source, target) = (source.clone(), target.clone());
                     let folder = folder.join(&programs.name);
-                    ways.push(Way { programs, source, target, folder, name });
+                    ways.push(Way { programs, source, target, folder, name, machine });
                 }
             }
         }
@@ -216,7 +224,9 @@ fn of_project(wish: &Wish<'_>, read_too: &mut Vec<PathBuf>) -> Result<Vec<Job>, 
         let out = held.remove(&way.folder).map(|held| (way.folder.as_path(), held));
         let (inputs, left_out) = read_found(way.programs.read(&way.source).0)?;
         let named = vec![true; inputs.len()];
-        planned((inputs, named, left_out), way.source, way.target, out)
+        let names = Some([way.name.to_owned(), way.machine.to_owned()]);
+        let job = planned((inputs, named, left_out), way.source, way.target, out)?;
+        Ok(Job { way: names, is_whole: true, ..job })
     });
     planned.collect()
 }
@@ -282,7 +292,7 @@ fn planned(
         None => (None, fresh),
     };
     let notes = doubt(source.name(), &inputs).into_iter().collect();
-    Ok(Job { inputs, named, left_out, source, target, out, lock, notes })
+    Ok(Job { inputs, named, left_out, source, target, out, lock, notes, way: None, is_whole: false })
 }
 
 /// A path as it is seen from the current folder, where it lies under that.

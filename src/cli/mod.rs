@@ -4,6 +4,7 @@
 //! (on a terminal only), summaries and diagnostics. Exit codes: 0 all well; 1 something was
 //! refused, differs or fails the check; 2 wrong usage or unreadable input.
 
+mod accept;
 mod check;
 mod common;
 mod completions;
@@ -18,6 +19,7 @@ mod man;
 mod outcome;
 mod pager;
 mod parse;
+mod reviews;
 mod run;
 mod shelves;
 mod streams;
@@ -41,6 +43,8 @@ enum Command {
     Survey(survey::Arguments),
     /// Convert programs, whole folders at once, for another control
     Convert(convert::Arguments),
+    /// Accept what a conversion asks of a person, so that it is not asked again before it changes
+    Accept(accept::Arguments),
     /// Check programs before they are committed: read, lint, round trips, fresh conversions
     Check(check::Arguments),
     /// Read programs, count their blocks and check that nothing is lost
@@ -87,6 +91,7 @@ pub fn main() -> ExitCode {
     let code = match cli.command {
         Command::Survey(arguments) => survey::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Accept(arguments) => accept::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Parse(arguments) => parse::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),

@@ -5,7 +5,7 @@ use super::jobs::short;
 use super::streams::{complain, remark};
 use crate::check::{Output, Shelf};
 use crate::dialect::{Control, registry};
-use crate::library::{Checks, Folder, Input, Library, Lock, Manifest, Project, profiles_of};
+use crate::library::{Answers, Checks, Folder, Input, Library, Lock, Manifest, Project, profiles_of};
 use std::path::{Path, PathBuf};
 
 /// What arguments say of the libraries.
@@ -77,6 +77,7 @@ fn of_paths(asked: &Asked<'_>) -> Result<Shelves, u8> {
         control: home,
         rounds,
         outputs: Vec::new(),
+        answers: None,
     };
     Ok(Shelves {
         shelves: vec![shelf],
@@ -94,7 +95,7 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
     });
     let wanted: Vec<PathBuf> = wanted.collect::<Result<_, u8>>()?;
     let mut shelves = Vec::new();
-    for library in project.libraries.values() {
+    for (name, library) in &project.libraries {
         // A shared program is looked at with the first folder that has it.
         for (at, programs) in
             library.folders(|path| short(&project.root.join(path)), &endings()).into_iter().enumerate()
@@ -102,7 +103,7 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
             let targets =
                 library.targets.iter().map(|(to, folder)| (to.clone(), folder.join(&programs.name)));
             let own = Library { targets: targets.collect(), ..library.clone() };
-            shelves.extend(of_folder(asked, project, &own, (programs, at == 0), &wanted)?);
+            shelves.extend(of_folder(asked, project, (name, &own), (programs, at == 0), &wanted)?);
         }
     }
     let none = asked.paths.is_empty() && shelves.is_empty();
@@ -122,7 +123,7 @@ fn of_project(asked: &Asked<'_>, project: &Project) -> Result<Shelves, u8> {
 fn of_folder(
     asked: &Asked<'_>,
     project: &Project,
-    library: &Library,
+    (name, library): (&str, &Library),
     (programs, is_first): (Folder, bool),
     wanted: &[PathBuf],
 ) -> Result<Option<Shelf>, u8> {
@@ -174,13 +175,17 @@ fn of_folder(
             rounds.push((name, away));
         }
     }
+    let mut targets = Vec::new();
     let outputs = library.targets.iter().map(|(name, folder)| {
         let target = machine(project, name)?;
         let profiles = profiles_of(&control, &target);
+        targets.push((name.clone(), target));
         Ok(Output { machine: name.clone(), folder: short(&project.root.join(folder)), profiles })
     });
     let outputs = outputs.collect::<Result<Vec<_>, u8>>()?;
-    Ok(Some(Shelf { inputs, wanted, whole, control, rounds, outputs }))
+    let (entries, root) = (project.accepted.clone(), project.root.clone());
+    let answers = Answers { library: name.to_owned(), entries, targets, root };
+    Ok(Some(Shelf { inputs, wanted, whole, control, rounds, outputs, answers: Some(answers) }))
 }
 
 /// The files that all programs of a library hang on: the project file, the profiles of its machines, and what macroglot

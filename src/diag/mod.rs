@@ -20,6 +20,25 @@ pub enum Severity {
     Error,
 }
 
+/// That a person looked at what a diagnostic asks, and found it to be as it should.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub struct Accepted {
+    /// Who.
+    pub who: String,
+    /// The day, as `2026-11-26`.
+    pub when: String,
+    /// Why, if that was said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+impl std::fmt::Display for Accepted {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "accepted by {} on {}", self.who, self.when)?;
+        self.why.as_ref().map_or(Ok(()), |why| write!(f, ": {why}"))
+    }
+}
+
 /// One finding, at a place of one source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
@@ -38,12 +57,23 @@ pub struct Diagnostic {
     pub asks: Option<(char, f64)>,
     /// True for what a person decides once for the library and its machines: a program has a note of it.
     pub once: bool,
+    /// Who accepted it, if somebody did: it asks nothing then.
+    pub accepted: Option<Arc<Accepted>>,
 }
 
 impl Diagnostic {
     /// A finding without a help text of its own.
     pub fn new(code: Code, span: Span, message: impl Into<Arc<str>>) -> Self {
-        Self { code, span, message: message.into(), help: None, assumes: None, asks: None, once: false }
+        Self {
+            code,
+            span,
+            message: message.into(),
+            help: None,
+            assumes: None,
+            asks: None,
+            once: false,
+            accepted: None,
+        }
     }
 
     /// Adds what to do about it.
@@ -103,10 +133,13 @@ impl Diagnostic {
         self.code.severity()
     }
 
-    /// How grave it is for the program that it is found in. What is asked of the library or of a machine is a note there.
+    /// How grave it is for the program that it is found in. What is asked of the library or of a machine is a note
+    /// there, and so is what was accepted.
     pub fn in_program(&self) -> Severity {
         match self.severity() {
-            Severity::Review if self.once || self.code.is_of_machine() => Severity::Note,
+            Severity::Review if self.accepted.is_some() || self.once || self.code.is_of_machine() => {
+                Severity::Note
+            }
             severity => severity,
         }
     }

@@ -21,6 +21,8 @@ use crate::verify;
 pub enum Outcome {
     /// It does the same on the target, by all that is known.
     Converted,
+    /// It does the same if what its diagnostics name is so, and a person has accepted each of them.
+    Accepted,
     /// It does the same if what the diagnostics name is so: a person must look.
     Review,
     /// It has no runnable conversion.

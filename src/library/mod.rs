@@ -4,6 +4,7 @@
 //! and converted as a whole: one map of variables and program numbers for all
 //! of it, kept in `macroglot.lock` so that the next run makes the same choices.
 
+mod accepted;
 mod callees;
 mod chunks;
 mod compile;
@@ -32,6 +33,10 @@ mod verified;
 mod walk;
 mod withdrawn;
 
+pub use accepted::{
+    Answered, Answers, Asked, Chosen, Edit, Entry, Fit, OfPrograms, Question, Scopes, Signer, acceptable,
+    answered, edited, edits, questions,
+};
 pub use callees::linked_files;
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome};
 pub use detect::{Detected, detect, likeness, looks_like};

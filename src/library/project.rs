@@ -1,6 +1,7 @@
 //! `macroglot.toml`: a shop's libraries and machines, so that `convert` and `check`
 //! need no flags in its repository.
 
+use super::accepted::{Entry, seen_from};
 use crate::dialect::registry;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -19,6 +20,9 @@ pub struct Project {
     /// What `macroglot check` looks at.
     #[serde(default)]
     pub checks: Checks,
+    /// Reviews that somebody accepted.
+    #[serde(default)]
+    pub accepted: Vec<Entry>,
     /// The folder that the file lies in; all its paths count from here.
     #[serde(skip)]
     pub root: PathBuf,
@@ -113,10 +117,12 @@ impl Project {
         };
         let fault = |line, message: String| ProjectError { path: path.clone(), line, message };
         let text = std::fs::read_to_string(&path).map_err(|error| fault(None, error.to_string()))?;
-        let mut project: Self = toml::from_str(&text).map_err(|error| {
-            let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
-            fault(line, error.message().to_string())
-        })?;
+        let line = |at: usize| 1 + text.as_bytes().iter().take(at).filter(|byte| **byte == b'\n').count();
+        let mut project: Self = toml::from_str(&text)
+            .map_err(|error| fault(error.span().map(|span| line(span.start)), error.message().to_string()))?;
+        if let Some((at, why)) = project.accepted.iter().find_map(Entry::fault) {
+            return Err(fault(Some(line(at)), format!("[[accepted]]: {why}")));
+        }
         for (name, library) in &project.libraries {
             for machine in std::iter::once(&library.machine).chain(library.targets.keys()) {
                 if !project.machines.contains_key(machine) {
@@ -135,6 +141,11 @@ impl Project {
         }
         project.root = path.parent().map(Path::to_owned).unwrap_or_default();
         Ok(Some(project))
+    }
+
+    /// A file or folder as entries of the project file name it: seen from its folder, with `/` between parts.
+    pub fn place_of(&self, path: &Path) -> String {
+        seen_from(path, &self.root)
     }
 
     /// The machine of this name; or, for the name of a dialect, the first one of it that has a profile, a plain one if

@@ -26,6 +26,7 @@ pub fn asked(questions: &Questions<'_>, all_by: &str) -> String {
         );
     }
     questions.machines.iter().for_each(|machine| profile(&mut out, machine));
+    accepted(&mut out, questions);
     match questions.notes {
         0 => {}
         1 => _ = writeln!(out, "\n1 note, which asks nothing; {all_by} it"),
@@ -46,6 +47,18 @@ fn by_code(out: &mut String, questions: &[Question<'_>], all_by: &str) {
             1 => _ = writeln!(out, "  and one more, in one program; {all_by} it"),
             more => _ = writeln!(out, "  and {more} more, each in one program; {all_by} them"),
         }
+    }
+}
+
+/// What somebody accepted: by whom, and where.
+fn accepted(out: &mut String, questions: &Questions<'_>) {
+    if !questions.accepted.is_empty() {
+        out.push_str("\nAccepted, and not asked again before it changes:\n");
+    }
+    for (accepted, question) in &questions.accepted {
+        let (code, accepted) = (question.code.number(), accepted.to_string());
+        let _ = writeln!(out, "  {code}, {}: {}", stands(question), shown(&accepted));
+        let _ = writeln!(out, "      {}", shown(question.text));
     }
 }
 

@@ -19,6 +19,13 @@ impl Date {
     }
 }
 
+impl Date {
+    /// The day, as `2026-11-26`.
+    pub fn day(self) -> String {
+        self.to_string().chars().take(10).collect()
+    }
+}
+
 impl fmt::Display for Date {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let seconds = self.0.min(LAST);

@@ -6,7 +6,7 @@
 
 use super::questions::{Machine, Question, Questions};
 use super::{Part, Totals};
-use crate::diag::{Code, Severity};
+use crate::diag::{Accepted, Code, Severity};
 use crate::library::{Input, LeftOut, Outcome, ProgramReport, Told};
 use crate::text::{LineIndex, Texts, write_json_pretty};
 use crate::verify;
@@ -102,6 +102,8 @@ struct Finding<'a> {
     message: &'a RawValue,
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<&'a RawValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accepted: Option<&'a Accepted>,
 }
 
 /// The conversions as JSON text.
@@ -195,6 +197,7 @@ fn findings<'a, S: Serializer>(
             column,
             message: &message,
             help: help.as_deref(),
+            accepted: d.accepted.as_deref(),
         })?;
     }
     all.end()

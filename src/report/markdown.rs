@@ -36,7 +36,9 @@ pub fn conversion(parts: &[Part<'_>]) -> String {
             out.line(&escaped(note));
         }
     }
-    asked(&mut out, &Questions::of(parts));
+    let questions = Questions::of(parts);
+    asked(&mut out, &questions);
+    accepted(&mut out, &questions);
     programs(&mut out, parts);
     out.end()
 }
@@ -83,6 +85,20 @@ fn item(question: &Question<'_>) -> String {
         escaped(&text),
         question.programs
     )
+}
+
+/// What somebody accepted.
+fn accepted(out: &mut Sheet, questions: &Questions<'_>) {
+    if questions.accepted.is_empty() {
+        return;
+    }
+    out.line("");
+    out.line("## Accepted");
+    out.line("");
+    for (accepted, question) in &questions.accepted {
+        out.line(&format!("- {}", item(question)));
+        out.line(&format!("  {}", escaped(&accepted.to_string())));
+    }
 }
 
 /// A table of all programs.

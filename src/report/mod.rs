@@ -1,5 +1,6 @@
 //! What people and programs are told: one renderer a format, one file each.
 
+mod accepting;
 mod asked;
 mod certificate;
 pub mod check;
@@ -17,6 +18,7 @@ mod text;
 mod totals;
 mod trace;
 
+pub use accepting::{Accepting, accepting};
 pub use asked::asked;
 pub use certificate::certificate;
 pub use date::Date;
@@ -39,6 +41,7 @@ use crate::library::Outcome;
 fn words(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Converted => "converted",
+        Outcome::Accepted => "accepted",
         Outcome::Review => "for review",
         Outcome::Refused => "refused",
     }

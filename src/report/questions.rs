@@ -5,7 +5,7 @@
 
 use super::Part;
 use crate::assume::Predicate;
-use crate::diag::{Code, Diagnostic, Severity};
+use crate::diag::{Accepted, Code, Diagnostic, Severity};
 use crate::dialect::{Control, Settled, Side};
 use crate::text::LineIndex;
 use std::collections::{BTreeMap, BTreeSet};
@@ -76,6 +76,8 @@ pub struct Questions<'a> {
     pub open: Vec<Question<'a>>,
     /// What the profiles of machines can settle.
     pub machines: Vec<Machine<'a>>,
+    /// What somebody accepted: by who, when and why, and by code.
+    pub accepted: Vec<(&'a Accepted, Question<'a>)>,
     /// How many notes there are, which ask nothing.
     pub notes: usize,
 }
@@ -147,13 +149,14 @@ impl<'a> Questions<'a> {
             let Gathered { finding, programs, places, line, spots } = gathered;
             let (text, help) = (&*finding.message, finding.help.as_deref());
             let (code, programs, danger) = (key.code, programs.len(), danger(finding));
-            let once = finding.in_program() == Severity::Note;
+            let once = finding.once;
             let asked = Question { code, text, help, programs, places, line, spots, danger, once };
-            match key.settled {
-                Some((machine, settled_by)) => {
+            match (key.settled, key.accepted) {
+                (_, Some(accepted)) => questions.accepted.push((accepted, asked)),
+                (Some((machine, settled_by)), None) => {
                     questions.machines[machine].facts.push(Fact { settled_by, asked });
                 }
-                None => questions.open.push(asked),
+                (None, None) => questions.open.push(asked),
             }
         }
         let order = |question: &Question<'_>| {
@@ -181,6 +184,8 @@ struct Key<'a> {
     code: Code,
     /// The machine, by its place in the list, and what its profile says.
     settled: Option<(usize, Settled)>,
+    /// Who accepted it.
+    accepted: Option<&'a Accepted>,
     /// What it says, and what to do; one fact has other words on either side of a conversion.
     says: Option<(&'a str, Option<&'a str>)>,
 }
@@ -196,7 +201,8 @@ fn key<'a>(finding: &'a Diagnostic, part: &Part<'a>, controls: &mut Vec<&'a Cont
         (at, settled)
     });
     let says = settled.is_none().then(|| (&*finding.message, finding.help.as_deref()));
-    Key { severity: std::cmp::Reverse(finding.severity()), code, settled, says }
+    let accepted = finding.accepted.as_deref();
+    Key { severity: std::cmp::Reverse(finding.severity()), code, settled, accepted, says }
 }
 
 /// The machine whose profile settles a finding, and by what.

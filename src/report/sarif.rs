@@ -64,18 +64,28 @@ pub(super) fn rules() -> Vec<Value> {
 
 fn results<S: Serializer>(parts: &[Part<'_>], serializer: S) -> Result<S::Ok, S::Error> {
     let mut out = serializer.serialize_seq(None)?;
+    // All results of a run say whether they are suppressed, or none does.
+    let mut all = parts.iter().flat_map(Part::programs).flat_map(|(_, program)| &program.diagnostics);
+    let any_accepted = all.any(|finding| finding.accepted.is_some());
     for part in parts {
         let any = part.programs().any(|(_, program)| !program.diagnostics.is_empty());
         let controls = (part.controls[0], part.controls[1]);
         let read = any.then(|| {
-            with_pairs(part.inputs, part.conversion, controls, |pairs| of_part(part, Some(pairs), &mut out))
+            with_pairs(part.inputs, part.conversion, controls, |pairs| {
+                of_part(part, Some(pairs), any_accepted, &mut out)
+            })
         });
-        read.flatten().unwrap_or_else(|| of_part(part, None, &mut out))?;
+        read.flatten().unwrap_or_else(|| of_part(part, None, any_accepted, &mut out))?;
     }
     out.end()
 }
 
-fn of_part<S: SerializeSeq>(part: &Part<'_>, pairs: Option<&Pairs<'_>>, out: &mut S) -> Result<(), S::Error> {
+fn of_part<S: SerializeSeq>(
+    part: &Part<'_>,
+    pairs: Option<&Pairs<'_>>,
+    any_accepted: bool,
+    out: &mut S,
+) -> Result<(), S::Error> {
     let indexes: Vec<CodePoints> = part.inputs.iter().map(|input| CodePoints::new(&input.bytes)).collect();
     let lines = part.indexes();
     let mut links: HashMap<usize, Vec<&Link>> = HashMap::new();
@@ -110,6 +120,11 @@ fn of_part<S: SerializeSeq>(part: &Part<'_>, pairs: Option<&Pairs<'_>>, out: &mu
             let steps: Vec<Value> = ways.from(d).iter().map(step).collect();
             if !steps.is_empty() {
                 result["codeFlows"] = json!([{ "threadFlows": [{ "locations": steps }] }]);
+            }
+            if any_accepted {
+                result["suppressions"] = d.accepted.as_ref().map_or(json!([]), |accepted| {
+                    json!([{ "kind": "external", "status": "accepted", "justification": accepted.to_string() }])
+                });
             }
             out.serialize_element(&result)?;
         }

@@ -155,8 +155,11 @@ impl<'b> Sheet<'b> {
             .with_code(diagnostic.code.number())
             .with_severity(severity)
             .with_label(LabeledSpan::new(Some(shown(&diagnostic.message).into()), start, end - start));
-        if let Some(help) = &diagnostic.help {
-            drawn = drawn.with_help(shown_lines(help));
+        let accepted = diagnostic.accepted.as_ref().map(|accepted| shown(&accepted.to_string()).into_owned());
+        // Who has looked knows what to do about it.
+        let help = diagnostic.help.as_ref().map(|help| shown_lines(help).into_owned());
+        if let Some(help) = accepted.or(help) {
+            drawn = drawn.with_help(help);
         }
         let report = Report::new(drawn).with_source_code(self.about(start, end));
         let mut out = String::new();
@@ -245,6 +248,7 @@ fn list(out: &mut String, part: &Part<'_>) {
     for (_, program) in part.programs() {
         let outcome = match program.outcome {
             Outcome::Converted => "converted",
+            Outcome::Accepted => "accepted",
             Outcome::Review => "review",
             Outcome::Refused => "REFUSED",
         };

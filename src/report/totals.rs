@@ -15,6 +15,8 @@ pub struct Totals {
     pub programs: usize,
     /// Programs that do the same by all that is known.
     pub converted: usize,
+    /// Programs of which a person has accepted all that must hold.
+    pub accepted: usize,
     /// Programs that a person must look at.
     pub review: usize,
     /// Programs without a conversion.
@@ -39,6 +41,7 @@ impl Totals {
                 totals.programs += 1;
                 *match program.outcome {
                     Outcome::Converted => &mut totals.converted,
+                    Outcome::Accepted => &mut totals.accepted,
                     Outcome::Review => &mut totals.review,
                     Outcome::Refused => &mut totals.refused,
                 } += 1;
@@ -58,9 +61,24 @@ impl Totals {
 
 impl std::fmt::Display for Totals {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { files, programs, converted, review, refused, verified, undecided, different, .. } = self;
+        let Self {
+            files,
+            programs,
+            converted,
+            accepted,
+            review,
+            refused,
+            verified,
+            undecided,
+            different,
+            ..
+        } = self;
         let (program, file) = (plural(*programs, "program"), plural(*files, "file"));
-        write!(f, "{program} in {file}: {converted} converted, {review} for review, {refused} refused")?;
+        write!(f, "{program} in {file}: {converted} converted, ")?;
+        if *accepted > 0 {
+            write!(f, "{accepted} accepted, ")?;
+        }
+        write!(f, "{review} for review, {refused} refused")?;
         if verified + undecided + different > 0 {
             write!(f, "; {verified} verified, {undecided} undecided, {different} different")?;
         }

@@ -2,9 +2,10 @@
 
 use super::Shop;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "survey",
     "convert",
+    "accept",
     "check",
     "parse",
     "verify",

@@ -1,6 +1,7 @@
 //! The command line, as a user meets it: one module a matter.
 #![allow(missing_docs)]
 
+mod accepting;
 mod builders;
 mod callees;
 mod check;

@@ -11,7 +11,9 @@ pub fn check(checked: &Checked) -> String {
     let open = checked.findings.iter().map(result);
     let suppressed = checked.suppressed.iter().map(|suppressed| {
         let mut value = result(&suppressed.finding);
-        value["suppressions"] = json!([{ "kind": "external", "justification": suppressed.reason }]);
+        value["suppressions"] = json!([{
+            "kind": "external", "status": "accepted", "justification": suppressed.reason,
+        }]);
         value
     });
     let log = json!({

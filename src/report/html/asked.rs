@@ -3,7 +3,7 @@
 use super::super::questions::{Fact, Question, Questions};
 use super::super::{Part, grade};
 use super::{Numbers, code, escaped, first, id, link, plural, ticked};
-use crate::diag::Severity;
+use crate::diag::{Accepted, Severity};
 use crate::dialect::Settled;
 use std::fmt::Write;
 
@@ -56,6 +56,13 @@ pub fn questions(out: &mut String, parts: &[Part<'_>], numbers: &Numbers) {
         out.push_str("<h3>Why programs were refused</h3>\n<p class=\"small\">Nothing that can be run was written for them.</p>\n");
         refused.iter().for_each(|question| asker.ask(out, question, None));
     }
+    if !questions.accepted.is_empty() {
+        out.push_str(
+            "<h3 id=\"accepted\">Accepted</h3>\n<p class=\"small\">These were answered before, and stand in the project file. What they \
+             concern has not changed since.</p>\n",
+        );
+        questions.accepted.iter().for_each(|(accepted, question)| asker.accepted(out, accepted, question));
+    }
     match questions.notes {
         0 => {}
         notes => {
@@ -106,6 +113,22 @@ impl Asker<'_> {
             );
         }
         out.push_str("</div>\n");
+    }
+
+    /// A question that somebody has answered.
+    fn accepted(&mut self, out: &mut String, accepted: &Accepted, question: &Question<'_>) {
+        let number = self.next;
+        self.next += 1;
+        let title = escaped(question.code.title());
+        let _ = writeln!(out, "<div class=\"question note\" id=\"q{number}\">");
+        let _ = writeln!(
+            out,
+            "<b>{number}. {} {title}</b>\n<p>{}</p>",
+            code(question.code),
+            ticked(question.text)
+        );
+        let _ = writeln!(out, "<p class=\"accepted\">{}</p>", escaped(&accepted.to_string()));
+        let _ = writeln!(out, "<p class=\"small\">{}</p>\n</div>", self.places(question));
     }
 
     /// The programs that a question concerns, with the first line in each.

@@ -50,7 +50,7 @@ fn tools(out: &mut String, totals: &Totals) {
     out.push_str(
         "<div id=\"tools\" hidden><input id=\"text\" type=\"search\" placeholder=\"text in a program\" aria-label=\"text\"> \
          <select id=\"outcome\" aria-label=\"outcome\"><option value=\"\">any outcome</option><option>converted</option>\
-         <option>review</option><option>refused</option></select> <select id=\"code\" aria-label=\"code\"><option value=\"\">any \
+         <option>accepted</option><option>review</option><option>refused</option></select> <select id=\"code\" aria-label=\"code\"><option value=\"\">any \
          code</option>",
     );
     for (number, count) in &totals.codes {
@@ -65,7 +65,7 @@ fn tools(out: &mut String, totals: &Totals) {
 
 /// What the outcomes mean.
 fn outcomes(out: &mut String, totals: &Totals) {
-    let Totals { converted, review, refused, verified, undecided, different, .. } = totals;
+    let Totals { converted, accepted, review, refused, verified, undecided, different, .. } = totals;
     let judged = verified + undecided + different;
     let [same, looked] = match judged {
         0 => [
@@ -79,13 +79,21 @@ fn outcomes(out: &mut String, totals: &Totals) {
     };
     let none =
         "Nothing that can be run is written: something in it has no equivalent, or a difference was found.";
-    let rows = [("converted", *converted, same), ("review", *review, looked), ("refused", *refused, none)];
+    let answered = "As for review, and a person has accepted each thing that was asked: see Accepted, below the questions.";
+    let rows = [
+        ("converted", *converted, same),
+        ("accepted", *accepted, answered),
+        ("review", *review, looked),
+        ("refused", *refused, none),
+    ];
+    // Who accepts nothing reads nothing of it.
+    let rows = rows.into_iter().filter(|(outcome, count, _)| *outcome != "accepted" || *count > 0);
     out.push_str("<table class=\"list\">\n<tr><th>Outcome<th>Programs<th>What it means\n");
     for (outcome, count, meaning) in rows {
         let _ = writeln!(out, "<tr><td class=\"{outcome}\">{outcome}<td>{count}<td>{meaning}");
     }
     out.push_str("</table>\n");
-    if judged == 0 && converted + review > 0 {
+    if judged == 0 && converted + accepted + review > 0 {
         out.push_str(
             "<p class=\"refused\"><b>No program was verified.</b> The outcomes rest on the translation alone: nothing was run beside \
              its source.</p>\n",

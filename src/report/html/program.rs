@@ -75,7 +75,7 @@ fn why(out: &mut String, part: &Part<'_>, program: &ProgramReport) {
     let written = written.map(|path| escaped(&path.display().to_string()));
     let deciding = match program.outcome {
         Outcome::Converted => Severity::Note,
-        Outcome::Review => Severity::Review,
+        Outcome::Accepted | Outcome::Review => Severity::Review,
         Outcome::Refused => Severity::Error,
     };
     let reasons = program.diagnostics.iter().filter(|finding| finding.in_program() == deciding);
@@ -86,6 +86,7 @@ fn why(out: &mut String, part: &Part<'_>, program: &ProgramReport) {
     let is_draft = program.outcome == Outcome::Refused && !program.map.is_empty();
     let says = match (program.outcome, reasons.is_empty()) {
         (Outcome::Converted, _) => "Nothing was found that a person must look at.".to_owned(),
+        (Outcome::Accepted, _) => format!("A person looked at it and accepted what was asked: {reasons}."),
         (Outcome::Review, true) => "A person must look at it.".to_owned(),
         (Outcome::Review, false) => format!("A person must look at it: {reasons}."),
         (Outcome::Refused, _) if is_draft => {

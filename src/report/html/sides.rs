@@ -3,7 +3,7 @@
 use super::super::grade;
 use super::aligned::{Page, Row, rows};
 use super::program::Shown;
-use super::{code, cut, plural, ticked};
+use super::{code, cut, escaped, plural, ticked};
 use crate::diag::Diagnostic;
 use crate::text::{Span, decode};
 use std::collections::BTreeMap;
@@ -170,7 +170,9 @@ impl Writer<'_> {
         for finding in findings.iter().take(room) {
             let severity = grade(finding.in_program());
             let at = line.map(|line| format!(", line {}", self.first[0] + line)).unwrap_or_default();
-            let help = finding.help.as_deref().map(|help| format!("<br>{}", ticked(help)));
+            let accepted = finding.accepted.as_ref().map(|accepted| escaped(&accepted.to_string()));
+            let help = accepted.or_else(|| finding.help.as_deref().map(ticked));
+            let help = help.map(|help| format!("<br>{help}"));
             let _ = writeln!(
                 out,
                 "<tr class=\"g {severity}\"><td colspan=5>{} {severity}{at}: {}{}",
