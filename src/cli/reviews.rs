@@ -4,7 +4,7 @@ use super::jobs::Job;
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
-    Answered, Asked, Conversion, Entry, Fit, Input, Outcome, Project, Scopes, answered, questions,
+    Answered, Asked, Conversion, Entry, Fit, Input, Project, Scopes, answered, asks_any, questions,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -41,8 +41,7 @@ pub fn asked<'j>(
 ) -> Vec<Asked<'j>> {
     let of_job = |(job, conversion): (&'j Job, &Conversion)| {
         let way = job.way.as_ref().map_or([""; 2], |way| way.each_ref().map(String::as_str));
-        let asks = |program: &crate::library::ProgramReport| program.outcome == Outcome::Review;
-        let questions = match wants(way) && conversion.programs.iter().any(asks) {
+        let questions = match wants(way) && asks_any(conversion) {
             true => {
                 let scopes = Scopes::of(&job.inputs, &job.source, &job.target);
                 questions(&job.inputs, conversion, &scopes, root)

@@ -35,7 +35,7 @@ mod withdrawn;
 
 pub use accepted::{
     Answered, Answers, Asked, Chosen, Edit, Entry, Fit, OfPrograms, Question, Scopes, Signer, acceptable,
-    answered, edited, edits, questions,
+    answered, asks_any, edited, edits, questions,
 };
 pub use callees::linked_files;
 pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome};

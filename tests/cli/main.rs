@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 mod accepting;
+mod accepting_once;
 mod builders;
 mod callees;
 mod check;

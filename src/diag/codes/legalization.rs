@@ -24,7 +24,7 @@ If nobody relies on the value from before power-off, nothing needs to be done. O
     "0405" Conditional Review "equivalent only if this holds on your machine"
 "The target does the same only if something is true that the programs do not say: what the operator does at a stop, how inputs are wired, which unit the control is set to. The message names it.
 
-Check it on the machine. If a machine profile can state it, state it there."
+Check it on the machine. If a machine profile can state it, state it there. If the answer is the same for all programs, such as flood coolant for mist, it is asked once for the library, and no program is for review because of it."
 
     "0406" MessageCut Note "message is cut"
 "The target shows fewer characters of a message than the source. The message is cut, and a comment beside it has the whole text."

@@ -11,7 +11,7 @@ Convert the whole library in one run, correct what is refused, or check the prog
     "0602" TwinProgram Review "two programs have one number"
 "Two programs of the library have the same number. A control holds only one program of a number, so the shop loads one or the other; the conversion cannot tell which.
 
-Convert them apart, or give one another number."
+Convert them apart, or give one another number. It is asked once for the library, and no program is for review because of it."
 
     "0603" AmbiguousCall Error "calls a number that two programs have"
 "The program calls a number that two programs of the library have. The conversion cannot tell which one runs, and does not guess.

@@ -100,8 +100,7 @@ impl Finding {
             // The pass that turns signals round has said so.
             Finding::Missing(state) if is_signal(state) => {}
             Finding::Missing(Sys::Act) => {
-                let what =
-                    format!("{title} has no variable for one that a builder's code reads or sets here");
+                let what = format!("{title} has no variable that stands for one of a builder's code");
                 let help = "name it in the target's profile at the code: sets = { \"VARIABLE\" = \"NAME\" }, or reads, with the \
                             name that the source's profile has";
                 context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));

@@ -109,11 +109,16 @@ impl Fit {
     /// Writes into the programs what has an answer, and what had one.
     pub fn apply(fits: &[Self], questions: &[Question], entries: &[Entry], conversion: &mut Conversion) {
         for (question, fit) in questions.iter().zip(fits) {
-            let Some(program) = conversion.programs.get_mut(question.program) else { continue };
             let is_it = |finding: &&mut Diagnostic| {
-                asks(finding) && finding.code == question.code && finding.message == question.says
+                let is_said = finding.code == question.code && finding.message == question.says;
+                is_said && asks(finding) && finding.once == question.program.is_none()
             };
-            let all = program.diagnostics.iter_mut().filter(is_it);
+            let programs = match question.program {
+                Some(at) => conversion.programs.get_mut(at..=at),
+                None => Some(conversion.programs.as_mut_slice()),
+            };
+            let programs = programs.unwrap_or_default();
+            let all = programs.iter_mut().flat_map(|program| &mut program.diagnostics).filter(is_it);
             match fit.entry(entries) {
                 Some((entry, true)) => {
                     let accepted = Arc::new(entry.accepted());
@@ -128,7 +133,10 @@ impl Fit {
                 }
                 None => {}
             }
-            if program.outcome == Outcome::Review && outcome(&program.diagnostics) == Outcome::Converted {
+        }
+        for program in conversion.programs.iter_mut().filter(|program| program.outcome == Outcome::Review) {
+            let is_accepted = program.diagnostics.iter().any(|finding| finding.accepted.is_some());
+            if is_accepted && outcome(&program.diagnostics) == Outcome::Converted {
                 program.outcome = Outcome::Accepted;
             }
         }

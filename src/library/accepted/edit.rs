@@ -102,8 +102,8 @@ fn place_of(text: &str, entries: &[Entry], new: &Entry) -> usize {
 
 /// The values that change, and a reason that is new.
 fn renewed(text: &str, old: &Entry, new: &Entry, line_end: &str) -> Vec<Splice> {
-    let pairs = [(&old.says, &new.says), (&old.at, &new.at), (&old.who, &new.who), (&old.hash, &new.hash)];
-    let texts = pairs.into_iter().filter(|(old, new)| old != new);
+    let pairs = [(&old.says, &new.says), (&old.who, &new.who), (&old.hash, &new.hash)];
+    let texts = pairs.into_iter().chain(old.at.as_ref().zip(new.at.as_ref())).filter(|(old, new)| old != new);
     let mut all: Vec<Splice> = texts.map(|(old, new)| (old.span(), quoted(new.get_ref()))).collect();
     if old.when != new.when {
         all.push((old.when.span(), new.when.get_ref().to_string()));
@@ -151,17 +151,8 @@ fn dropped(text: &str, entry: &Entry) -> Vec<Splice> {
 }
 
 fn values(entry: &Entry) -> Vec<Range<usize>> {
-    let texts = [
-        &entry.library,
-        &entry.target,
-        &entry.file,
-        &entry.code,
-        &entry.says,
-        &entry.at,
-        &entry.who,
-        &entry.hash,
-    ];
-    let more = entry.program.iter().chain(&entry.why);
+    let texts = [&entry.library, &entry.target, &entry.code, &entry.says, &entry.who, &entry.hash];
+    let more = entry.file.iter().chain(&entry.at).chain(&entry.program).chain(&entry.why);
     texts.into_iter().chain(more).map(toml::Spanned::span).chain([entry.when.span()]).collect()
 }
 

@@ -6,7 +6,8 @@ use std::fmt::Write;
 use toml::Spanned;
 use toml::value::Datetime;
 
-/// One question of one program, answered: all places of the program at which the same is asked.
+/// One question, answered: of one program, at all its places at which the same is asked; or of the library, in all its
+/// programs.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entry {
@@ -14,16 +15,16 @@ pub struct Entry {
     pub(super) library: Spanned<String>,
     /// The machine that it is converted to.
     pub(super) target: Spanned<String>,
-    /// The file, seen from the project file.
-    pub(super) file: Spanned<String>,
+    /// The file, seen from the project file; none for what is asked once for the library.
+    pub(super) file: Option<Spanned<String>>,
     /// The program; none for one without a name.
     pub(super) program: Option<Spanned<String>>,
     /// The code.
     pub(super) code: Spanned<String>,
     /// What was asked.
     pub(super) says: Spanned<String>,
-    /// Where, as a person reads it.
-    pub(super) at: Spanned<String>,
+    /// Where, as a person reads it; none for what is asked once for the library.
+    pub(super) at: Option<Spanned<String>>,
     /// Who accepted it.
     pub(super) who: Spanned<String>,
     /// The day.
@@ -62,8 +63,8 @@ pub fn acceptable(code: Code) -> Result<(), String> {
 impl Entry {
     /// The key of what it is about: library, target, file, program and code.
     pub(super) fn key(&self) -> [&str; 5] {
-        let program = self.program.as_ref().map_or("", |program| program.get_ref());
-        [self.library.get_ref(), self.target.get_ref(), self.file.get_ref(), program, self.code.get_ref()]
+        let program = self.program().unwrap_or_default();
+        [self.library.get_ref(), self.target.get_ref(), self.file(), program, self.code.get_ref()]
     }
 
     /// The library.
@@ -76,9 +77,9 @@ impl Entry {
         self.target.get_ref()
     }
 
-    /// The file, seen from the project file.
+    /// The file, seen from the project file; empty for what is asked once for the library.
     pub fn file(&self) -> &str {
-        self.file.get_ref()
+        self.file.as_ref().map_or("", |file| file.get_ref())
     }
 
     /// The program; none for one without a name.
@@ -90,7 +91,10 @@ impl Entry {
     pub fn about(&self) -> String {
         let program = self.program().map(|program| format!(" {program}")).unwrap_or_default();
         let [library, target, file, _, code] = self.key();
-        format!("{file}{program}, {library} to {target}: {code}, {}", self.at.get_ref())
+        match &self.at {
+            Some(at) => format!("{file}{program}, {library} to {target}: {code}, {}", at.get_ref()),
+            None => format!("the library, {library} to {target}: {code}, {}", self.says()),
+        }
     }
 
     /// What was asked.
@@ -118,6 +122,11 @@ impl Entry {
         if let Some(why) = of_code {
             return Some((self.code.span().start, why));
         }
+        if self.file.is_some() != self.at.is_some() || self.program.is_some() && self.file.is_none() {
+            let why = "what is asked of a program has `file` and `at`; what is asked once for the library has neither of \
+                       them, and no `program`";
+            return Some((self.code.span().start, why.into()));
+        }
         if self.who.get_ref().trim().is_empty() {
             return Some((self.who.span().start, "say who accepted it: `who = \"...\"`".into()));
         }
@@ -142,11 +151,11 @@ impl Entry {
         let mut lines = vec!["[[accepted]]".to_owned()];
         lines.push(text("library", self.library.get_ref()));
         lines.push(text("target", self.target.get_ref()));
-        lines.push(text("file", self.file.get_ref()));
+        lines.extend(self.file.as_ref().map(|file| text("file", file.get_ref())));
         lines.extend(self.program.as_ref().map(|program| text("program", program.get_ref())));
         lines.push(text("code", self.code.get_ref()));
         lines.push(text("says", self.says.get_ref()));
-        lines.push(text("at", self.at.get_ref()));
+        lines.extend(self.at.as_ref().map(|at| text("at", at.get_ref())));
         lines.push(text("who", self.who.get_ref()));
         lines.push(format!("when = {}", self.when.get_ref()));
         lines.extend(self.why.as_ref().map(|why| text("why", why.get_ref())));

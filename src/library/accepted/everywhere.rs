@@ -62,9 +62,20 @@ impl Answers {
             let nth = before.entry(program.file).or_default();
             let this = *nth;
             *nth += 1;
-            let asked = found.iter().filter(|finding| asks(finding));
+            let (once, asked): (Vec<_>, Vec<_>) =
+                found.iter().filter(|finding| asks(finding)).partition(|finding| finding.once);
+            for finding in once {
+                let code = finding.code.number();
+                let hash = scopes.hash_once(code, &finding.message);
+                let [library, target, code] = [self.library.as_str(), target, code].map(str::to_owned);
+                let entry =
+                    entries.get(&([library, target, String::new(), String::new(), code], hash.as_str()));
+                if let Some(entry) = entry.filter(|entry| entry.answers(&hash, &finding.message)) {
+                    all.insert((at, finding.code, finding.message.clone()), entry.accepted());
+                }
+            }
             let place = inputs.get(program.file).zip(lines.get(&program.file));
-            let Some((input, lines)) = place.filter(|_| asked.clone().next().is_some()) else { continue };
+            let Some((input, lines)) = place.filter(|_| !asked.is_empty()) else { continue };
             let Some(scope) =
                 scopes.program(program.file, this, counts.get(&program.file).copied().unwrap_or_default())
             else {
@@ -72,7 +83,7 @@ impl Answers {
             };
             let file = seen_from(&input.path, &self.root);
             let name = program.name.as_ref().map(ToString::to_string).unwrap_or_default();
-            for ((code, says), _, hash) in of_program(asked, (input, lines), (scopes, scope)) {
+            for ((code, says), _, hash) in of_program(asked.into_iter(), (input, lines), (scopes, scope)) {
                 let (library, code_text) = (self.library.clone(), code.number().to_owned());
                 let key = [library, target.to_owned(), file.clone(), name.clone(), code_text];
                 let entry = entries.get(&(key, hash.as_str()));

@@ -3,7 +3,7 @@
 //!
 //! - `entry`: what stands in the project file.
 //! - `scope`: the hash of what a question concerns.
-//! - `questions`: what a conversion asks, program by program.
+//! - `questions`: what a conversion asks, program by program, and once for the library.
 //! - `answers`: which question has an answer, and what that makes of the programs.
 //! - `everywhere`: what is accepted of the programs themselves, for every machine they go to.
 //! - `select`: which of them a person accepts.
@@ -22,6 +22,6 @@ pub use edit::{Edit, edited};
 pub use entry::{Entry, acceptable};
 pub use everywhere::{Answers, OfPrograms};
 pub(super) use questions::seen_from;
-pub use questions::{Question, questions};
+pub use questions::{Question, asks_any, questions};
 pub use scope::Scopes;
 pub use select::{Chosen, Signer, edits};

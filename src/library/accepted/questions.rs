@@ -1,4 +1,4 @@
-//! What a conversion asks a person: each thing once in each program.
+//! What a conversion asks a person: each thing once in each program, or once in the library.
 
 use super::entry::{Entry, acceptable};
 use super::scope::{Scope, Scopes, line_at};
@@ -17,12 +17,12 @@ const SHOWN: usize = 60;
 /// A code, and what is said under it.
 pub(super) type Said = (Code, Arc<str>);
 
-/// Something that is asked at one or more places of a program.
+/// Something that is asked at one or more places of a program, or once for the library.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// The program, by its place among the reports.
-    pub program: usize,
-    /// The file, seen from the project file.
+    /// The program, by its place among the reports; none for what is asked once for the library.
+    pub program: Option<usize>,
+    /// The file, seen from the project file; empty for what is asked once.
     pub file: String,
     /// The program's name; none for one without.
     pub name: Option<String>,
@@ -43,11 +43,11 @@ impl Question {
         Entry {
             library: text(library),
             target: text(target),
-            file: text(&self.file),
+            file: self.program.map(|_| text(&self.file)),
             program: self.name.as_deref().map(text),
             code: text(self.code.number()),
             says: text(&self.says),
-            at: text(&self.at),
+            at: self.program.map(|_| text(&self.at)),
             who: text(who),
             when: Spanned::new(0..0, when),
             why: why.map(text),
@@ -64,14 +64,14 @@ pub fn questions(inputs: &[Input], conversion: &Conversion, scopes: &Scopes, roo
         totals.get_mut(program.file).into_iter().for_each(|total| *total += 1);
     }
     let mut lines: Option<(usize, LineIndex)> = None;
-    let mut all = Vec::new();
+    let mut all = once(conversion, scopes);
     for (at, program) in conversion.programs.iter().enumerate() {
         let file = program.file;
         let (Some(input), Some(nth)) = (inputs.get(file), counts.get_mut(file)) else { continue };
         let scope = scopes.program(file, *nth, totals.get(file).copied().unwrap_or_default());
         *nth += 1;
         let Some(scope) = scope.filter(|_| program.outcome != Outcome::Refused) else { continue };
-        let asked = program.diagnostics.iter().filter(|finding| asks(finding));
+        let asked = program.diagnostics.iter().filter(|finding| asks(finding) && !finding.once);
         let mut asked = asked.peekable();
         if asked.peek().is_none() {
             continue;
@@ -84,16 +84,33 @@ pub fn questions(inputs: &[Input], conversion: &Conversion, scopes: &Scopes, roo
         all.extend(of_program(asked, (input, lines), (scopes, scope)).into_iter().map(
             |(key, at_line, hash)| {
                 let ((code, says), name) = (key, program.name.clone());
-                Question { program: at, file: seen.clone(), name, code, says, at: at_line, hash }
+                Question { program: Some(at), file: seen.clone(), name, code, says, at: at_line, hash }
             },
         ));
     }
     all
 }
 
-/// True for what is asked of a person who looks at the program.
+/// What is asked once for the library.
+fn once(conversion: &Conversion, scopes: &Scopes) -> Vec<Question> {
+    let written = conversion.programs.iter().filter(|program| program.outcome != Outcome::Refused);
+    let findings = written.flat_map(|program| &program.diagnostics).filter(|f| f.once && asks(f));
+    let said: BTreeSet<Said> = findings.map(|f| (f.code, Arc::clone(&f.message))).collect();
+    let question = |(code, says): Said| {
+        let hash = scopes.hash_once(code.number(), &says);
+        Question { program: None, file: String::new(), name: None, code, says, at: String::new(), hash }
+    };
+    said.into_iter().map(question).collect()
+}
+
+/// True if a conversion asks anything that can be accepted.
+pub fn asks_any(conversion: &Conversion) -> bool {
+    conversion.programs.iter().flat_map(|program| &program.diagnostics).any(asks)
+}
+
+/// True for what is asked of a person who looks at the program, or of the library once.
 pub(super) fn asks(finding: &Diagnostic) -> bool {
-    finding.in_program() == Severity::Review && acceptable(finding.code).is_ok()
+    finding.severity() == Severity::Review && finding.accepted.is_none() && acceptable(finding.code).is_ok()
 }
 
 /// What is asked of a program, each thing with the places as a person reads them and its hash.

@@ -66,6 +66,11 @@ impl Scopes {
         if programs.len() == of { programs.get(nth) } else { self.whole.get(file) }
     }
 
+    /// The hash of what is asked once for the library: its code, and what it says.
+    pub(super) fn hash_once(&self, code: &str, says: &str) -> String {
+        format!("{}-{}", half(&format!("{code}\n{says}")), self.machines)
+    }
+
     /// The hash of a question: its code, what it says, and on which lines of the program.
     pub(super) fn hash(&self, scope: &Scope, code: &str, says: &str, lines: &BTreeSet<i64>) -> String {
         let asked = format!("{code}\n{}\n{says}\n{lines:?}\n{}", says.len(), scope.rests_on);
