@@ -5,12 +5,12 @@ use super::withdrawn::{Certificates, cut, withdraw, written};
 use super::{Conversion, Input, Outcome};
 use crate::assume::Assumption;
 use crate::control::{LoadedFile, ProgramRef};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Severity};
 use crate::dialect::{Control, Side as Of};
 use crate::ir::analysis::dataflow::reached;
 use crate::syntax::{ParsedFile, parse_file};
 use crate::text::Span;
-use crate::verify::{self, Certificate, Effort, Job, OpenFact, ProgramCertificate, Side, Spent};
+use crate::verify::{self, Certificate, Effort, Job, OpenFact, ProgramCertificate, Side, Spent, Why};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -234,9 +234,20 @@ fn ask_of_machines(
         found.reasons.retain(|reason| reason.text != text);
         report.push(control.unconfirmed(side, &fact, None, span));
     }
+    leave_to_others(found, report);
     if found.outcome == verify::Outcome::Undecided && found.reasons.is_empty() {
         found.outcome = verify::Outcome::Same;
     }
+}
+
+/// Leaves out runs that broke a condition which the report asks about anyway: its own question says what they met, and
+/// that no run kept it would be a reason by itself.
+fn leave_to_others(found: &mut ProgramCertificate, report: &[Diagnostic]) {
+    let is_asked = |text: &str| {
+        let mut asked = report.iter().filter(|finding| finding.severity() == Severity::Review);
+        asked.any(|finding| finding.assumes.is_some() && text.ends_with(&*finding.message))
+    };
+    found.reasons.retain(|reason| reason.why != Why::Condition || !is_asked(&reason.text));
 }
 
 /// Writes into a program's report what the verifier found.

@@ -17,7 +17,7 @@ use crate::legalize::Context;
 use crate::legalize::features::Feature;
 use crate::text::Span;
 use std::cell::LazyCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Checks every code that is known by its number.
 pub fn run(module: &Module, context: &mut Context<'_>) {
@@ -25,6 +25,8 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
     let rounds =
         [context.source, context.target].iter().all(|control| control.is(Question::IntegerWordRounds));
     let mut found: Vec<(usize, Span, (char, Finding))> = Vec::new();
+    // Programs with words beside such a code: a code that both have may take them otherwise.
+    let mut worded: BTreeSet<(usize, char)> = BTreeSet::new();
     for (index, program) in module.programs.iter().enumerate() {
         if !context.may_concern(index, |features| features.has(Feature::Code)) {
             continue;
@@ -40,6 +42,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                             numbers.iter_mut().flatten().for_each(|n| n.number = n.number.round());
                         }
                         let finding = check(*letter, numbers, context.source, context.target);
+                        if finding.is_some() && nc.items.iter().any(|item| matches!(item, NcItem::Word(..))) {
+                            worded.insert((index, *letter));
+                        }
                         found.extend(finding.map(|finding| (index, stmt.site.span, (*letter, finding))));
                     }
                 }
@@ -88,7 +93,14 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
         let own = found.partition_point(|(other, ..)| other < index);
         let own = found.iter().skip(own).take_while(|(other, ..)| other == index);
         let places = own.filter(|(.., (other, _))| other == letter).map(|(_, span, _)| *span).collect();
-        let predicate = Predicate::Codes { letter: *letter, places, same: known.alike.clone() };
+        let mut same = known.alike.clone();
+        if worded.contains(&(*index, *letter)) {
+            let words = |control: &'_ Control, number| {
+                control.code(*letter, number, &[]).map(|row| row.words.clone())
+            };
+            same.retain(|number| words(context.source, *number) == words(context.target, *number));
+        }
+        let predicate = Predicate::Codes { letter: *letter, places, same };
         let told = Diagnostic::new(code, *span, what.clone()).assuming(predicate);
         let told = match help {
             Some(help) => told.with_help(help),

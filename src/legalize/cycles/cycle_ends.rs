@@ -45,7 +45,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                                     fault: end it before, with G80";
                         context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
                     }
-                    if is_motion(nc) {
+                    if is_motion(nc) || !known && turns(nc) {
                         out.push(end(&stmt.site));
                     }
                 }
@@ -66,6 +66,11 @@ fn is_motion(nc: &Nc) -> bool {
     let ends = |op: Op| op.is_cycle() || op == Op::CycleOff;
     let moves = |op: Op| op.group() == Group::Motion && !ends(op) && op != Op::RapidOnce;
     nc.ops().any(moves) && !nc.ops().any(ends)
+}
+
+/// True for a rotation with its centre: under a cycle that a program finds in force, its words would be a hole.
+fn turns(nc: &Nc) -> bool {
+    nc.ops().any(|op| op.group() == Group::Rotation) && nc.names_axis()
 }
 
 /// The end of the cycle in force, in a block of its own.

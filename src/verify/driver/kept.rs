@@ -4,10 +4,13 @@ use super::verifier::Verifier;
 use crate::verify::certificate::{Assumed, Why};
 use crate::verify::triage::Tried;
 
+/// Letters of a condition that a reason names: the report has all of it.
+const LETTERS: usize = 80;
+
 impl Verifier<'_, '_> {
     /// Counts what a pair of runs shows of the program's own assumptions; `same` where they did the same to their ends.
     pub(super) fn count(&mut self, tried: &[Tried<'_>], same: bool) {
-        for tried in tried.iter().filter(|tried| tried.program == self.program) {
+        for tried in tried.iter().filter(|tried| tried.program == self.counted) {
             let (kept, broken) = self.assumed.entry(tried.at).or_default();
             *kept += usize::from(same && tried.is_kept());
             *broken += usize::from(tried.is_broken());
@@ -23,7 +26,12 @@ impl Verifier<'_, '_> {
             let (line, column) = job.source.line_of(self.program.file, assumption.place.start);
             let (kind, text) = (assumption.predicate.kind(), assumption.text.to_string());
             if kept == 0 && self.compared > 0 && assumption.predicate.is_seen() {
-                self.because(Why::NoRunKept, &format!("no run met the condition of line {line}: {text}"));
+                let short: String = text.chars().take(LETTERS).collect();
+                let dots = if short.len() < text.len() { "..." } else { "" };
+                self.because(
+                    Why::NoRunKept,
+                    &format!("no run met the condition of line {line}: {short}{dots}"),
+                );
             }
             let [kept, broken] =
                 [kept, broken].map(|runs| (!assumption.predicate.is_accepted()).then_some(runs));

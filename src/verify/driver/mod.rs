@@ -1,5 +1,6 @@
 //! The verification of a program from its first run to its certificate.
 
+mod as_called;
 mod edited;
 mod elsewhere;
 mod entries;

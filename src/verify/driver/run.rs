@@ -28,6 +28,7 @@ impl Verifier<'_, '_> {
         let Job { source, target, names, .. } = self.job;
         let there = names.program(source, self.program, target);
         match there {
+            Some(_) if self.as_called() => {}
             Some(there) => {
                 self.search(there);
                 self.in_other_unit(there);

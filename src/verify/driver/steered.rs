@@ -5,13 +5,13 @@ use crate::control::trace::Place;
 use crate::control::{ProgramRef, Run, Scenario};
 use crate::text::Span;
 use crate::verify::compare::is_cut;
-use crate::verify::explore::{Attempt, Circumstances, Inputs, Steer, inputs_of};
+use crate::verify::explore::{Attempt, Circumstances, Input, Inputs, Steer, inputs_of};
 use crate::verify::sides::class_of;
 use std::collections::BTreeSet;
 
 /// Runs for one way, and for all ways of a program.
 const FOR_ONE: usize = 120;
-const FOR_ALL: usize = 480;
+const FOR_ALL: usize = 1000;
 /// The same for ways of the target alone, each of which takes a run of both sides: most are what a conversion writes to be
 /// safe, and nothing reaches them.
 const FOR_ONE_THERE: usize = 40;
@@ -23,13 +23,13 @@ type Way = ((usize, Span), i64);
 struct Start {
     circumstances: Circumstances,
     near: [Option<Vec<(Way, f64)>>; 2],
-    /// The variables that the source came to by computed numbers.
-    reached: BTreeSet<String>,
+    /// What the source came to by computed numbers.
+    reached: Vec<Input>,
 }
 
 impl Start {
     fn new(circumstances: Circumstances) -> Self {
-        Self { circumstances, near: [None, None], reached: BTreeSet::new() }
+        Self { circumstances, near: [None, None], reached: Vec::new() }
     }
 }
 
@@ -108,12 +108,19 @@ impl Verifier<'_, '_> {
         ways.iter().find_map(near)
     }
 
-    /// The variables of the source that a run came to by computed numbers, where its scenario may set them.
-    fn reached(&self, run: &Run) -> BTreeSet<String> {
+    /// The variables and offsets of the source that a run came to by computed numbers, where its scenario may set them.
+    fn reached(&self, run: &Run) -> Vec<Input> {
         let control = self.job.source.control;
-        let Some(letter) = control.numbered() else { return BTreeSet::new() };
-        let names = run.computed_numbers.iter().map(|computed| format!("{letter}{}", computed.what));
-        names.filter(|name| class_of(control, name).is_some_and(|class| class.class != "local")).collect()
+        let Some(letter) = control.numbered() else { return Vec::new() };
+        let input = |number: u32| {
+            if let Some((state, subscripts, _)) = control.read_system(letter, Some(number)) {
+                return Input::of_cell(state, &subscripts);
+            }
+            let name = format!("{letter}{number}");
+            class_of(control, &name).filter(|class| class.class != "local")?;
+            Some(Input::Variable(name, false))
+        };
+        run.computed_numbers.iter().filter_map(|computed| input(computed.what)).collect()
     }
 
     /// One run, compared on both sides if it goes a new way. Also true if it does.

@@ -91,7 +91,7 @@ impl Verifier<'_, '_> {
 }
 
 /// True if calls of the source give locals, and the target has none: nobody can give them to a program by itself.
-fn lacks_locals(job: &Job<'_>) -> bool {
+pub(super) fn lacks_locals(job: &Job<'_>) -> bool {
     job.source.has_locals() && !job.target.has_locals()
 }
 

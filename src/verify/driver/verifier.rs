@@ -32,6 +32,8 @@ pub(super) struct Verifier<'v, 'j> {
     pub(super) job: &'v Job<'j>,
     pub(super) clock: Clock,
     pub(super) program: ProgramRef,
+    /// The program whose assumptions are counted: itself, unless it is run for one that it calls.
+    pub(super) counted: ProgramRef,
     /// True where other programs of the library call it.
     pub(super) called: bool,
     /// What all its callers give it.
@@ -84,6 +86,7 @@ impl<'v, 'j> Verifier<'v, 'j> {
             job,
             clock: job.spent.clock(program_seconds, library_seconds),
             program,
+            counted: program,
             called,
             given: given.flatten().unwrap_or_default(),
             target_given: None,

@@ -13,4 +13,4 @@ pub use branches::{Coverage, NotReached};
 pub use inputs::{Inputs, inputs, inputs_of_both};
 pub use on_target::{asked, on_target, set_by_hand, unit};
 pub use scenarios::Proposals;
-pub use steer::{Attempt, Circumstances, Steer, inputs_of};
+pub use steer::{Attempt, Circumstances, Input, Steer, inputs_of};

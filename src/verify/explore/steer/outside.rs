@@ -4,7 +4,7 @@ use crate::canon::Sys;
 use crate::control::Scenario;
 use crate::control::scenario::Probe;
 use crate::verify::explore::inputs::Inputs;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// The circumstances of a run: a scenario, and what is in registers that the target alone has.
 #[derive(Clone, Debug)]
@@ -49,39 +49,50 @@ const MOST_INPUTS: usize = 40;
 /// The letter T, counted from A as 1.
 const T: u32 = 20;
 
-/// The inputs of a program, those first that conditions ask most. `reached` are variables that a run came to by computed
+/// The inputs of a program, those first that conditions ask most. `reached` are those that a run came to by computed
 /// numbers.
-pub fn inputs_of(inputs: &Inputs, reached: &BTreeSet<String>, scenario: &Scenario) -> Vec<Input> {
-    let own = |name: &String| !inputs.variables.iter().any(|input| !input.theirs && input.name == *name);
-    let reached = reached.iter().filter(|name| own(name)).map(|name| Input::Variable(name.clone(), false));
+pub fn inputs_of(inputs: &Inputs, reached: &[Input], scenario: &Scenario) -> Vec<Input> {
     let variables = inputs.variables.iter().map(|input| Input::Variable(input.name.clone(), input.theirs));
     let read = |wanted: Sys| inputs.cells.keys().any(|(state, _)| *state == wanted);
     let tool = read(Sys::ActiveTool) || inputs.cells.contains_key(&(Sys::Address, vec![T]));
     let machine = [(Input::Time, read(Sys::Time)), (Input::Day, read(Sys::Date)), (Input::Tool, tool)];
     let machine = machine.into_iter().filter(|(_, is_read)| *is_read).map(|(input, _)| input);
-    let cells = inputs.cells.keys().filter_map(|(state, subscripts)| match (state, subscripts.as_slice()) {
-        (Sys::WorkOffset, [number, axis]) => Some(Input::Work(*number, (*axis as usize).checked_sub(1)?)),
-        (Sys::LengthGeometry | Sys::ToolOffset | Sys::LengthWear, [number]) => Some(Input::Length(*number)),
-        (Sys::RadiusGeometry | Sys::RadiusWear, [number]) => Some(Input::Radius(*number)),
-        _ => None,
-    });
+    let cells = inputs.cells.keys().filter_map(|(state, subscripts)| Input::of_cell(*state, subscripts));
     let state = (0..scenario.state.len()).map(Input::State);
     let answers = (0..if inputs.asks { FIRST.min(scenario.answers.len()) } else { 0 }).map(Input::Answer);
     let probes = (0..FIRST.min(scenario.probes.len())).map(Input::Probe);
     let start = (0..3).map(Input::Start);
-    variables
-        .chain(reached)
+    let all = variables
+        .chain(reached.iter().cloned())
         .chain(machine)
         .chain(answers)
         .chain(cells)
         .chain(state)
         .chain(probes)
         .chain(start)
-        .take(MOST_INPUTS)
-        .collect()
+        .take(2 * MOST_INPUTS);
+    let mut once: Vec<Input> = Vec::new();
+    for input in all {
+        if once.len() < MOST_INPUTS && !once.contains(&input) {
+            once.push(input);
+        }
+    }
+    once
 }
 
 impl Input {
+    /// The offset that a state of the machine is; none of what is no offset.
+    pub fn of_cell(state: Sys, subscripts: &[u32]) -> Option<Self> {
+        match (state, subscripts) {
+            (Sys::WorkOffset, [number, axis]) => Some(Self::Work(*number, (*axis as usize).checked_sub(1)?)),
+            (Sys::LengthGeometry | Sys::ToolOffset | Sys::LengthWear, [number]) => {
+                Some(Self::Length(*number))
+            }
+            (Sys::RadiusGeometry | Sys::RadiusWear, [number]) => Some(Self::Radius(*number)),
+            _ => None,
+        }
+    }
+
     pub fn get(&self, from: &Circumstances) -> f64 {
         let Circumstances { scenario, theirs } = from;
         let found = match self {

@@ -1,0 +1,88 @@
+//! A program that is given arguments, for a target whose calls have none: it is run as its library calls it.
+//!
+//! There the caller writes the arguments into registers, and which ones is known to its calls alone: run by itself, the
+//! program finds nothing in them, and does something else than the source with arguments. So runs begin in what calls it, on
+//! both sides, and search for the ways of its branches through that.
+
+use super::summary::lacks_locals;
+use super::verifier::Verifier;
+use crate::control::ProgramRef;
+use crate::verify::entry::is_root;
+use crate::verify::explore::{Coverage, inputs};
+use crate::verify::sides::{class_of, of_target};
+
+/// Programs that it is run from, at the most.
+const CALLERS: usize = 4;
+
+impl Verifier<'_, '_> {
+    /// Runs a program that takes arguments through what calls it. True if that shows all of it: every way was gone, and
+    /// nothing but what its callers are asked for themselves is left to be said.
+    pub(super) fn as_called(&mut self) -> bool {
+        let job = self.job;
+        if !self.called || !lacks_locals(job) || !self.takes_arguments() {
+            return false;
+        }
+        let links = job.source.links();
+        let calls = |caller: &ProgramRef| links.called_from(*caller, |_| true).contains(&self.program);
+        let roots = links.programs().iter().filter(|at| **at != self.program && is_root(job, at));
+        let callers: Vec<ProgramRef> = roots.filter(|at| calls(at)).take(CALLERS + 1).copied().collect();
+        let program = [self.program];
+        let mut coverage = Coverage::new(job.source, &program, false);
+        let mut target_coverage = Coverage::new(job.target, &of_target(job, self.program), true);
+        let (mut shown, mut clean) = (false, !callers.is_empty() && callers.len() <= CALLERS);
+        for caller in callers.into_iter().take(CALLERS) {
+            let Some(there) = job.names.program(job.source, caller, job.target) else {
+                clean = false;
+                continue;
+            };
+            let mut run = Verifier { counted: self.program, ..Verifier::new(job, caller) };
+            (run.coverage, run.target_coverage) = (coverage.clone(), target_coverage.clone());
+            run.search(there);
+            job.spent.add(&run.clock);
+            self.tried += run.tried;
+            self.steps += run.steps;
+            let enters = run.entered.contains(&self.program);
+            if run.witness.is_some() || run.compared == 0 || !enters {
+                clean &= run.witness.is_none();
+                continue;
+            }
+            (coverage, target_coverage) = (run.coverage.clone(), run.target_coverage.clone());
+            shown = true;
+            clean &= run.reasons.is_empty() && run.endless.is_empty();
+            self.take_in(run);
+        }
+        let all = coverage.is_complete() && target_coverage.is_complete();
+        if shown {
+            (self.coverage, self.target_coverage) = (coverage, target_coverage);
+        }
+        shown && clean && all
+    }
+
+    /// True if its text reads what only a call gives.
+    fn takes_arguments(&self) -> bool {
+        let source = self.job.source;
+        let found = inputs(source, self.program, source);
+        let is_local =
+            |name: &str| class_of(source.control, name).is_some_and(|class| class.class == "local");
+        found.variables.iter().any(|input| is_local(&input.name))
+    }
+
+    /// Takes in what runs of a caller showed.
+    fn take_in(&mut self, run: Verifier<'_, '_>) {
+        self.compared += run.compared;
+        self.largest = self.largest.max(run.largest);
+        self.texts.extend(run.texts);
+        self.entered.extend(run.entered);
+        for (fact, open) in run.unconfirmed {
+            self.unconfirmed.entry(fact).or_insert(open);
+        }
+        for (at, (kept, broken)) in run.assumed {
+            let own = self.assumed.entry(at).or_default();
+            *own = (own.0 + kept, own.1 + broken);
+        }
+        self.sensitive = match (self.sensitive, run.sensitive) {
+            (Some(true), _) | (_, Some(true)) => Some(true),
+            (own, other) => own.or(other),
+        };
+    }
+}
