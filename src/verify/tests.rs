@@ -1,6 +1,7 @@
 //! Pairs of programs written by hand: what differs in one place only must be told apart, and how.
 
 mod arguments;
+mod as_called;
 mod assumed;
 mod callers;
 mod codes;

@@ -1,0 +1,70 @@
+//! A program that takes arguments, and a target whose calls give none: its callers write them into registers.
+
+use super::{Outcome, named};
+use crate::verify::{ProgramCertificate, SymbolMap, Why};
+use std::collections::{BTreeMap, BTreeSet};
+
+const SOURCE: &str = "O1\nG20G90G17G40G80G94G54\nG0X1.\nG65P2A#500\nM30\nO2\n#2=#1+1\nIF[#2GT3]GOTO5\nG1X#2F10.\nN5G0Y1.\nM99\n";
+
+const TARGET: &str = "\
+N1 O1
+N4 G20 G90 G17 G40 G80 G94 E1
+N5 G0 X1.
+N6 #V2=V1
+N7 M98 P2
+N8 M2
+N1 O2
+N4 #V2=V2+1.
+N5 #IF V2 GT 3. THEN GOTO :N5
+N6 #R5=V2
+N7 G1 X+R5 F10.
+N8 #:N5
+N9 G0 Y1.
+N10 M99
+";
+
+/// What becomes of O2.
+fn called(source: &str, target: &str) -> ProgramCertificate {
+    let names = SymbolMap {
+        variables: BTreeMap::from([("#500".to_owned(), 1)]),
+        scratch: BTreeSet::from([2]),
+        of_words: BTreeSet::from(["R5".to_owned()]),
+        ..SymbolMap::default()
+    };
+    named(("fanuc", source), ("fadal", target), names).remove(1)
+}
+
+#[test]
+fn it_is_run_through_its_callers() {
+    let found = called(SOURCE, TARGET);
+    assert_eq!((found.branches_covered, found.branches_total), (2, 2), "{found:#?}");
+    let others: Vec<_> = found.reasons.iter().filter(|reason| reason.why != Why::Unconfirmed).collect();
+    assert!(others.is_empty(), "{others:#?}");
+}
+
+#[test]
+fn what_the_callers_runs_show_is_different() {
+    for (from, to) in [
+        ("V2=V2+1.", "V2=V2+2."),
+        ("GT 3.", "GE 3."),
+        ("G0 Y1.", "G0 Y2."),
+        ("F10.", "F11."),
+        ("#V2=V1\n", "#V2=V1+1.\n"),
+    ] {
+        assert_eq!(TARGET.matches(from).count(), 1, "{from}");
+        let found = called(SOURCE, &TARGET.replace(from, to));
+        assert_ne!(found.outcome, Outcome::Same, "{from} made {to}");
+        assert!(found.outcome == Outcome::Different || !found.reasons.is_empty());
+    }
+}
+
+/// A caller that gives one number shows one way: the other is not reached.
+#[test]
+fn a_way_that_no_caller_goes_is_missing() {
+    let (source, target) = (SOURCE.replace("A#500", "A1."), TARGET.replace("V2=V1", "V2=1."));
+    // Run by itself it goes the way of an argument that nobody gives; above 3 it never comes.
+    let found = called(&source, &target);
+    assert_eq!(found.outcome, Outcome::Undecided);
+    let missing: Vec<&str> = found.not_reached.iter().map(|way| way.way).collect();
+    assert_eq!(missing, ["true"]);
+}
