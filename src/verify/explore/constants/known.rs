@@ -39,6 +39,20 @@ impl Range {
         if all.into_iter().all(whole) { Self { low, high, whole_of: None } } else { Self::ANY }
     }
 
+    /// The product or the quotient with another: its sign is all that is kept, since a control may round.
+    pub fn times(&self, other: &Self) -> Self {
+        let sign = |range: &Self| match range {
+            range if range.low >= 0.0 => Some(1.0),
+            range if range.high <= 0.0 => Some(-1.0),
+            _ => None,
+        };
+        match (sign(self), sign(other)) {
+            (Some(a), Some(b)) if a == b => Self { low: 0.0, ..Self::ANY },
+            (Some(_), Some(_)) => Self { high: 0.0, ..Self::ANY },
+            _ => Self::ANY,
+        }
+    }
+
     /// The same with its sign turned.
     pub fn negated(&self) -> Self {
         Self { low: -self.high, high: -self.low, whole_of: None }

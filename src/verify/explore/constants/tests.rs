@@ -1,0 +1,82 @@
+use super::impossible;
+use crate::control::{LoadedFile, ProgramRef};
+use crate::dialect::{Control, registry};
+use crate::syntax::parse_file;
+use crate::verify::sides::Side;
+
+/// The ways that conditions of the first program never go, each with its text.
+fn never(dialect: &str, text: &str) -> Vec<(String, i64)> {
+    let control = Control::plain(dialect).unwrap();
+    let parsed = parse_file(text.as_bytes(), control.entry().parse);
+    let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
+    let side = Side::new(&control, registry::find(dialect).unwrap().execute.unwrap(), &files);
+    let found = impossible(&side, ProgramRef { file: 0, program: 0 }, true);
+    found.into_iter().map(|(span, way)| (text[span.range()].trim().to_owned(), way)).collect()
+}
+
+/// Whether it is known that `[#100GE0]` at the end is never false.
+fn is_shown(between: &str) -> bool {
+    let text = format!("O1\n#100=6000\n{between}\nIF[#100GE0]GOTO5\nG0X2.\nN5M30\nO2\nM99\n");
+    never("fanuc", &text).iter().any(|(text, way)| text.contains("#100GE0") && *way == 0)
+}
+
+#[test]
+fn what_jumps_come_by_with_is_known() {
+    for between in [
+        "N3",
+        "G0X1.",
+        "IF[#101GT5]GOTO7\nG0X1.\nN7",
+        "IF[#100LT0]GOTO7\n#102=1\nN7#102=2",
+        "IF[#100LT0]GOTO7\nGOTO8\nN7#100=-1\nN8",
+        "IF[#100GT0]GOTO8\n#100=-1\nN8",
+        "IF[#101GT5]GOTO7\n#100=3\nN7",
+        "#100=#100*#100",
+    ] {
+        assert!(is_shown(between), "{between}");
+    }
+}
+
+#[test]
+fn what_may_come_by_otherwise_is_not() {
+    for between in [
+        "N3\n#100=#100-1\nIF[#101GT5]GOTO3",
+        "GOTO#103\nN6#100=-1\nN7",
+        "G65P2",
+        "G65P2\nN3",
+        "G66P2\nG0X1.\nG67",
+        "M0",
+        "M777",
+        "G#103",
+        "#3006=1(SET #100)",
+        "#[#101]=1",
+        "IF[#101GT5]THEN#100=1",
+        "IF[#101GT5]GOTO7\n#100=-1\nN7",
+        "/GOTO7\n#100=-1\nN7",
+        "/#100=-1",
+        "WHILE[#101GT5]DO1\n#100=#100-1\nEND1",
+        "#102=#100*#101\n#100=#102",
+        "G4P3\nN3",
+    ] {
+        assert!(!is_shown(between), "{between}");
+    }
+}
+
+#[test]
+fn what_nothing_comes_to_goes_no_way() {
+    let found = never("fanuc", "O1\nGOTO5\nIF[#1GT2]GOTO5\nG0X1.\nN5M30\n");
+    assert_eq!(found.iter().filter(|(text, _)| text.contains("#1GT2")).count(), 2, "{found:?}");
+}
+
+#[test]
+fn numbered_lines_and_condition_registers_are_followed_too() {
+    let fadal = "N1 O1\nN2 #V62=0.\nN3 G20\nN4 #IF V62 LE 0. THEN GOTO :L1\nN5 G0 X1.\nN6 #GOTO :L2\nN7 #:L1\nN8 G0 X2.\n\
+                 N9 #:L2\nN10 #IF V62 LE 0. THEN GOTO :L3\nN11 G0 Y1.\nN12 #:L3\nN13 M2\n";
+    assert_eq!(
+        never("fadal", fadal).iter().filter(|(text, way)| text.contains("V62") && *way == 0).count(),
+        2
+    );
+    let cc100 = "N1 V13=0\nN2 G80\nN3 TST V13\nN4 BLE P1\nN5 G0 X1\nV13=1\nG24 P3\nN6 $1\nG0 X3\n$3\nN7 TST V13\nN8 BGT P2\nN9 G0 X2\nN10 $2\nN11 M30\n";
+    let found = never("cc100", cc100);
+    assert!(found.iter().any(|(text, way)| text.contains("BLE P1") && *way == 0), "{found:?}");
+    assert!(found.iter().any(|(text, way)| text.contains("BGT P2") && *way == 1), "{found:?}");
+}
