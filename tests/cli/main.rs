@@ -14,6 +14,7 @@ mod hostile;
 mod inputs;
 mod interrupted;
 mod ir;
+mod locks;
 mod outputs;
 mod profiles;
 mod project;
