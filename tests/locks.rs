@@ -137,9 +137,29 @@ fn a_register_of_an_earlier_run_is_not_the_callers_own() {
     // Both together: the macro is written anew, with another register.
     let both = to_haas(&[MACRO, CALLER], first.lock);
     assert_eq!(refused(&both), [false, false]);
-    assert!(codes(&both).contains(&"MG0611"));
-    assert_ne!(both.lock.variables["#700"], 100);
+    let told: Vec<&str> = both.programs[1].diagnostics.iter().map(|d| &*d.message).collect();
+    assert!(told.contains(&"#700 moves from #100 to #101: this program uses #100 itself"), "{told:?}");
+    assert_eq!(both.lock.variables["#700"], 101);
     assert_eq!(both.texts[1].as_deref(), Some("O1000\nG21\n#100=50\nM98 P9000\nG0 X#100\nM30\n"));
+}
+
+/// A program that wants many registers of another library is told of them in one finding, and the files are not all listed.
+#[test]
+fn all_that_stands_in_the_way_of_a_program_is_one_finding() {
+    let lines = |numbers: std::ops::Range<u32>| -> String { numbers.map(|n| format!("#{n}=1.\n")).collect() };
+    let names: Vec<String> = (1..=12).map(|n| format!("m{n:02}.nc")).collect();
+    let texts: Vec<String> = (1..=12).map(|n| format!("O{n}\nG21\n{}M99\n", lines(700..720))).collect();
+    let files: Vec<(&str, &str)> =
+        names.iter().map(String::as_str).zip(texts.iter().map(String::as_str)).collect();
+    let first = to_haas(&files, Lock::new("fanuc", "haas"));
+    assert_eq!(first.lock.variables.values().copied().collect::<Vec<_>>(), (100..120).collect::<Vec<_>>());
+    let own = format!("O1000\nG21\n{}M30\n", lines(100..110));
+    let made = to_haas(&[("main.nc", &own)], first.lock);
+    assert_eq!(codes(&made), ["MG0610"]);
+    let told = &made.programs[0].diagnostics.iter().find(|d| d.code.number() == "MG0610").unwrap().message;
+    let parts =
+        ["#107 for #707 and 2 more, and m01.nc", "m08.nc and 4 more rely on them", "#107 and 2 more itself"];
+    assert!(parts.iter().all(|part| told.contains(part)), "{told}");
 }
 
 #[test]

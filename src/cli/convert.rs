@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 }
 
 fn work(arguments: &Arguments) -> Result<u8, u8> {
-    let (jobs, read) = jobs(&Wish {
+    let (mut jobs, read) = jobs(&Wish {
         paths: &arguments.paths,
         from: arguments.from.as_deref(),
         to: arguments.to.as_deref(),
@@ -93,6 +93,14 @@ fn work(arguments: &Arguments) -> Result<u8, u8> {
             |job: &Job| convert(&job.inputs, &job.source, &job.target, job.lock(arguments.prune), options);
         rayon::scope(|_| jobs.iter().map(made).collect())
     });
+    for (job, conversion) in jobs.iter_mut().zip(&conversions) {
+        if let Some(what) = job.refusal(conversion) {
+            return Err(streams::complain(what));
+        }
+        for place in job.name_moved(conversion) {
+            streams::remark(format!("{} is written again: a register moved", place.display()));
+        }
+    }
     let is_verified = arguments.verify || !arguments.no_verify;
     let certificates = match is_verified {
         true => verified(&arguments.time, &jobs, &mut conversions),

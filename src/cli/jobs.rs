@@ -8,8 +8,8 @@ use super::reviews::way_of;
 use super::streams::{complain, remark};
 use crate::dialect::Control;
 use crate::library::{
-    Files, Folder, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots, certificate_of, plan,
-    real_place, same_file, slashed, withheld_of,
+    Conversion, Files, Folder, Held, Input, LeftOut, Lock, Manifest, Project, Recovered, Spots,
+    another_library, certificate_of, plan, real_place, same_file, slashed, withheld_of,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -39,17 +39,57 @@ pub struct Job {
 }
 
 impl Job {
-    /// The choices of earlier runs that this one keeps to: those for what it prunes count no more.
+    /// The choices of earlier runs that this one keeps to: those for what it prunes count no more, nor those for files
+    /// that have no conversion in the folder any more.
     pub fn lock(&self, prune: bool) -> Lock {
         let mut lock = self.lock.clone();
-        let Some(out) = self.out.as_ref().filter(|_| prune) else { return lock };
+        let Some(out) = self.out.as_ref() else { return lock };
         let names: BTreeSet<&str> = out.names.iter().map(String::as_str).collect();
-        let gone = out.manifest.gone(out.held.folder(), |source| names.contains(source));
-        // A lock that names no file is an older one.
-        if lock.files.iter().any(|file| !gone.contains_key(file.as_str())) {
-            lock.files.retain(|file| !gone.contains_key(file.as_str()));
+        let (folder, manifest) = (out.held.folder(), &out.manifest);
+        let gone = manifest.gone(folder, |source| names.contains(source));
+        let converted = manifest.converted();
+        let stays = |file: &String| {
+            let is_here = converted.contains(file.as_str()) || folder.join(file).exists();
+            names.contains(file.as_str()) || (is_here && !(prune && gone.contains_key(file.as_str())))
+        };
+        // A lock that names no file is an older one; one that names nothing that was converted here may be of another folder.
+        let is_of_folder = lock.files.iter().any(|file| converted.contains(file.as_str()));
+        if is_of_folder && lock.files.iter().any(stays) {
+            lock.files.retain(stays);
         }
         lock
+    }
+
+    /// The programs of the library that were not named, and whose conversions in the folder are others since a register moved
+    /// in this run: they are named from now on, and their places are given.
+    pub fn name_moved(&mut self, conversion: &Conversion) -> Vec<PathBuf> {
+        let Some(out) = self.out.as_ref().filter(|_| self.lock.moves_to(&conversion.lock)) else {
+            return Vec::new();
+        };
+        let converted = out.manifest.converted();
+        let mut moved = Vec::new();
+        let texts = conversion.texts.iter().zip(&out.names);
+        for ((input, named), (text, name)) in self.inputs.iter().zip(&mut self.named).zip(texts) {
+            let place = out.held.folder().join(name);
+            let stands = || std::fs::read(&place).ok();
+            if !*named
+                && converted.contains(input.name.as_str())
+                && stands() != text.clone().map(String::into_bytes)
+            {
+                *named = true;
+                moved.push(place);
+            }
+        }
+        moved
+    }
+
+    /// What to tell if the lock of the folder is of another library, and stands in the way of this one.
+    pub fn refusal(&self, conversion: &Conversion) -> Option<String> {
+        let out = self.out.as_ref()?;
+        let folder = out.held.folder();
+        let is_ours = |input: &Input| out.manifest.comes_from(folder, &input.name, &input.path);
+        let what = another_library(&self.lock, &self.inputs, is_ours, conversion)?;
+        Some(format!("{}: {what}", folder.join(Lock::NAME).display()))
     }
 }
 

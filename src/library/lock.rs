@@ -141,6 +141,14 @@ impl Lock {
         self.reached = Numbers::of(reached).runs().to_vec();
     }
 
+    /// True if what stands in this lock has another place in a later one, so that programs which rely on it must be
+    /// written again.
+    pub fn moves_to(&self, later: &Self) -> bool {
+        let stays = |(name, number): (&String, &u32)| later.variables.get(name) == Some(number);
+        let kept = self.scratch.iter().all(|number| later.scratch.contains(number));
+        !kept || !self.variables.iter().all(stays)
+    }
+
     /// Takes over which programs hold copies of which.
     pub fn hold(&mut self, copies: impl Iterator<Item = (String, String)>) {
         for (part, holder) in copies {

@@ -27,6 +27,7 @@ mod prepare;
 mod project;
 mod publish;
 mod refused_calls;
+mod stranger;
 mod understood;
 mod unread;
 mod verified;
@@ -53,6 +54,7 @@ pub use publish::{
     abandon, changes, check, is_pending, profiles_of, publish, write_file,
 };
 pub use refused_calls::{Link, Linked};
+pub use stranger::another_library;
 pub use understood::{Understood, understood};
 pub use unread::{InputError, LeftOut, WhyNot};
 pub use verified::{judge, judge_telling};

@@ -34,10 +34,10 @@ Look at the named program first. Once it converts, so do its callers."
     "0610" LockConflict Error "an earlier conversion has this register"
 "`macroglot.lock` in the output folder keeps registers for programs that were converted before and are not part of this run. A program of this run needs one of them for itself: its variable has that number on both controls, or variables with computed numbers need a row of registers.
 
-Delete `macroglot.lock`, and convert the files that the message names together with these, in one run."
+Convert the files that the message names together with these, in one run into the same folder: the variables then get other registers. Where the two do not run on one machine, give these another output folder. If a file that the message names is gone, `--prune` forgets it."
 
     "0611" LockChanged Note "a variable gets another register than before"
-"An earlier run chose a register that a program of the library now needs for itself. All programs that rely on the choice are part of this run, so the variable gets another one, and all of them are written anew.
+"An earlier run chose a register that a program of the library now needs for itself. All programs that rely on the choice are part of this run, so the variable gets another one, and all of them are written anew: with `--library` those too that were not named.
 
 Load all of the programs into the machine. If a value in the old register matters, move it by hand."
         }

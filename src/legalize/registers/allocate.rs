@@ -83,6 +83,7 @@ fn allocate(
         }
         shortage.report(&short, &registers, module, context);
     }
+    locked::tell_moves(module, &effective, &registers, context);
     locked::check(module, &effective.variables, &registers, context);
     let moved = registers.of.iter().filter(|(var, register)| !registers.is_own(var, register));
     let named = moved.filter_map(|(var, _)| Some((*var, name_of(*var, module, context.source)?)));

@@ -10,10 +10,10 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::ir::analysis::Numbers;
-use crate::ir::{Bank, Module, Var};
+use crate::ir::{Bank, Module, Program, Var};
 use crate::legalize::Context;
-use crate::legalize::registers::map::Registers;
-use crate::legalize::registers::names::{members, name_of, pool_name, run_name};
+use crate::legalize::registers::map::{Register, Registers};
+use crate::legalize::registers::names::{listed, members, name_of, pool_name, run_name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// No names.
@@ -62,9 +62,12 @@ pub(in crate::legalize) struct Effective {
     pub scratch: BTreeSet<u32>,
     /// Names of variables that lose their register.
     pub freed: BTreeSet<String>,
+    /// Why they do.
+    moves: Vec<Conflict>,
 }
 
 /// A choice that stands in the way of this run.
+#[derive(Debug)]
 struct Conflict {
     /// The variable that has the register; none for a temporary.
     name: Option<String>,
@@ -73,6 +76,7 @@ struct Conflict {
     wants: Wants,
 }
 
+#[derive(Debug)]
 enum Wants {
     /// This variable, which has the same number on both controls.
     Own(Var),
@@ -95,11 +99,19 @@ pub(in crate::legalize) fn settle(
         ..Effective::default()
     };
     let conflicts = conflicts(module, locked, kept, banks, context);
+    if !locked.others.is_empty() {
+        refuse(module, &conflicts, locked.others, context);
+        return effective;
+    }
     for conflict in conflicts {
-        if locked.others.is_empty() {
-            give_up(module, &conflict, &mut effective, context);
-        } else {
-            refuse(module, &conflict, locked.others, context);
+        let Some(name) = &conflict.name else {
+            effective.scratch.remove(&conflict.number);
+            continue;
+        };
+        effective.variables.remove(name);
+        // Two programs may want one register: its variable moves once.
+        if effective.freed.insert(name.clone()) {
+            effective.moves.push(conflict);
         }
     }
     effective
@@ -133,51 +145,108 @@ fn conflicts(
     found
 }
 
-/// Lets a variable have another register: every program that relies on the old one is converted anew.
-fn give_up(module: &Module, conflict: &Conflict, effective: &mut Effective, context: &mut Context<'_>) {
-    let Conflict { name, number, wants } = conflict;
-    let Some(name) = name else {
-        effective.scratch.remove(number);
-        return;
-    };
-    effective.variables.remove(name);
-    effective.freed.insert(name.clone());
-    let register = format!("{}{number}", pool_name(context.target));
-    let why = match wants {
-        Wants::Own(_) => format!("a program uses {register} itself"),
-        Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank, context.source)),
-    };
-    let what = format!("{name} moves out of {register}, where an earlier run put it: {why}");
-    let help = "move the old register's value by hand if it matters; macroglot.lock names the new register";
-    let place = module.programs.first().map(|program| program.site.span).unwrap_or_default();
-    context.add_once(0, &what, Diagnostic::new(Code::LockChanged, place, what.clone()).with_help(help));
+/// Says which variables have another register than before. Every program that relies on the old one is converted anew.
+pub(in crate::legalize) fn tell_moves(
+    module: &Module,
+    effective: &Effective,
+    registers: &Registers,
+    context: &mut Context<'_>,
+) {
+    let pool = pool_name(context.target);
+    let mut now: BTreeMap<String, &Register> = BTreeMap::new();
+    if !effective.moves.is_empty() {
+        let named = registers.of.iter();
+        now.extend(
+            named.filter_map(|(var, register)| Some((name_of(*var, module, context.source)?, register))),
+        );
+    }
+    for Conflict { name, number, wants } in &effective.moves {
+        let Some(name) = name else { continue };
+        let register = format!("{pool}{number}");
+        let (index, why) = match wants {
+            Wants::Own(var) => {
+                let index = module.programs.iter().position(|program| uses(program, *var));
+                (index, format!("this program uses {register} itself"))
+            }
+            Wants::Row(bank) => {
+                let row = run_name(*bank, context.source);
+                (None, format!("{row} needs its variables in a row"))
+            }
+        };
+        let index = index.unwrap_or_default();
+        let what = match now.get(name) {
+            Some(now) => format!("{name} moves from {register} to {}{}: {why}", now.name, now.number),
+            None => format!("{name}, which no program uses any more, gives up {register}: {why}"),
+        };
+        let help = format!(
+            "load every program that uses {name} into the machine again; move the value in {register} by hand if \
+             it matters"
+        );
+        let place = module.programs.get(index).map(|program| program.site.span).unwrap_or_default();
+        context.add_once(
+            index,
+            &what,
+            Diagnostic::new(Code::LockChanged, place, what.clone()).with_help(help),
+        );
+    }
 }
 
-/// Refuses the programs that need a register which programs of earlier runs rely on.
-fn refuse(module: &Module, conflict: &Conflict, others: &[String], context: &mut Context<'_>) {
-    let Conflict { name, number, wants } = conflict;
-    let holder = match name {
-        Some(name) => format!("for {name}"),
-        None => "for intermediate values".into(),
-    };
-    let others = others.join(", ");
-    let register = format!("{}{number}", pool_name(context.target));
-    let why = match wants {
-        Wants::Own(_) => format!("this program uses {register} itself"),
-        Wants::Row(bank) => format!("{} needs its variables in a row", run_name(*bank, context.source)),
-    };
-    let what = format!("macroglot.lock keeps {register} {holder}, and {others} relies on it, but {why}");
-    let help = "delete macroglot.lock in the output folder, and convert all of these files in one run";
+fn uses(program: &Program, var: Var) -> bool {
+    let mut found = false;
+    program.variables(&mut |other| found |= other == var);
+    found
+}
+
+/// Refuses the programs that need registers which programs of earlier runs rely on: each is told once of them all.
+fn refuse(module: &Module, conflicts: &[Conflict], others: &[String], context: &mut Context<'_>) {
+    if conflicts.is_empty() {
+        return;
+    }
+    let rely = if others.len() == 1 { "relies" } else { "rely" };
+    let files = listed(others.to_vec());
+    let pool = pool_name(context.target);
+    let in_rows = conflicts.iter().filter_map(|conflict| match conflict.wants {
+        Wants::Row(bank) => Some((bank, conflict)),
+        Wants::Own(_) => None,
+    });
+    let mut rows: BTreeMap<Bank, Vec<&Conflict>> = BTreeMap::new();
+    in_rows.for_each(|(bank, conflict)| rows.entry(bank).or_default().push(conflict));
+    let mut told: Vec<(usize, String)> = Vec::new();
     for (index, program) in module.programs.iter().enumerate() {
-        let mut concerned = matches!(wants, Wants::Row(_));
-        if let Wants::Own(var) = wants {
-            program.variables(&mut |other| concerned |= other == *var);
+        let mut names = BTreeSet::new();
+        program.variables(&mut |var| _ = names.insert(var));
+        let own = |conflict: &&Conflict| matches!(conflict.wants, Wants::Own(var) if names.contains(&var));
+        let own: Vec<&Conflict> = conflicts.iter().filter(own).collect();
+        if !own.is_empty() {
+            let numbers: BTreeSet<u32> = own.iter().map(|conflict| conflict.number).collect();
+            let numbers = listed(numbers.into_iter().map(|number| format!("{pool}{number}")).collect());
+            told.push((
+                index,
+                held(&own, &pool, &files, rely, &format!("this program uses {numbers} itself")),
+            ));
         }
-        if concerned {
-            let told = Diagnostic::new(Code::LockConflict, program.site.span, what.clone());
-            context.add_once(index, &what, told.with_help(help));
+        for (bank, conflicts) in &rows {
+            let why = format!("{} needs its variables in a row", run_name(*bank, context.source));
+            told.push((index, held(conflicts, &pool, &files, rely, &why)));
         }
     }
+    let help = "convert all of these files in one run, into the same folder: then the variables get other registers. \
+                Where that cannot be, give these programs another --out";
+    for (index, what) in told {
+        let place = module.programs.get(index).map(|program| program.site.span).unwrap_or_default();
+        context.add(index, Diagnostic::new(Code::LockConflict, place, what).with_help(help));
+    }
+}
+
+/// What the lock keeps, and why that stands in the way.
+fn held(conflicts: &[&Conflict], pool: &str, files: &str, rely: &str, why: &str) -> String {
+    let of = |conflict: &&Conflict| match &conflict.name {
+        Some(name) => format!("{pool}{} for {name}", conflict.number),
+        None => format!("{pool}{} for intermediate values", conflict.number),
+    };
+    let kept = listed(conflicts.iter().map(of).collect());
+    let them = if conflicts.len() == 1 { "it" } else { "them" };
+    format!("macroglot.lock keeps {kept}, and {files} {rely} on {them}, but {why}")
 }
 
 /// Reports locked choices that cannot be honoured, in every program that names the variable.

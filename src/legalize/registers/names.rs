@@ -8,6 +8,27 @@ use crate::legalize::Context;
 /// name: `#1 of O9010`.
 pub(in crate::legalize) const OF: &str = " of ";
 
+/// Names that a message tells of before it says how many more there are.
+pub(super) const MOST_NAMED: usize = 8;
+
+/// Names as a sentence has them: `a, b and c`; the first ones alone if they are many.
+pub(super) fn listed(mut names: Vec<String>) -> String {
+    let more = names.len().saturating_sub(MOST_NAMED);
+    names.truncate(MOST_NAMED);
+    if more > 0 {
+        names.push(format!("{more} more"));
+    }
+    in_a_sentence(&names)
+}
+
+/// Names as a sentence has them, all of them.
+pub(super) fn in_a_sentence(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, first)) if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => names.concat(),
+    }
+}
+
 /// Whose a variable is, as a text goes on after its name: ` of O9010`; nothing if the text does not say it.
 pub(in crate::legalize) fn whose(rest: &str) -> &str {
     let program = rest.strip_prefix(OF).unwrap_or_default();

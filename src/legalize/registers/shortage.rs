@@ -1,16 +1,13 @@
 //! Too few registers: which program is set aside so that the others get theirs, and what is said of it.
 
 use super::map::Registers;
-use super::names::name_of;
+use super::names::{MOST_NAMED, in_a_sentence, name_of};
 use super::needs::class_of_colour;
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
 use crate::ir::{Module, Var};
 use crate::legalize::Context;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Variables that a message names.
-const MOST_NAMED: usize = 8;
 
 /// Who uses the variables of a library that has too few registers.
 pub(super) struct Shortage {
@@ -101,8 +98,5 @@ fn list(vars: &[Var], module: &Module, source: &Control) -> String {
         1 => names.push("one value in between".into()),
         many => names.push(format!("{many} locals and values in between")),
     }
-    match names.split_last() {
-        Some((last, first)) if !first.is_empty() => format!("{} and {last}", first.join(", ")),
-        _ => names.concat(),
-    }
+    in_a_sentence(&names)
 }

@@ -3,11 +3,12 @@
 //! From it a later run knows which files are stale, which a person changed since, and whose source is gone.
 
 use crate::dialect::Control;
+use crate::library::inputs::same_file;
 use crate::library::outputs::{read_file, read_text};
 use crate::library::places::slashed;
 use crate::verify::sha256;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -176,6 +177,21 @@ impl Manifest {
     pub fn outdated_in(&self, folder: &Path) -> BTreeMap<String, Outdated> {
         let now = |name: &str| read_file(&folder.join(name)).ok().map(|bytes| sha256(&bytes));
         self.outdated(|name, before| now(name).is_none_or(|now| now != before))
+    }
+
+    /// The sources that have a conversion in the folder, whole or as a draft.
+    pub fn converted(&self) -> BTreeSet<&str> {
+        let is_program = |kind| matches!(kind, Kind::Program | Kind::Draft);
+        let programs = self.files.values().filter(|entry| is_program(entry.kind));
+        programs.filter_map(|entry| entry.source.as_deref()).collect()
+    }
+
+    /// True if something in the folder comes from the source of this name that stands at `path`.
+    pub fn comes_from(&self, folder: &Path, source: &str, path: &Path) -> bool {
+        self.files.values().any(|entry| {
+            let at = entry.at.as_ref().filter(|_| entry.source.as_deref() == Some(source));
+            at.is_some_and(|at| same_file(&folder.join(at), path))
+        })
     }
 
     /// The number of conversions that call one another: those of one library mostly have one set of them. `sets` has the
