@@ -33,6 +33,22 @@ impl Control {
         all
     }
 
+    /// Where what a number means may change: between two of these numbers, only variables of the system differ.
+    pub fn numbered_bounds(&self) -> Vec<u32> {
+        let Some(name) = self.numbered() else { return Vec::new() };
+        let classes = self.classes().iter().filter(|row| row.name == name).map(|row| (row.first, row.last));
+        let states = self.system.get(name).into_iter().flatten().map(|(_, first, last)| (*first, *last));
+        let reserved = self.reserved.iter().map(|run| (run.first, run.last));
+        let runs = classes.chain(states).chain(reserved);
+        runs.flat_map(|(first, last)| [first, last.saturating_add(1)]).collect()
+    }
+
+    /// True if a row of the system's begins at or before a number, and ends at or after it.
+    pub fn holds_states(&self, number: u32) -> bool {
+        let runs = self.numbered().and_then(|name| self.system.get(name)).into_iter().flatten();
+        runs.into_iter().any(|(_, first, last)| (*first..=*last).contains(&number))
+    }
+
     /// A system variable by its fixed name: `_EMPTY`, `_ABSIO[n]`.
     pub fn system_named(&self, alias: &str) -> Option<&SystemVariable> {
         self.dialect

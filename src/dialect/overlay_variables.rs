@@ -4,8 +4,11 @@ use super::overlay::Overlay;
 use super::profile::VariableRun;
 use super::{Dialect, Mark, VariableClass};
 
-/// The largest number that a variable may have: what computes a number looks at all of them.
-const LAST: u32 = 99_999;
+/// The largest number that a variable may have (`ir::LAST_NUMBER`; flags have the numbers after it).
+const LAST: u32 = 99_999_999;
+
+/// So many variables a profile may name: registers are looked for among all of them.
+const MOST: u64 = 100_000;
 
 /// What variables may be that the table has not.
 const KINDS: [&str; 2] = ["common", "retained"];
@@ -15,6 +18,7 @@ impl Overlay {
     pub(super) fn keep_variables(&mut self, dialect: &mut Dialect) {
         let Some(present) = self.profile.variables.clone() else { return };
         let mut found: Vec<VariableClass> = Vec::new();
+        let mut count = 0;
         for text in &present {
             let Some(run) = self.runs("variables", std::slice::from_ref(text)).pop() else { continue };
             let classes = match &run.kind {
@@ -40,6 +44,13 @@ impl Overlay {
             if classes.iter().any(twice) {
                 let what = format!("'{text}' names variables that stand before it");
                 self.fault(&format!("variables:{text}"), what, "name each variable once".into());
+            }
+            let size = |class: &VariableClass| u64::from(class.last.saturating_sub(class.first)) + 1;
+            count += classes.iter().map(size).sum::<u64>();
+            if count > MOST {
+                let what = format!("with '{text}' there are {count} variables, more than {MOST}");
+                self.fault(&format!("variables:{text}"), what, "name those that programs use".into());
+                break;
             }
             found.extend(classes);
         }

@@ -71,7 +71,7 @@ pub use stmt::{
     StmtKind, TermKind, Terminator,
 };
 pub use validate::{Valid, validate};
-pub use var::{Class, FLAGS, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of};
+pub use var::{Class, FLAGS, LAST_NUMBER, LOCAL_FLAGS, OF_NO_LEVEL, Var, flag_of};
 
 use crate::syntax::{Label, ProgramName};
 use std::collections::BTreeMap;

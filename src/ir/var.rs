@@ -76,5 +76,8 @@ pub const OF_NO_LEVEL: u32 = 1_000_000;
 /// Flags of locals have numbers from here on.
 pub const LOCAL_FLAGS: u32 = 100;
 
+/// The largest number that a shared variable may have: controls of six digits and two more.
+pub const LAST_NUMBER: u32 = 99_999_999;
+
 /// Flags of other variables have numbers from here on.
-pub const FLAGS: u32 = 100_000;
+pub const FLAGS: u32 = LAST_NUMBER + 1;

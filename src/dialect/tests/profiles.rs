@@ -196,7 +196,16 @@ fn a_machine_may_have_more_variables_than_the_table() {
     let told = |said: &str, fault: &str| wrong(&runs(said), fault);
     told("\"#400-#499\"", "Fanuc Custom Macro B has no variables #400-#499");
     told("\"#400-#499 kept\"", "'kept' is no kind of variable #400 may be");
-    told("\"#900000-#900099 common\"", "#900099 is past #99999, the last that is converted");
+    // A Mitsubishi M70's, of six digits.
+    let long =
+        Control::from_profile(&runs("\"#100100-#100110 retained\", \"#900000-#907399 retained\"")).unwrap();
+    for (number, there) in
+        [(100_099, false), (100_100, true), (100_111, false), (907_399, true), (907_400, false)]
+    {
+        assert_eq!(long.numbered_class(number).is_some(), there, "#{number}");
+    }
+    told("\"#99999999-#100000000 common\"", "#100000000 is past #99999999, the last that is converted");
+    told("\"#900000-#1000000 common\"", "there are 100001 variables, more than 100000");
     told("\"V400-V499 common\"", "'common' is no kind of variable V400 may be");
     told("\"#1000-#1031 common\"", "#1000 is 'input'");
     told("\"#100-#149\", \"#140-#160 common\"", "names variables that stand before it");

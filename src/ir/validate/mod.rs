@@ -6,7 +6,7 @@
 mod block;
 mod value;
 
-use super::{BlockId, Class, FLAGS, LOCAL_FLAGS, Module, Program, Var};
+use super::{BlockId, Class, FLAGS, LAST_NUMBER, LOCAL_FLAGS, Module, Program, Var};
 use crate::canon::{Func, Group, Role};
 use crate::syntax::ProgramName;
 
@@ -169,8 +169,8 @@ fn exists(var: Var) -> bool {
     let unflagged = |first| var.number.checked_sub(first).unwrap_or(var.number);
     match var.class {
         Class::Local => (1..=33).contains(&unflagged(LOCAL_FLAGS)),
-        Class::Common | Class::Retained => (1..=99_999).contains(&unflagged(FLAGS)),
-        Class::Global => (1..=99_999).contains(&var.number),
+        Class::Common | Class::Retained => (1..=LAST_NUMBER).contains(&unflagged(FLAGS)),
+        Class::Global => (1..=LAST_NUMBER).contains(&var.number),
         Class::Parametric | Class::Register => var.number <= 99,
         Class::Temp | Class::Static => true,
     }

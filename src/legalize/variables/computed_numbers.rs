@@ -7,6 +7,7 @@
 //! in the run in which its constant part lies, and is none of the registers that the conversion took for itself.
 //! Counter-example: `#[2000+#1]` with `#1` = 3 is a length offset on one control and a wear on another.
 
+mod alike;
 mod found;
 mod meaning;
 mod numbers;

@@ -33,5 +33,5 @@ pub(super) fn last_number(control: &Control) -> u32 {
     let system = control.dialect().system.iter().filter(|row| row.name == name);
     let system = system.filter_map(SystemVariable::last);
     let own = control.classes().iter().filter(|row| row.name == name).map(|row| row.last);
-    system.chain(own).max().unwrap_or(0).min(100_000)
+    system.chain(own).max().unwrap_or(0)
 }

@@ -1,9 +1,10 @@
 //! What both controls mean by the numbers of variables.
 
 use super::Finding;
-use super::meaning::{Meaning, State, last_number, meaning, meaning_by};
+use super::alike::{Run, compared};
+use super::meaning::{Meaning, meaning};
 use super::shift::{constant_part, walks};
-use crate::canon::{Pause, Running, Sys};
+use crate::canon::Sys;
 use crate::dialect::Control;
 use crate::ir::Expr;
 use crate::ir::analysis;
@@ -31,8 +32,7 @@ pub(super) type Table = Arc<Compared>;
 /// How two controls compare, each part made when it is first asked for: most programs compute no number.
 #[derive(Debug, Default)]
 pub(super) struct Compared {
-    /// By number: true where both mean the same, none where neither means anything.
-    alike: OnceLock<Vec<Option<bool>>>,
+    alike: OnceLock<Vec<Run>>,
     runs: OnceLock<Vec<(u32, u32)>>,
     listed: OnceLock<analysis::Numbers>,
 }
@@ -43,32 +43,15 @@ impl<'c> Numbers<'c> {
         Self { source, target, table, known: BTreeMap::new() }
     }
 
-    fn table(&self) -> &[Option<bool>] {
-        self.table.alike.get_or_init(|| self.compared())
+    fn table(&self) -> &[Run] {
+        self.table.alike.get_or_init(|| compared(self.source, self.target))
     }
 
-    fn compared(&self) -> Vec<Option<bool>> {
-        let (source, target) = (self.source, self.target);
-        let last = last_number(source);
-        let states = |control: &'c Control| {
-            control.numbered().map(|name| control.read_all_system(name, last)).unwrap_or_default()
-        };
-        let (ours, theirs) = (states(source), states(target));
-        let same = |number: u32| {
-            let [our, their] = [&ours, &theirs].map(|of| of.get(number as usize).and_then(Option::as_ref));
-            let (here, there) = (meaning_by(source, number, our), meaning_by(target, number, their));
-            let access = |state: Option<&State<'c>>| state.map_or("", |(.., row)| row.access.as_str());
-            match &here {
-                None if there.is_none() => None,
-                Some(Meaning::State(Sys::Other, _)) if source.name() != target.name() => Some(false),
-                Some(Meaning::State(Sys::StopMessage, _)) if !stops_alike(source, target) => Some(false),
-                Some(Meaning::State(..)) => {
-                    Some(here == there && access(our).chars().all(|c| access(their).contains(c)))
-                }
-                _ => Some(here == there && !target.is_numbered_reserved(number)),
-            }
-        };
-        (0..=last).map(same).collect()
+    /// The runs of the table that hold any of these numbers.
+    fn touching(&self, first: u32, last: u32) -> impl Iterator<Item = &Run> {
+        let table = self.table();
+        let at = table.partition_point(|run| run.last < first);
+        table.iter().skip(at).take_while(move |run| run.first <= last)
     }
 
     /// What is known of a computed number that may be one of some, `exact` where it is each of them; true where they all
@@ -79,13 +62,15 @@ impl<'c> Numbers<'c> {
         may_be: &analysis::Numbers,
         exact: bool,
     ) -> (Option<Finding>, bool) {
-        let known = may_be.last().is_none_or(|last| (last as usize) < self.table().len());
-        let each = || may_be.runs().iter().flat_map(|(first, last)| *first..=*last);
+        let known = may_be.last().is_none_or(|last| self.table().last().is_some_and(|run| last <= run.last));
         let finding = self.of(number).clone();
         let moves = matches!(finding, Finding::Shifted(..) | Finding::Counted(..));
         // What neither control has stops both.
-        let differs = |number: u32| self.table().get(number as usize).copied().flatten() == Some(false);
-        let other = known.then(|| each().find(|number| differs(*number))).flatten();
+        let differs = |(first, last): &(u32, u32)| {
+            let run = self.touching(*first, *last).find(|run| run.alike == Some(false))?;
+            Some(run.first.max(*first))
+        };
+        let other = may_be.runs().iter().filter(|_| known).find_map(differs);
         if known && other.is_none() && !moves {
             return (None, true);
         }
@@ -100,13 +85,12 @@ impl<'c> Numbers<'c> {
     }
 
     fn alike(&self, number: u32) -> bool {
-        self.table().get(number as usize).copied().flatten().unwrap_or(false)
+        self.touching(number, number).any(|run| run.alike == Some(true))
     }
 
     /// True where no number of the source means another thing on the target.
     pub(super) fn all_alike(&self) -> bool {
-        let has = |number: usize| meaning(self.source, number as u32).is_some();
-        self.table().iter().enumerate().all(|(number, alike)| *alike != Some(false) || !has(number))
+        self.table().iter().all(|run| run.alike != Some(false) || !run.here)
     }
 
     /// What is known of a computed number by its constant part: the run that it lies in, or that begins after it.
@@ -194,13 +178,14 @@ impl<'c> Numbers<'c> {
     fn found_runs(&self) -> Vec<(u32, u32)> {
         let mut runs: Vec<(u32, u32)> = Vec::new();
         let mut broken = true;
-        for (number, alike) in (0..).zip(self.table()).skip(1) {
-            match (alike, runs.last_mut()) {
-                (Some(true), Some((_, last))) if !broken && number - *last < GAP => *last = number,
-                (Some(true), _) => runs.push((number, number)),
+        for run in self.table().iter().filter(|run| run.last > 0) {
+            let first = run.first.max(1);
+            match (run.alike, runs.last_mut()) {
+                (Some(true), Some((_, last))) if !broken && first - *last < GAP => *last = run.last,
+                (Some(true), _) => runs.push((first, run.last)),
                 _ => {}
             }
-            broken = *alike == Some(false) || broken && *alike != Some(true);
+            broken = run.alike == Some(false) || broken && run.alike != Some(true);
         }
         runs
     }
@@ -221,17 +206,11 @@ impl<'c> Numbers<'c> {
             matches!(meaning(self.source, *number), Some(Meaning::State(state, axis))
                 if position_length::is_position(state) && axis == [position_length::DEPTH])
         };
-        let listed = self.runs().iter().flat_map(|(first, last)| *first..=*last);
-        let depths: Vec<u32> = listed.filter(is_depth).collect();
+        let rows = self.source.dialect().system.iter().filter(|row| position_length::is_position(row.state));
+        let held = rows.filter_map(|row| Some(row.first?..=row.last()?)).flatten();
+        let mut depths: Vec<u32> = held.filter(is_depth).collect();
+        depths.sort_unstable();
+        depths.dedup();
         runs.without(depths)
     }
-}
-
-/// True if a message of the target ends whatever one of the source is known to end. Where the number is computed, nothing
-/// can be written before it.
-fn stops_alike(source: &Control, target: &Control) -> bool {
-    Running::ALL.into_iter().all(|running| {
-        let [here, there] = [source, target].map(|control| control.ends(Pause::Message, running).answer);
-        here.is_none() || here == there
-    })
 }
