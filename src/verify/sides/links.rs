@@ -5,7 +5,7 @@
 use super::program_texts::ProgramTexts;
 use crate::canon::Op;
 use crate::control::{ProgramRef, Run, trace};
-use crate::syntax::{Block, ExprKind, Item, ItemKind, ProgramName};
+use crate::syntax::{Block, ExprKind, Item, ItemKind, ProgramName, Word};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Calls nest no deeper than this on an emulated control, so what lies deeper no run comes to.
@@ -26,6 +26,8 @@ pub struct Links {
     callees: HashMap<ProgramRef, Vec<ProgramRef>>,
     /// Those that another one calls.
     called: HashSet<ProgramRef>,
+    /// Those with a call of which the text does not say what it calls.
+    open: HashSet<ProgramRef>,
     /// True for each of A, B and C that a program has a word of.
     rotary: [bool; 3],
 }
@@ -63,6 +65,9 @@ impl Links {
         self.rotary.iter_mut().zip(moved).for_each(|(all, here)| *all |= here);
         self.called.extend(callees.iter().filter(|callee| **callee != program));
         self.callees.insert(program, callees);
+        if side.text(program).iter().any(|block| calls_something(side, &block.items)) {
+            self.open.insert(program);
+        }
         let name = side.name(program);
         if let (Some(named), Some(ran)) = (self.named.last_mut(), self.ran.last_mut()) {
             named.entry(name.cloned()).or_default().push(program);
@@ -95,6 +100,12 @@ impl Links {
     /// True where another program calls it: then that one has set what it takes.
     pub fn is_called(&self, program: ProgramRef) -> bool {
         self.called.contains(&program)
+    }
+
+    /// False if a program calls another one neither by itself nor through what it calls.
+    pub fn may_reach(&self, caller: ProgramRef, program: ProgramRef) -> bool {
+        let mut all = self.called_from(caller, |_| true).into_iter();
+        all.any(|at| at == program || self.open.contains(&at))
     }
 
     /// True for each of A, B and C that a program has a word of.
@@ -156,6 +167,38 @@ fn callees_of(side: &ProgramTexts<'_>, program: ProgramRef) -> Vec<ProgramRef> {
     let mut seen = HashSet::new();
     let all = side.text(program).iter().flat_map(|block| calls(side, &block.items));
     all.filter(|callee| seen.insert(*callee)).collect()
+}
+
+/// True for a block that may call what its text does not name: by a number that is computed, or by a code of its own.
+fn calls_something(side: &ProgramTexts<'_>, items: &[Item]) -> bool {
+    let words = || {
+        items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Word(word) => Some(word),
+            _ => None,
+        })
+    };
+    let number = |word: &Word| match word.value.as_ref().map(|value| &value.kind) {
+        Some(ExprKind::Number(number)) => Some(number.value),
+        _ => None,
+    };
+    let names = words().any(|word| word.letter == 'P' && number(word).is_some());
+    words().any(|word| match word.letter {
+        'P' => number(word).is_none(),
+        'G' | 'M' => {
+            let row = number(word).and_then(|number| side.control.code(word.letter, number, &[]));
+            row.is_none_or(|row| match row.op {
+                Op::CallCycle => false,
+                op => matches!(op, Op::Builder | Op::Act) || !names && op.to_string().starts_with("call."),
+            })
+        }
+        _ => false,
+    }) || items.iter().any(|item| matches!(item.kind, ItemKind::If { .. }) && has_words(item))
+}
+
+/// True if words stand after a condition.
+fn has_words(item: &Item) -> bool {
+    let ItemKind::If { body, .. } = &item.kind else { return false };
+    body.iter().any(|item| matches!(item.kind, ItemKind::Word(_)))
 }
 
 /// True for each rotary axis that blocks have a word of.

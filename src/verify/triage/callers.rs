@@ -99,7 +99,8 @@ pub fn through(job: &Job<'_>, program: ProgramRef, shown: &Shown, tolerance: Tol
             found.absent.insert(name(job, *caller));
         }
     }
-    let callers = || all.iter().filter(|caller| **caller != program && is_root(job, caller));
+    let reaches = |caller: &ProgramRef| *caller != program && links.may_reach(*caller, program);
+    let callers = || all.iter().filter(|caller| reaches(caller) && is_root(job, caller));
     let runs = (RUNS / callers().count().max(1)).max(FEWEST);
     for caller in callers() {
         let Some(there) = job.names.program(job.source, *caller, job.target) else {
