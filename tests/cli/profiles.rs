@@ -221,3 +221,21 @@ fn what_a_machine_begins_in_is_run_and_verified() {
         assert!(last.contains(&format!("\"to\":{{\"x\":{end},")), "{last}");
     }
 }
+
+/// The table has no variables of six digits; the profile that ships for a Mitsubishi M70 has those from #900000 on.
+#[test]
+fn variables_of_six_digits_are_asked_of_the_profile() {
+    let program = "O1 (PARTS IN #900000)\nG21 G90\n#900000=#900000+1.\nM30\n";
+    let shop = Shop::with(&[("a.nc", program)]);
+    let bare = shop.run("convert a.nc --from fanuc --to haas");
+    assert_eq!(bare.code, 1, "{}", bare.err);
+    assert!(bare.err.contains("no variable #900000"), "{}", bare.err);
+    assert!(bare.err.contains("name it in 'variables' of its profile"), "{}", bare.err);
+    let machine = repository("machines/mitsubishi-m70.toml");
+    let run = shop.run(&format!("convert a.nc --from fanuc --to haas --machine {machine}"));
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("PARTS IN #100") && run.out.contains("#100=#100+1"), "{}", run.out);
+    // The emulated control counts in it too.
+    let ran = shop.run(&format!("run a.nc --dialect fanuc --machine {machine} --set #900000=4"));
+    assert!(ran.out.contains("#900000 = 5"), "{}{}", ran.out, ran.err);
+}

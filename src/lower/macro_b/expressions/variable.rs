@@ -130,7 +130,7 @@ impl<'a> Lowering<'a> {
         }
         let Some((state, subscripts, row)) = self.control.read_system("#", Some(number)) else {
             let message = format!("the table of this control has no variable #{number}");
-            let help = "if the machine has it as a variable of its own, list it in the machine profile";
+            let help = "if the machine has it as a variable of its own, name it in 'variables' of its profile, with all others";
             self.findings.add(Diagnostic::new(Code::NotUnderstood, span, message).with_help(help));
             return None;
         };
