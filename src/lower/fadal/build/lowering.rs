@@ -163,7 +163,7 @@ impl<'b> Lowering<'b> {
     /// Reports, once for each variable, that it is read while moves may be to come.
     pub fn early(&mut self, name: &str, span: Span, message: String) {
         if self.told.insert(format!("early {name}")) {
-            let finding = Diagnostic::new(Code::EarlyRead, span, message).asked_once();
+            let finding = Diagnostic::new(Code::EarlyRead, span, message);
             self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
         }
     }

@@ -215,7 +215,7 @@ impl<'a> Lowering<'a> {
         if self.findings.behaviour(Question::SystemReadWaits, span) != Some("true") {
             let meaning = state.meaning().trim().trim_end_matches('.');
             let message = format!("'{state}' ({meaning}) may be read before earlier moves are done");
-            let finding = Diagnostic::new(Code::EarlyRead, span, message).asked_once();
+            let finding = Diagnostic::new(Code::EarlyRead, span, message);
             self.findings.add(finding.with_fact(Question::LookaheadRunsEarly.fact()));
         }
     }
