@@ -39,6 +39,17 @@ fn tools() -> &'static Path {
     })
 }
 
+/// A folder with a copy of the program: while the wheel is built, the one in the target folder may be written anew.
+fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pre-commit-program");
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::copy(env!("CARGO_BIN_EXE_macroglot"), folder.join("macroglot")).unwrap();
+        folder
+    })
+}
+
 fn said(output: &Output, what: &str) -> String {
     let all = [&output.stdout[..], &output.stderr].concat();
     let all = String::from_utf8_lossy(&all).into_owned();
@@ -55,10 +66,9 @@ struct Shop {
 impl Shop {
     /// With these hooks, as a configuration lists them.
     fn with(hooks: &str) -> Self {
-        let program = Path::new(env!("CARGO_BIN_EXE_macroglot")).parent().unwrap();
         let path = format!(
             "{}:{}:{}",
-            program.display(),
+            program().display(),
             tools().join("bin").display(),
             std::env::var("PATH").unwrap()
         );
@@ -229,6 +239,7 @@ fn the_recipes_work_as_they_stand() {
 #[test]
 fn a_wheel_installs_and_a_hook_in_python_runs_it() {
     let wheels = TempDir::new().unwrap();
+    program();
     let built = Command::new(tools().join("bin/maturin"))
         .args(["build", "--locked", "--profile", "dev", "--quiet", "--out"])
         .arg(wheels.path())

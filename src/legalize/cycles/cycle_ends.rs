@@ -46,7 +46,9 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                         context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
                     }
                     if is_motion(nc) || !known && turns(nc) {
-                        out.push(end(&stmt.site));
+                        let end = end(&stmt.site);
+                        state.step(&end);
+                        out.push(end);
                     }
                 }
                 out.push(stmt);
