@@ -31,7 +31,8 @@ impl Op {
     pub const fn group(self) -> Group {
         use Op::*;
         match self {
-            Rapid | Linear | ArcCw | ArcCcw | ArcTangent | Thread => Group::Motion,
+            Rapid | Linear | ArcCw | ArcCcw | ArcTangent | Thread | ThreadVariable | TurningPass
+            | ThreadingPass | FacingPass => Group::Motion,
             CycleOff | CycleDrill | CycleDrillDwell | CyclePeck | CycleChipBreak | CycleTap
             | CycleTapLeft | CycleTapRigid | CycleTapByLead | CycleBore | CycleBoreStop | CycleBackBore
             | CycleBoreManual | CycleBoreDwell | CycleFineBore | CycleOther => Group::Cycle,
@@ -75,6 +76,30 @@ impl Op {
                 | CycleBoreDwell
                 | CycleFineBore
                 | CycleOther
+        )
+    }
+
+    /// True for a pass of a lathe, which goes to its end and back in each block while it is in force.
+    pub const fn is_pass(self) -> bool {
+        matches!(self, Op::TurningPass | Op::ThreadingPass | Op::FacingPass)
+    }
+
+    /// True for a cycle that reads the blocks of a contour.
+    pub const fn reads_contour(self) -> bool {
+        matches!(self, Op::RoughTurning | Op::RoughFacing | Op::Pattern | Op::Finish)
+    }
+
+    /// True for a cycle of a lathe that runs once, in the block that names it.
+    pub const fn is_lathe_cycle(self) -> bool {
+        self.reads_contour() || matches!(self, Op::FaceGroove | Op::Groove | Op::Threading)
+    }
+
+    /// True for a block that only sets what the next such cycle takes.
+    pub const fn is_lathe_setup(self) -> bool {
+        use Op::*;
+        matches!(
+            self,
+            TurningSetup | FacingSetup | PatternSetup | FaceGrooveSetup | GrooveSetup | ThreadingSetup
         )
     }
 

@@ -65,6 +65,14 @@ super::vocabulary! {
         ProbeOther = "motion.probe.other",
         /// Thread cut.
         Thread = "motion.thread",
+        /// Thread cut whose lead grows or shrinks.
+        ThreadVariable = "motion.thread.variable",
+        /// A pass of turning: to the diameter at rapid, along the part, out, and back.
+        TurningPass = "pass.turning",
+        /// A pass of threading: to the diameter, the thread, out, and back.
+        ThreadingPass = "pass.threading",
+        /// A pass of facing: to the length at rapid, across the part, off, and back.
+        FacingPass = "pass.facing",
         /// Wait for a time.
         Dwell = "dwell",
         /// Exact stop at the end of this block.
@@ -211,6 +219,32 @@ super::vocabulary! {
         CycleFineBore = "cycle.bore.fine",
         /// Runs the active cycle or modal call at the present place.
         CycleHere = "cycle.here",
+        /// Sets the depth and the way back of the passes of the next roughing along Z.
+        TurningSetup = "contour.turning.setup",
+        /// Roughs a contour by passes along Z.
+        RoughTurning = "contour.turning",
+        /// Sets the depth and the way back of the passes of the next roughing along X.
+        FacingSetup = "contour.facing.setup",
+        /// Roughs a contour by passes along X.
+        RoughFacing = "contour.facing",
+        /// Sets the stock and the passes of the next repeated contour.
+        PatternSetup = "contour.pattern.setup",
+        /// Repeats a contour, nearer each time.
+        Pattern = "contour.pattern",
+        /// Finishes a contour.
+        Finish = "contour.finish",
+        /// Sets the way back of the pecks of the next grooving or drilling of a face.
+        FaceGrooveSetup = "groove.face.setup",
+        /// Grooves a face, or drills it, by pecks along Z.
+        FaceGroove = "groove.face",
+        /// Sets the way back of the pecks of the next grooving of a diameter.
+        GrooveSetup = "groove.setup",
+        /// Grooves a diameter by pecks along X.
+        Groove = "groove",
+        /// Sets the form, the least depth and the finish of the next thread.
+        ThreadingSetup = "threading.setup",
+        /// Cuts a thread in many passes.
+        Threading = "threading",
         /// A cycle that only this family of controls has; never carried across.
         CycleOther = "cycle.other",
         /// Absolute coordinates.
@@ -251,6 +285,8 @@ super::vocabulary! {
         SpindleOrient = "spindle.orient",
         /// Tool change.
         ToolChange = "tool.change",
+        /// Turns the turret to a station and takes a tool offset.
+        TurretIndex = "tool.turret.index",
         /// Mist coolant on.
         Mist = "coolant.mist",
         /// Flood coolant on.

@@ -18,12 +18,20 @@ super::vocabulary! {
         C = "axis.c",
         /// Target of the fourth linear axis where it has the letter E.
         E = "axis.e",
-        /// Incremental X (lathe, system A) or the U axis.
+        /// Target of the U axis, parallel to X.
         U = "axis.u",
-        /// Incremental Y (lathe, system A) or the V axis.
+        /// Target of the V axis, parallel to Y.
         V = "axis.v",
-        /// Incremental Z (lathe, system A) or the W axis.
+        /// Target of the W axis, parallel to Z.
         W = "axis.w",
+        /// How far X goes from where it is: on a lathe a difference of diameters.
+        StepX = "step.x",
+        /// How far Y goes from where it is.
+        StepY = "step.y",
+        /// How far Z goes from where it is.
+        StepZ = "step.z",
+        /// How far C turns from where it is, degrees.
+        StepC = "step.c",
         /// Arc centre along X, from the start point.
         ArcI = "arc.i",
         /// Arc centre along Y, from the start point.
@@ -42,6 +50,8 @@ super::vocabulary! {
         Speed = "speed",
         /// Tool number.
         Tool = "tool",
+        /// Turret station and tool offset in one number: 100 times the station, plus the offset.
+        Turret = "tool.turret",
         /// Number of the tool length offset.
         LengthOffset = "offset.length",
         /// Number of the cutter radius offset.
@@ -70,6 +80,55 @@ super::vocabulary! {
         CycleJ = "cycle.j",
         /// Lead of a thread.
         Lead = "lead",
+        /// Angle of the spindle at which a thread begins, thousandths of a degree.
+        ThreadStart = "thread.start",
+        /// By how much the lead of a thread grows each turn.
+        LeadGrowth = "lead.growth",
+        /// Taper of a turning, facing or threading pass: radius (or Z) at its start less that at its end.
+        Taper = "taper",
+        /// Sequence number of the first block of a contour.
+        ContourFirst = "contour.first",
+        /// Sequence number of the last block of a contour.
+        ContourLast = "contour.last",
+        /// Depth of a roughing pass, as a radius or along Z.
+        CutDepth = "cut.depth",
+        /// How far a pass or a peck goes back from the cut.
+        CutRetract = "cut.retract",
+        /// What is left for finishing along X: a diameter, with its sign.
+        AllowanceX = "allowance.x",
+        /// What is left for finishing along Z, with its sign.
+        AllowanceZ = "allowance.z",
+        /// What the last roughing pass takes along X: a radius.
+        RoughX = "rough.x",
+        /// What the last roughing pass takes along Z.
+        RoughZ = "rough.z",
+        /// How far the first pass of a repeated pattern lies off along X: a radius, with its sign.
+        PatternX = "pattern.x",
+        /// How far the first pass of a repeated pattern lies off along Z, with its sign.
+        PatternZ = "pattern.z",
+        /// How many passes a pattern is repeated in.
+        Passes = "passes",
+        /// Peck or shift along X of a grooving cycle: a radius.
+        GrooveX = "groove.x",
+        /// Peck or shift along Z of a grooving cycle.
+        GrooveZ = "groove.z",
+        /// How far the tool leaves the wall at the bottom of a groove.
+        GrooveRelief = "groove.relief",
+        /// Height of a thread: a radius.
+        ThreadHeight = "thread.height",
+        /// Depth of the first pass of a thread: a radius.
+        ThreadFirst = "thread.first",
+        /// The least depth of a pass of a thread: a radius.
+        ThreadLeast = "thread.least",
+        /// What is left of a thread for its finishing passes: a radius.
+        ThreadAllowance = "thread.allowance",
+        /// Finishing passes, run-out and angle of a thread in one number: two digits each.
+        ThreadForm = "thread.form",
+        /// Angle between the flanks of a thread, degrees.
+        ThreadAngle = "thread.angle",
+        /// How the passes of a thread go in: 1 one flank, constant area; 2 both flanks, constant area; 3 one flank, constant depth; 4
+        /// both flanks, constant depth.
+        ThreadInfeed = "thread.infeed",
         /// Dwell in milliseconds.
         DwellMs = "dwell.ms",
         /// Dwell in seconds.
@@ -160,18 +219,23 @@ impl Role {
         matches!(
             self,
             Role::X | Role::Y | Role::Z | Role::A | Role::B | Role::C | Role::E | Role::U | Role::V | Role::W
-        )
+        ) || self.is_step()
     }
 
-    /// The common number of the axis that it is the target of: 1 for X.
+    /// True for the way of an axis from where it is.
+    pub const fn is_step(self) -> bool {
+        matches!(self, Role::StepX | Role::StepY | Role::StepZ | Role::StepC)
+    }
+
+    /// The common number of the axis that it moves: 1 for X.
     pub const fn axis_number(self) -> Option<u32> {
         Some(match self {
-            Role::X => 1,
-            Role::Y => 2,
-            Role::Z => 3,
+            Role::X | Role::StepX => 1,
+            Role::Y | Role::StepY => 2,
+            Role::Z | Role::StepZ => 3,
             Role::A => 4,
             Role::B => 5,
-            Role::C => 6,
+            Role::C | Role::StepC => 6,
             Role::U => 7,
             Role::V => 8,
             Role::W => 9,
@@ -186,6 +250,12 @@ impl Role {
             self,
             Role::Speed
                 | Role::Tool
+                | Role::Turret
+                | Role::ContourFirst
+                | Role::ContourLast
+                | Role::Passes
+                | Role::ThreadForm
+                | Role::ThreadInfeed
                 | Role::LengthOffset
                 | Role::RadiusOffset
                 | Role::WorkOffset
@@ -205,7 +275,7 @@ impl Role {
 
     /// True for an angle, counted in least increments of a degree where no point is written.
     pub const fn is_angle(self) -> bool {
-        matches!(self, Role::A | Role::B | Role::C | Role::Angle | Role::PolarAngle)
+        matches!(self, Role::A | Role::B | Role::C | Role::StepC | Role::Angle | Role::PolarAngle)
     }
 
     /// True for a scale factor.
@@ -224,6 +294,26 @@ impl Role {
                 | Role::U
                 | Role::V
                 | Role::W
+                | Role::StepX
+                | Role::StepY
+                | Role::StepZ
+                | Role::Taper
+                | Role::CutDepth
+                | Role::CutRetract
+                | Role::AllowanceX
+                | Role::AllowanceZ
+                | Role::RoughX
+                | Role::RoughZ
+                | Role::PatternX
+                | Role::PatternZ
+                | Role::GrooveX
+                | Role::GrooveZ
+                | Role::GrooveRelief
+                | Role::ThreadHeight
+                | Role::ThreadFirst
+                | Role::ThreadLeast
+                | Role::ThreadAllowance
+                | Role::LeadGrowth
                 | Role::ArcI
                 | Role::ArcJ
                 | Role::ArcK

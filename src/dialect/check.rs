@@ -296,9 +296,10 @@ fn conditions(reader: &mut Reader, tables: &Tables) {
             reader.fault_at(place.clone(), format!("unknown machine '{machine}'"), "it is 'mill' or 'lathe'");
         }
         if let Some(when) = when {
-            let known = overlay::conditions(when).all(|(name, value)| {
-                tables.settings.iter().any(|setting| {
-                    setting.row.name == name && setting.row.values.iter().any(|known| known == value)
+            let known = overlay::conditions(when).all(|(name, values)| {
+                let mut settings = tables.settings.iter().filter(|setting| setting.row.name == name);
+                settings.any(|setting| {
+                    values.clone().all(|value| setting.row.values.iter().any(|known| known == value))
                 })
             });
             if !known {

@@ -161,7 +161,9 @@ impl Overlay {
         };
         let here = |of: &Option<String>, when: &Option<String>, option: &Option<String>| {
             let set = |when: &String| {
-                conditions(when).all(|(name, value)| settings.get(name).is_some_and(|v| v == value))
+                conditions(when).all(|(name, mut values)| {
+                    settings.get(name).is_some_and(|set| values.any(|value| set == value))
+                })
             };
             of.as_deref().is_none_or(|of| of == machine) && when.as_ref().is_none_or(set) && has(option)
         };
@@ -246,7 +248,11 @@ impl Overlay {
     }
 }
 
-/// What a row's `when` asks for: `setting.NAME=VALUE`, or several of them with ` and ` between.
-pub(super) fn conditions(when: &str) -> impl Iterator<Item = (&str, &str)> {
-    when.split(" and ").map(|one| one.split_once('=').unwrap_or((one, "")))
+/// What a row's `when` asks for: `setting.NAME=VALUE`, or several of them with ` and ` between; the values that do, with `|`
+/// between.
+pub(super) fn conditions(when: &str) -> impl Iterator<Item = (&str, std::str::Split<'_, char>)> {
+    when.split(" and ").map(|one| {
+        let (name, values) = one.split_once('=').unwrap_or((one, ""));
+        (name, values.split('|'))
+    })
 }

@@ -292,6 +292,9 @@ pub struct CodeMeaning {
     /// work offset `P1` of `G54.1` is number 101.
     #[serde(default)]
     pub shift: BTreeMap<Role, Vec<Shift>>,
+    /// Letters whose numbers count least increments beside it, whatever those of others count, and never have a point.
+    #[serde(default)]
+    pub counts: Vec<char>,
     /// The last code of a run that begins with this one: `through = 59` beside `G54`.
     pub through: Option<u32>,
     /// The fixed operand that counts up by one along such a run.

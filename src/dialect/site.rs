@@ -113,6 +113,7 @@ impl SiteCode {
             required: Vec::new(),
             shift: BTreeMap::new(),
             through: None,
+            counts: Vec::new(),
             counted: None,
             modal: None,
             machine: None,
