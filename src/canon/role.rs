@@ -124,6 +124,10 @@ super::vocabulary! {
         ThreadAllowance = "thread.allowance",
         /// Finishing passes, run-out and angle of a thread in one number: two digits each.
         ThreadForm = "thread.form",
+        /// How many finishing passes a thread gets.
+        ThreadFinishes = "thread.finishes",
+        /// How long a thread runs out at its end, in leads.
+        ThreadRunOut = "thread.run.out",
         /// Angle between the flanks of a thread, degrees.
         ThreadAngle = "thread.angle",
         /// How the passes of a thread go in: 1 one flank, constant area; 2 both flanks, constant area; 3 one flank, constant depth; 4
@@ -255,6 +259,7 @@ impl Role {
                 | Role::ContourLast
                 | Role::Passes
                 | Role::ThreadForm
+                | Role::ThreadFinishes
                 | Role::ThreadInfeed
                 | Role::LengthOffset
                 | Role::RadiusOffset

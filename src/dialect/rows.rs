@@ -350,6 +350,11 @@ pub struct Setting {
     /// What each value changes in this table: `behaviour:NAME`, `limit:NAME`, `numbers:bare_length`.
     #[serde(default)]
     pub sets: BTreeMap<String, BTreeMap<String, String>>,
+    /// The word that cycles of `cycles` have no letter for here: the value of the setting stands for it.
+    pub gives: Option<Role>,
+    /// The operations that take it.
+    #[serde(default)]
+    pub cycles: Vec<Op>,
     /// The last of a run of settings that begins with this one.
     pub through: Option<u32>,
     /// For a setting that gives a code a program: the code whose number is its value.

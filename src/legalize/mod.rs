@@ -18,6 +18,7 @@ mod context;
 mod cycles;
 mod expressions;
 mod features;
+mod lathe;
 mod layout;
 mod moves;
 mod offsets;

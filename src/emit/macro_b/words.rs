@@ -165,6 +165,9 @@ impl<'p> Emitter<'p> {
         if spellings.is_shifted(role, code) {
             return self.shifted(role, value, code);
         }
+        if code.is_some_and(|code| code.row.counts.contains(&letter.0)) {
+            return self.counted(role, value);
+        }
         match value.constant() {
             Some(number) if role.is_act_word() => self.out.number(number, crate::dialect::measures(letter.0)),
             _ => self.word_value(role, value),
@@ -228,6 +231,18 @@ impl<'p> Emitter<'p> {
                 self.out.number(value, true);
             }
             _ => self.out.unmapped(format_args!("a fraction in the word '{role}'")),
+        }
+    }
+
+    /// Writes a number that counts least increments, whatever others count here.
+    fn counted(&mut self, role: Role, value: &Expr) {
+        match value {
+            Expr::Increments(count) if count.fract() == 0.0 => self.out.number(*count, false),
+            Expr::Number(0.0) => self.out.number(0.0, false),
+            _ => self.out.unmapped(format_args!(
+                "the word '{role}' ({}) here: it must be a whole count of least increments",
+                meaning(role)
+            )),
         }
     }
 

@@ -17,7 +17,7 @@ use std::rc::Rc;
 
 /// What is said where the unit is not known, and where it rests on what the library has not.
 #[derive(Clone, Copy)]
-pub(super) struct Texts {
+pub(in crate::legalize) struct Texts {
     pub unknown: &'static str,
     pub guessed: &'static str,
 }
@@ -56,7 +56,7 @@ pub(in crate::legalize) fn of_modal_calls(module: &mut Module, context: &mut Con
 }
 
 /// What may have counts of increments in it.
-pub(super) enum Counted<'m> {
+pub(in crate::legalize) enum Counted<'m> {
     Stmt(&'m mut StmtKind),
     Call(&'m mut Call),
 }
@@ -72,7 +72,7 @@ impl Counted<'_> {
 
 /// Takes what stands in the chosen blocks through `convert`, with the unit that is known there; what it cannot
 /// convert is reported once a program. True where there are such blocks.
-pub(super) fn each(
+pub(in crate::legalize) fn each(
     module: &mut Module,
     context: &mut Context<'_>,
     texts: Texts,

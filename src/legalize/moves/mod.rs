@@ -4,7 +4,6 @@ pub(in crate::legalize) mod bare_arcs;
 pub(in crate::legalize) mod home;
 pub(in crate::legalize) mod increments;
 pub(in crate::legalize) mod joined;
-pub(in crate::legalize) mod lathe;
 pub(in crate::legalize) mod machine_moves;
 mod mains;
 pub(in crate::legalize) mod polar;

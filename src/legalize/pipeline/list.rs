@@ -16,8 +16,9 @@ use crate::legalize::codes::{
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::{Feature, Features};
+use crate::legalize::lathe::{contours, counts, cycle_words as lathe_cycles, other_kind};
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
-use crate::legalize::moves::{joined, lathe, start};
+use crate::legalize::moves::{joined, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
 use crate::legalize::operator::{alarms, formatted, omitted, shown_stops};
 use crate::legalize::variables::{
@@ -43,6 +44,7 @@ pub const GROUPS: &[Group] = &[
     Group { name: "moves", heading: "Moves, coordinates and units", passes: MOVES },
     Group { name: "variables", heading: "Computed variables and the machine's state", passes: VARIABLES },
     Group { name: "cycles", heading: "Stops, waits and drilling cycles", passes: CYCLES },
+    Group { name: "lathe", heading: "Cycles and contours of lathes", passes: LATHE },
     Group { name: "codes", heading: "Codes that the target lacks", passes: CODES },
     Group { name: "expressions", heading: "Expressions that the target can read", passes: EXPRESSIONS },
     Group { name: "entry", heading: "What must be done at the start of programs", passes: ENTRY },
@@ -140,7 +142,8 @@ const SOURCE: &[Pass] = &[
         facts::of_source,
     )
     .when(|c, _| c.has(Feature::Computed)),
-    Pass::reports("lathe", "refuses programs of the other kind of machine", lathe::run).when(lathe::concerns),
+    Pass::reports("other-kind", "refuses programs of the other kind of machine", other_kind::run)
+        .when(other_kind::concerns),
     Pass::reports("runtime-assumptions", "reports what holds only for some values of a run", runtime::run)
         .when(|c, _| runtime::concerns(c)),
 ];
@@ -356,6 +359,25 @@ const CYCLES: &[Pass] = &[
             cycle_words::ROLES.iter().any(|role| c.role(*role)) && !hole_moves::replaces(context.target)
         })
         .needs(&["dwell", "cycle-here"]),
+];
+
+const LATHE: &[Pass] = &[
+    Pass::each(
+        "lathe-cycles",
+        "depths, ways back and forms of a lathe's cycles stand where the target takes them from",
+        lathe_cycles::run,
+    )
+    .when(lathe_cycles::concerns),
+    Pass::edits(
+        "lathe-counts",
+        "pecks and depths of a lathe's cycles count what the target counts",
+        counts::run,
+    )
+    .when(counts::concerns)
+    .needs(&["increments", "units", "lathe-cycles"]),
+    Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)
+        .when(|c, _| contours::concerns(c))
+        .needs(&["lathe-cycles", "beside-moves", "pauses"]),
 ];
 
 const CODES: &[Pass] = &[

@@ -22,6 +22,9 @@ impl<'a> Lowering<'a> {
         value: &'a syntax::Expr,
         code: Option<&'a CodeMeaning>,
     ) -> Option<(Role, Expr)> {
+        if code.is_some_and(|row| row.counts.contains(&letter)) {
+            return self.counts(role, letter, value);
+        }
         let Some((number, point)) = literal(value) else { return self.computed(role, value, code) };
         if matches!(role, Role::DwellMs | Role::DwellS | Role::CycleDwell) {
             return self.dwell(role, letter, number, point, value);
@@ -50,6 +53,19 @@ impl<'a> Lowering<'a> {
         self.rest_on_numbers(value.span);
         let counts = self.control.bare_length_of(letter);
         Some((role, self.counted(counts, number, "a length", "numbers", value.span)))
+    }
+
+    /// A word that counts least increments, and never has a point.
+    fn counts(&mut self, role: Role, letter: char, value: &'a syntax::Expr) -> Option<(Role, Expr)> {
+        let what = match literal(value) {
+            Some((number, point)) if number == 0.0 || !point => {
+                return Some((role, Expr::Increments(number)));
+            }
+            Some(_) => format!("{letter} counts least increments here, and takes no decimal point"),
+            None => format!("{letter} counts least increments here: a computed count is not converted"),
+        };
+        self.findings.not_understood(value.span, what);
+        None
     }
 
     /// A feed's number without a point: what is said of lengths may leave it open.

@@ -5,9 +5,17 @@
 //! axis is converted from one to the other. Counter-example: `G1 W-.25`, which no other code would show.
 
 use crate::diag::{Code, Diagnostic};
+use crate::dialect::Machine;
 use crate::ir::{Module, NcItem, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+
+fn why(context: &Context<'_>) -> &'static str {
+    match context.source.machine() {
+        Machine::Lathe => "it cannot turn",
+        Machine::Mill => "it takes X for a diameter",
+    }
+}
 
 /// True where the two machines are of different kinds.
 pub fn concerns(_: &Features, context: &Context<'_>) -> bool {
@@ -25,10 +33,7 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
             _ => false,
         });
         if let Some(stmt) = first {
-            let what = format!(
-                "the program is for a {from}, the target is a {to}: a lathe counts X in diameters, and U, \
-                 V and W as increments"
-            );
+            let what = format!("the program is for a {from}, and the target is a {to}: {}", why(context));
             context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
         }
     }

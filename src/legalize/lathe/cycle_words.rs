@@ -1,0 +1,288 @@
+//! Cycles of a lathe whose depth, way back and form stand in a block before them, in their own block, or in settings.
+//!
+//! Law: a cycle does the same if each of these values is the same, wherever it is taken from. Side conditions: the block that sets them
+//! stands before the cycle with no jump between; a value that the target takes from a setting is a constant, and the target's profile
+//! says that the setting is so. Counter-example: a setting that another program needs otherwise.
+
+use super::settings::{Kind, row, setting, takes};
+use super::thread_form;
+use crate::canon::{Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{Expr, Nc, NcItem, Program, Stmt, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+use crate::text::Span;
+
+/// What a cycle takes besides its own words.
+type Values = Vec<(Role, Expr)>;
+
+/// True if there are such cycles, and the target does not take the values from where the source does.
+pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let differs = |kind: &Kind| {
+        features.op(kind.cycle)
+            && kind.roles.iter().any(|role| {
+                takes(context.source, kind.setup, *role) != takes(context.target, kind.setup, *role)
+                    || takes(context.source, kind.cycle, *role) != takes(context.target, kind.cycle, *role)
+            })
+    };
+    super::settings::KINDS.iter().any(differs)
+}
+
+/// Gives each cycle its values in the target's form.
+pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
+    let mut found = Vec::new();
+    let mut changed = false;
+    for block in &mut program.blocks {
+        if block.stmts.iter().any(|stmt| cycle_of(stmt).is_some()) {
+            changed = true;
+            let old = std::mem::take(&mut block.stmts);
+            block.stmts = in_block(old, context.source, context.target, &mut found).into();
+        }
+    }
+    for (span, what, help) in found {
+        let finding = Diagnostic::new(Code::NoEquivalent, span, what);
+        context.add(index, if help.is_empty() { finding } else { finding.with_help(help) });
+    }
+    changed
+}
+
+fn nc_of(stmt: &Stmt) -> Option<&Nc> {
+    match &stmt.kind {
+        StmtKind::Nc(nc) => Some(nc),
+        _ => None,
+    }
+}
+
+fn cycle_of(stmt: &Stmt) -> Option<&'static Kind> {
+    nc_of(stmt)?.ops().find_map(Kind::of_cycle)
+}
+
+fn setup_of(stmt: &Stmt) -> Option<&'static Kind> {
+    nc_of(stmt)?.ops().find_map(Kind::of_setup)
+}
+
+/// What is found: where, what, and what to do.
+type Found = Vec<(Span, String, String)>;
+
+fn in_block(
+    old: impl IntoIterator<Item = Stmt>,
+    source: &Control,
+    target: &Control,
+    found: &mut Found,
+) -> Vec<Stmt> {
+    let mut new: Vec<Stmt> = Vec::new();
+    let mut set: Vec<(Op, Values)> = Vec::new();
+    for mut stmt in old {
+        if let Some(kind) = setup_of(&stmt) {
+            let values = nc_of(&stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
+            let slot = set.iter().position(|(op, _)| *op == kind.setup);
+            let slot = slot.unwrap_or_else(|| {
+                set.push((kind.setup, Values::new()));
+                set.len() - 1
+            });
+            replace(&mut set[slot].1, values);
+            if stmt.site.skip.is_some() {
+                found.push((stmt.site.span, SKIPPED.into(), String::new()));
+            }
+            // The comments stay; the block is written anew where the target has one.
+            stmt.kind = StmtKind::Comment;
+            if !stmt.site.comments.is_empty() {
+                new.push(stmt);
+            }
+            continue;
+        }
+        let Some(kind) = cycle_of(&stmt) else {
+            new.push(stmt);
+            continue;
+        };
+        let before = set.iter().find(|(op, _)| *op == kind.setup).map(|(_, values)| values.clone());
+        match resolve(&stmt, kind, before, source, target) {
+            Ok((words, setup)) => {
+                if !setup.is_empty() {
+                    let nc = with(kind.setup, setup);
+                    let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
+                    new.push(Stmt { kind: StmtKind::Nc(nc), site });
+                }
+                if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    nc.items
+                        .retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
+                    nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
+                }
+            }
+            Err((what, help)) => found.push((stmt.site.span, what, help)),
+        }
+        new.push(stmt);
+    }
+    new
+}
+
+const SKIPPED: &str =
+    "a block skip before the block that sets what the next cycle takes: whether it counts is not known here";
+
+fn with(op: Op, values: Values) -> Nc {
+    let words = values.into_iter().map(|(role, value)| NcItem::Word(role, value));
+    Nc { items: std::iter::once(NcItem::Op(op)).chain(words).collect() }
+}
+
+fn values_of(nc: &Nc, kind: &Kind) -> Values {
+    let words = nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(role, value) if kind.roles.contains(role) => Some((*role, value.clone())),
+        _ => None,
+    });
+    words.collect()
+}
+
+fn replace(values: &mut Values, new: Values) {
+    values.retain(|(role, _)| new.iter().all(|(other, _)| other != role));
+    values.extend(new);
+}
+
+/// The words of the cycle's own block, and of the block before it.
+fn resolve(
+    stmt: &Stmt,
+    kind: &'static Kind,
+    before: Option<Values>,
+    source: &Control,
+    target: &Control,
+) -> Result<(Values, Values), (String, String)> {
+    let mut values = given(stmt, kind, before, source)?;
+    if !thread_form::apart(&mut values) {
+        let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
+        return Err((what.into(), "write the number as it is: P021060".into()));
+    }
+    usual(&mut values);
+    if takes(target, kind.setup, Role::ThreadForm) && !thread_form::together(&mut values) {
+        let what = "the run-out or the angle of this thread has more digits than the target takes";
+        return Err((what.into(), "the target takes tenths of a lead, and whole degrees".into()));
+    }
+    place(values, kind, target)
+}
+
+/// All values of a cycle: of its own words, of the block before it, and of the source's settings.
+fn given(
+    stmt: &Stmt,
+    kind: &'static Kind,
+    before: Option<Values>,
+    source: &Control,
+) -> Result<Values, (String, String)> {
+    let mut values = before.unwrap_or_default();
+    let own = nc_of(stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
+    replace(&mut values, own);
+    for role in kind.roles {
+        if values.iter().any(|(found, _)| found == role) {
+            continue;
+        }
+        match setting(source, kind.cycle, *role) {
+            Some((_, Some(value))) => values.push((*role, Expr::Number(value))),
+            Some((name, None)) => return Err(of_setting(source, name, *role)),
+            None => {}
+        }
+    }
+    if values.is_empty() && row(source, kind.setup).is_some() {
+        let code = row(source, kind.setup).map_or("", |row| row.code.as_str());
+        let what = format!("no {code} block before this one sets {}", meaning(kind.roles[0]));
+        return Err((what, format!("write the {code} block right before this one")));
+    }
+    Ok(values)
+}
+
+fn of_setting(control: &Control, name: &str, role: Role) -> (String, String) {
+    let number = name.trim_start_matches("setting.");
+    let title = &control.dialect().title;
+    let what =
+        format!("setting {number} of the {title} says {}, and its profile does not give it", meaning(role));
+    (
+        what,
+        format!("look it up on the machine, and write in its profile, under [settings]: {number} = \"...\""),
+    )
+}
+
+fn meaning(role: Role) -> String {
+    let meaning = role.meaning().trim().trim_end_matches('.');
+    let mut chars = meaning.chars();
+    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
+}
+
+/// A control without a letter for them has one finishing pass, if there is something left for it, and goes in along one flank.
+fn usual(values: &mut Values) {
+    values.retain(|(role, value)| *role != Role::ThreadInfeed || value.constant() != Some(1.0));
+    let constant = |values: &Values, wanted: Role| {
+        values.iter().find(|(role, _)| *role == wanted).and_then(|(_, value)| value.constant())
+    };
+    let left = constant(values, Role::ThreadAllowance);
+    if left.is_some_and(|left| left > 0.0) && values.iter().all(|(role, _)| *role != Role::ThreadFinishes) {
+        values.push((Role::ThreadFinishes, Expr::Number(1.0)));
+    }
+}
+
+/// Puts each value where the target takes it from.
+fn place(
+    values: Values,
+    kind: &'static Kind,
+    target: &Control,
+) -> Result<(Values, Values), (String, String)> {
+    let (words, others): (Values, Values) =
+        values.iter().cloned().partition(|(role, _)| takes(target, kind.cycle, *role));
+    let refused =
+        others.iter().find_map(|(role, value)| in_setting(*role, value, &values, kind, target).err());
+    let Some(refused) = refused else { return Ok((words, Values::new())) };
+    let (before, rest): (Values, Values) =
+        values.iter().cloned().partition(|(role, _)| takes(target, kind.setup, *role));
+    if !before.is_empty() && rest.iter().all(|(role, _)| takes(target, kind.cycle, *role)) {
+        return Ok((rest, before));
+    }
+    Err(refused)
+}
+
+/// True of a value that the target has without a word of the program.
+fn in_setting(
+    role: Role,
+    value: &Expr,
+    values: &Values,
+    kind: &Kind,
+    target: &Control,
+) -> Result<(), (String, String)> {
+    if role == Role::ThreadFinishes {
+        let left = values.iter().find(|(role, _)| *role == Role::ThreadAllowance);
+        let left = left.is_some_and(|(_, value)| value.constant().is_some_and(|left| left > 0.0));
+        return match value.constant() {
+            Some(1.0) if left => Ok(()),
+            _ => Err((
+                "the target finishes a thread in one pass, which takes off what was left for it: this one has another number of \
+                 finishing passes, or nothing is left for them"
+                    .into(),
+                "give the thread one finishing pass and an allowance for it, or write the other passes apart".into(),
+            )),
+        };
+    }
+    let Some((name, stated)) = setting(target, kind.cycle, role) else {
+        return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
+    };
+    let number = name.trim_start_matches("setting.");
+    match (value.constant(), stated) {
+        (Some(value), Some(stated)) if (value - stated).abs() < 1e-9 => Ok(()),
+        (Some(value), Some(stated)) => Err((
+            format!(
+                "the program says {value} for {}, and setting {number} of the target is {stated}",
+                meaning(role)
+            ),
+            format!("set {number} to {value} for this program, or change the program"),
+        )),
+        (Some(value), None) => {
+            let title = &target.dialect().title;
+            let what = format!(
+                "setting {number} of the {title} says {}, and its profile does not give it",
+                meaning(role)
+            );
+            let help = format!(
+                "the program needs {value}: if the machine is set so, write in its profile, under [settings]: {number} = \"{value}\""
+            );
+            Err((what, help))
+        }
+        (None, _) => Err((
+            format!("{} is computed, and the target takes it from setting {number}", meaning(role)),
+            "write it as a number".into(),
+        )),
+    }
+}

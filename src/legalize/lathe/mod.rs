@@ -1,0 +1,8 @@
+//! Lathes: cycles in one block or two, contours, increments, and programs of the other kind of machine.
+
+pub mod contours;
+pub mod counts;
+pub mod cycle_words;
+pub mod other_kind;
+pub mod settings;
+pub mod thread_form;

@@ -1,0 +1,69 @@
+//! What a cycle of a lathe takes besides the words of its block: from a block before it, or from settings of the control.
+
+use crate::canon::{Op, Role};
+use crate::dialect::{CodeMeaning, Control};
+
+/// A cycle, the block that sets what it takes, and what that is.
+pub struct Kind {
+    /// The operation of the block that sets it.
+    pub setup: Op,
+    /// The operation of the block that runs.
+    pub cycle: Op,
+    /// What is set.
+    pub roles: &'static [Role],
+}
+
+/// All of them.
+pub const KINDS: [Kind; 6] = [
+    Kind { setup: Op::TurningSetup, cycle: Op::RoughTurning, roles: &[Role::CutDepth, Role::CutRetract] },
+    Kind { setup: Op::FacingSetup, cycle: Op::RoughFacing, roles: &[Role::CutDepth, Role::CutRetract] },
+    Kind {
+        setup: Op::PatternSetup,
+        cycle: Op::Pattern,
+        roles: &[Role::PatternX, Role::PatternZ, Role::Passes],
+    },
+    Kind { setup: Op::FaceGrooveSetup, cycle: Op::FaceGroove, roles: &[Role::CutRetract] },
+    Kind { setup: Op::GrooveSetup, cycle: Op::Groove, roles: &[Role::CutRetract] },
+    Kind {
+        setup: Op::ThreadingSetup,
+        cycle: Op::Threading,
+        roles: &[
+            Role::ThreadForm,
+            Role::ThreadLeast,
+            Role::ThreadAllowance,
+            Role::ThreadFinishes,
+            Role::ThreadRunOut,
+            Role::ThreadAngle,
+            Role::ThreadInfeed,
+        ],
+    },
+];
+
+impl Kind {
+    /// The kind that an operation runs.
+    pub fn of_cycle(op: Op) -> Option<&'static Kind> {
+        KINDS.iter().find(|kind| kind.cycle == op)
+    }
+
+    /// The kind that an operation sets something of.
+    pub fn of_setup(op: Op) -> Option<&'static Kind> {
+        KINDS.iter().find(|kind| kind.setup == op)
+    }
+}
+
+/// The code that a control writes for an operation.
+pub fn row(control: &Control, op: Op) -> Option<&CodeMeaning> {
+    control.dialect().codes.iter().find(|row| row.preferred && row.op == op)
+}
+
+/// True where the code of an operation has a letter for a role.
+pub fn takes(control: &Control, op: Op, role: Role) -> bool {
+    row(control, op).is_some_and(|row| row.words.values().any(|found| *found == role))
+}
+
+/// The setting that stands for a word of an operation, by name, and its number where the profile says it.
+pub fn setting(control: &Control, op: Op, role: Role) -> Option<(&str, Option<f64>)> {
+    let gives = |row: &&crate::dialect::Setting| row.gives == Some(role) && row.cycles.contains(&op);
+    let row = control.dialect().settings.iter().find(gives)?;
+    Some((&row.name, control.setting(&row.name).and_then(|value| value.parse().ok())))
+}
