@@ -5,21 +5,24 @@ lathe.py say from their own sizes: nothing here cuts a contour or reads a word o
 """
 
 import math
+import textwrap
 
-from motion import Motion, number
+from motion import INCH, Motion, number
 
 OUTSIDE, INSIDE = 1, -1
 
 
 class Lathe(Motion):
-    """A part on a lathe, millimetres; G54 lies 5 over the machine's X and 120 under its Z."""
+    """A part on a lathe; G54 lies 5 mm over the machine's X and 120 under its Z."""
 
     folder = "expected-lathe"
 
     def __init__(self, control, name, about, *, settings="", run=None, **more):
         more = {"start": (300.0, 0.0, 200.0), "home": (400.0, 0.0, 350.0), "offsets": {1: (5.0, 0.0, -120.0)}, **more}
-        profile = 'machine = "lathe"\nunits = "metric"\n' + settings
+        units = "inch" if more.get("unit", 1.0) == INCH else "metric"
+        profile = f'machine = "lathe"\nunits = "{units}"\n{settings}'
         run = [run or f"tests/motions/programs/{control}/{name}.nc"]
+        about = textwrap.fill(about, 116, break_on_hyphens=False)
         super().__init__(control, name, run, about, profile=profile, **more)
         self.mode = "per_turn"
         self.work(1)
@@ -34,7 +37,7 @@ class Lathe(Motion):
 
     def thread(self, x=None, z=None, lead=None):
         at = self.place(x, None, z)
-        self._write("thread", at, number(lead))
+        self._write("thread", at, number(lead * self.unit))
         self.now = at
 
     def round(self, x, z, centre, turn, f=None):
@@ -74,15 +77,15 @@ class Lathe(Motion):
             self.go(x + 2 * e * side, z + e * away)
             self.go(x=level)
 
-    def valley(self, passes, e):
+    def valley(self, passes, e, side=OUTSIDE):
         """W4, W5: passes down into a valley: diameter, where the pass begins and ends, the point to which the tool
-        follows the side, and the diameter of the level before."""
-        for x, begin, end, side, before in passes:
+        follows the flank, and the diameter of the level before."""
+        for x, begin, end, flank, before in passes:
             self.go(z=begin)
             self.cut(x=x)
             self.cut(z=end)
-            self.cut(*side)
-            self.go(x=before + 2 * e)
+            self.cut(*flank)
+            self.go(x=before + 2 * e * side)
 
     # Single cycles.
 
