@@ -358,7 +358,8 @@ part.screw(0.4069, -0.75, equal_chips(0.012, 0.002, 0.041) + [0.043], height=0.0
 
 # A flange on 60: face at Z-20 in to 50, cone to 40 at Z-12, 40 to Z-6, round of 6 to 28 at Z0, face to the middle.
 FLANGE_ENDS = {-0.5: 28.0 + 2 * leg(6.0, 5.5), -3.0: 28.0 + 2 * leg(6.0, 3.0), -5.5: 28.0 + 2 * leg(6.0, 0.5),
-               -8.0: 40.0, -10.5: 40.0, -13.0: 50.0 - 10.0 * 7.0 / 8.0, -15.5: 50.0 - 10.0 * 4.5 / 8.0, -18.0: 50.0 - 10.0 * 2.0 / 8.0}
+               -8.0: 40.0, -10.5: 40.0, -13.0: 50.0 - 10.0 * 7.0 / 8.0,
+               -15.5: 50.0 - 10.0 * 4.5 / 8.0, -18.0: 50.0 - 10.0 * 2.0 / 8.0}
 
 
 def flange(part, u, w, f=None):
@@ -429,8 +430,8 @@ part.go(54.0, 3.0)
 
 
 def forged(part, u, w):
-    """A pass along a forging, from X60. Z5., so far off: 20 from Z2 to Z-10, fillet of 5 to 30 at Z-15, face to 40, cone
-    to 50 at Z-30."""
+    """A pass along a forging, from X60. Z5., so far off: 20 from Z2 to Z-10, fillet of 5 to 30 at Z-15, face to 40,
+    cone to 50 at Z-30."""
     part.go(60.0 + u, 5.0 + w)
     part.go(20.0 + u, 2.0 + w)
     part.cut(z=-10.0 + w)
