@@ -1,4 +1,4 @@
-"""Writes expected/: see README.md."""
+"""Writes expected/ and expected-lathe/: see README.md."""
 
 import os
 
@@ -6,6 +6,7 @@ import cc100  # noqa: F401  each module fills motion.ALL
 import fadal  # noqa: F401
 import fanuc  # noqa: F401
 import haas  # noqa: F401
+import lathe  # noqa: F401
 import legalized  # noqa: F401
 from motion import ALL
 

@@ -40,6 +40,9 @@ class Motion:
     length what the tool in use adds to Z, in mm.
     """
 
+    # Where the lists of this kind of machine are written.
+    folder = "expected"
+
     def __init__(self, control, name, run, about, *, unit=1.0, start=(0, 0, 0), home=(0, 0, 0), offsets=None,
                  tools=None, profile="", scenario="", tables="", ends="ended",
                  turns=False):
@@ -307,4 +310,4 @@ class Motion:
         )
 
     def path(self):
-        return os.path.join(HERE, "expected", self.control, self.name + ".toml")
+        return os.path.join(HERE, self.folder, self.control, self.name + ".toml")
