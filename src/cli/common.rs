@@ -86,9 +86,14 @@ pub fn controls(
         let what = "which is neither the source nor the target";
         return Err(complain(format!("{} is a profile for '{}', {what}", path.display(), odd.dialect)));
     }
-    let machine_for =
-        |name: &str| profiles.iter().find(|(_, p)| p.dialect == name).map(|(path, _)| path.as_path());
-    meeting(control(from, machine_for(from).or(own))?, control(to, machine_for(to))?)
+    let of = |name: &str| -> Vec<&Path> {
+        profiles.iter().filter(|(_, p)| p.dialect == name).map(|(path, _)| path.as_path()).collect()
+    };
+    let (sources, targets) = (of(from), of(to));
+    // Of two machines with one control the first is the source.
+    let second = targets.get(1).filter(|_| from == to);
+    let target = second.or(targets.first()).copied();
+    meeting(control(from, sources.first().copied().or(own))?, control(to, target)?)
 }
 
 /// A source and a target that know of each other what their profiles say of both.

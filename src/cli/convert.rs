@@ -18,7 +18,8 @@ pub struct Arguments {
     /// The control they are to run on
     #[arg(long, value_name = "D")]
     to: Option<String>,
-    /// A machine profile of the source or the target (it names its dialect); may be given twice
+    /// A machine profile of the source or the target (it names its dialect); may be given twice. Of two with one dialect the first is the
+    /// source's
     #[arg(long, value_name = "FILE")]
     machine: Vec<PathBuf>,
     /// The folder that conversions are written to; a single program goes to standard output without it

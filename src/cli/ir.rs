@@ -20,7 +20,8 @@ pub struct Arguments {
     /// The control the program is written for; recognized if it is left out
     #[arg(long, short, value_name = "D")]
     dialect: Option<String>,
-    /// A machine profile of the source or the target (it names its dialect); may be given twice
+    /// A machine profile of the source or the target (it names its dialect); may be given twice. Of two with one dialect the first is the
+    /// source's
     #[arg(long, value_name = "FILE")]
     machine: Vec<PathBuf>,
     /// Print what the passes make of the program for this control

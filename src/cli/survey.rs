@@ -19,7 +19,8 @@ pub struct Arguments {
     /// The control they are to run on; without it, only what their own control understands is told
     #[arg(long, value_name = "D")]
     to: Option<String>,
-    /// A machine profile of the source or the target (it names its dialect); may be given twice
+    /// A machine profile of the source or the target (it names its dialect); may be given twice. Of two with one dialect the first is the
+    /// source's
     #[arg(long, value_name = "FILE")]
     machine: Vec<PathBuf>,
     /// Write what is asked into this profile of the source, as lines to fill in: answers that stand there are kept. The

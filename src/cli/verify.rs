@@ -24,7 +24,8 @@ pub struct Arguments {
     /// The control the target is written for; recognized if it is left out
     #[arg(long, value_name = "D")]
     to: Option<String>,
-    /// A machine profile of the source or the target (it names its dialect); may be given twice
+    /// A machine profile of the source or the target (it names its dialect); may be given twice. Of two with one dialect the first is the
+    /// source's
     #[arg(long, value_name = "FILE")]
     machine: Vec<PathBuf>,
     /// Write the certificate to a file too

@@ -218,6 +218,11 @@ impl<'p> Emitter<'p> {
 
     fn literal(&mut self, role: Role, value: f64) {
         match role {
+            // Two digits for each of what stands in one number, as people write it.
+            Role::Turret | Role::ThreadForm if value.fract() == 0.0 && value >= 100.0 => {
+                let digits = if role == Role::Turret { 4 } else { 6 };
+                self.out.push_str(&format!("{value:0digits$}"));
+            }
             _ if has_point(role) => self.out.number(value, true),
             Role::SpeedLimit | Role::Builder => self.out.number(value, false),
             _ if value.fract() == 0.0 => self.out.number(value, false),

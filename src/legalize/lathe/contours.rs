@@ -3,7 +3,7 @@
 //! Law: a cycle reads the same contour if the same blocks stand between the two numbers, and each number stands once. Side condition: nothing
 //! but moves and comments stands there, on one way. Counter-example: a label between them, where a jump may come in.
 
-use crate::canon::{Op, Role};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, Nc, Program, Stmt, StmtKind};
 use crate::legalize::Context;
@@ -71,7 +71,10 @@ fn find(program: &Program, number: u32) -> Result<(usize, usize), String> {
 fn is_of_contour(stmt: &Stmt) -> bool {
     match &stmt.kind {
         StmtKind::Comment => true,
-        StmtKind::Nc(nc) => !nc.ops().any(|op| op.is_lathe_cycle() || op.is_lathe_setup() || op.is_pass()),
+        StmtKind::Nc(nc) => !nc.ops().any(|op| {
+            let mode = matches!(op.group(), Group::Distance | Group::Units | Group::Plane);
+            mode || op.is_lathe_cycle() || op.is_lathe_setup() || op.is_pass()
+        }),
         _ => false,
     }
 }

@@ -21,31 +21,43 @@ const TEXTS: Texts = Texts {
               change it",
 };
 
-/// True where such a word counts on one of the two controls.
-pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
-    ROLES.iter().any(|role| {
-        features.role(*role) && (counted(context.source, *role) || counted(context.target, *role))
-    })
+/// True where such a word counts on the source.
+pub fn counts_there(features: &Features, context: &Context<'_>) -> bool {
+    ROLES.iter().any(|role| features.role(*role) && counted(context.source, *role))
+}
+
+/// True where one counts on the target.
+pub fn counts_here(features: &Features, context: &Context<'_>) -> bool {
+    let stands = features.any_op(|op| op.is_lathe_cycle() || op.is_lathe_setup());
+    stands && ROLES.iter().any(|role| counted(context.target, *role))
 }
 
 /// True where the words of a role count increments.
 fn counted(control: &Control, role: Role) -> bool {
     control.dialect().codes.iter().any(|row| {
-        let letters = row.words.iter().filter(|(_, found)| **found == role);
-        row.preferred
-            && letters.into_iter().any(|(letter, _)| letter.chars().any(|l| row.counts.contains(&l)))
+        let mut letters = row.words.iter().filter(|(_, found)| **found == role);
+        row.preferred && letters.any(|(letter, _)| letter.chars().any(|l| row.counts.contains(&l)))
     })
 }
 
-/// Gives each such word the target's form.
-pub fn run(module: &mut Module, context: &mut Context<'_>) -> bool {
+/// Makes lengths of all such words.
+pub fn to_lengths(module: &mut Module, context: &mut Context<'_>) -> bool {
+    all(module, context, |_, _| false)
+}
+
+/// Makes counts of those that count on the target.
+pub fn to_counts(module: &mut Module, context: &mut Context<'_>) -> bool {
+    all(module, context, counted)
+}
+
+fn all(module: &mut Module, context: &mut Context<'_>, counts: impl Fn(&Control, Role) -> bool) -> bool {
     let target = context.target;
     let chosen =
         |block: &Block| block.stmts.iter().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if has(nc)));
     each(module, context, TEXTS, chosen, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
             NcItem::Word(role, value) if ROLES.contains(role) => {
-                let made = changed(value, units, counted(target, *role), target);
+                let made = changed(value, units, counts(target, *role), target);
                 made.is_some_and(|made| {
                     *value = made;
                     true

@@ -5,4 +5,5 @@ pub mod counts;
 pub mod cycle_words;
 pub mod other_kind;
 pub mod settings;
+pub mod steps;
 pub mod thread_form;

@@ -1,0 +1,130 @@
+//! Increments by letters of their own (U, W), where the target has a mode for them (G91), and the other way round.
+//!
+//! Law: a word moves its axis by what it moved it by. Side conditions: where a mode becomes letters, it is known at each block that moves; where
+//! letters become a mode, a block has words of one kind only. Counter-example: `G1 X50. W-2.`, which no mode can say.
+
+use crate::canon::{Group, Op, Role};
+use crate::diag::{Code, Diagnostic};
+use crate::dialect::Control;
+use crate::ir::{BlockId, Module, Nc, NcItem, StmtKind};
+use crate::legalize::Context;
+use crate::legalize::features::Features;
+
+/// Each axis word and its increment.
+const PAIRS: [(Role, Role); 4] =
+    [(Role::X, Role::StepX), (Role::Y, Role::StepY), (Role::Z, Role::StepZ), (Role::C, Role::StepC)];
+
+/// True where the target has letters for increments, and no mode.
+pub fn mode_to_letters(features: &Features, context: &Context<'_>) -> bool {
+    (features.op(Op::Incremental) || features.op(Op::Absolute))
+        && has_letters(context.target)
+        && !has_mode(context.target)
+}
+
+/// True where the target has a mode for increments, and no letters.
+pub fn letters_to_mode(features: &Features, context: &Context<'_>) -> bool {
+    PAIRS.iter().any(|(_, step)| features.role(*step))
+        && has_mode(context.target)
+        && !has_letters(context.target)
+}
+
+fn has_letters(control: &Control) -> bool {
+    control.dialect().words.iter().any(|row| row.role == Role::StepX)
+}
+
+fn has_mode(control: &Control) -> bool {
+    control.dialect().codes.iter().any(|row| row.preferred && row.op == Op::Incremental)
+}
+
+/// Puts increments into letters of their own, and takes the modes away.
+pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let facts = context.modal_facts(module);
+    let mut found = Vec::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for (at, block) in program.blocks.iter_mut().enumerate() {
+            let mut modal = facts.at(index, BlockId(at as u32));
+            for stmt in &mut block.stmts {
+                modal.step(stmt);
+                let span = stmt.site.span;
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                match modal.op(Group::Distance) {
+                    _ if !moves(nc) => {}
+                    Some(Op::Incremental) if nc.has(Op::MachineOnce) => found.push((index, span, MACHINE)),
+                    Some(Op::Incremental) => swap(nc, |(whole, step)| (whole, step)),
+                    Some(_) => {}
+                    None => found.push((index, span, UNKNOWN)),
+                }
+                nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
+                if nc.items.is_empty() {
+                    stmt.kind = StmtKind::Comment;
+                }
+            }
+        }
+    }
+    for (index, span, what) in found {
+        context.add_once(index, what, Diagnostic::new(Code::NoEquivalent, span, what).with_help(HELP));
+    }
+    true
+}
+
+const MACHINE: &str = "G53 while G91 is in force: no source says what its words count";
+const UNKNOWN: &str = "whether G90 or G91 is in force here is not known";
+const HELP: &str =
+    "write G90 or G91 before it, or say in the source's profile how a program begins: [start] codes";
+
+/// Writes the mode that each block's words need.
+pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
+    let mut found = Vec::new();
+    for (index, program) in module.programs.iter_mut().enumerate() {
+        for block in &mut program.blocks {
+            let mut mode = None;
+            for stmt in &mut block.stmts {
+                let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
+                if !moves(nc) {
+                    continue;
+                }
+                let steps =
+                    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if role.is_step()));
+                let whole = |item: &NcItem| matches!(item, NcItem::Word(role, _) if PAIRS.iter().any(|(whole, _)| whole == role));
+                if steps && nc.items.iter().any(whole) {
+                    found.push((index, stmt.site.span));
+                    continue;
+                }
+                let needed = if steps { Op::Incremental } else { Op::Absolute };
+                swap(nc, |(whole, step)| (step, whole));
+                if mode != Some(needed) {
+                    nc.items.insert(0, NcItem::Op(needed));
+                    mode = Some(needed);
+                }
+                // A switch that skips the block leaves the mode as it was.
+                if stmt.site.skip.is_some() {
+                    mode = None;
+                }
+            }
+        }
+    }
+    for (index, span) in found {
+        let what = "a place and an increment in one block: the target has one mode for both axes";
+        let help = "write both as places, or both as increments";
+        context.add(index, Diagnostic::new(Code::NoEquivalent, span, what).with_help(help));
+    }
+    true
+}
+
+/// True for a block whose axis words say where something goes.
+fn moves(nc: &Nc) -> bool {
+    let words = nc.items.iter().any(|item| {
+        matches!(item, NcItem::Word(role, _) if PAIRS.iter().any(|(whole, step)| whole == role || step == role))
+    });
+    words && !nc.ops().any(Op::takes_axes) && !nc.has(Op::Dwell)
+}
+
+fn swap(nc: &mut Nc, pair: impl Fn((Role, Role)) -> (Role, Role)) {
+    for item in &mut nc.items {
+        if let NcItem::Word(role, _) = item
+            && let Some((_, to)) = PAIRS.into_iter().map(&pair).find(|(from, _)| from == role)
+        {
+            *role = to;
+        }
+    }
+}
