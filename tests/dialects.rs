@@ -234,7 +234,7 @@ fn a_lathe_has_its_own_offsets_and_axes() {
     means(&lathe, "G99", Op::FeedPerTurn);
     means(&lathe, "G50 S5000", Op::LimitSpeed);
     means(&lathe, "G50 X100 Z200", Op::SetPosition);
-    assert_eq!(lathe.role('U', false, None), Some(Role::U));
+    assert_eq!(lathe.role('U', false, None), Some(Role::StepX));
     let dwell = lathe.code('G', 4.0, &[]);
     assert_eq!(lathe.role('U', false, dwell), Some(Role::DwellS));
     // Without its axes only X and Z are known.

@@ -58,6 +58,7 @@ pub const LEGALIZE: &[&str] = &[
     "moves",
     "variables",
     "cycles",
+    "lathe",
     "codes",
     "expressions",
     "entry",

@@ -16,7 +16,7 @@ use crate::legalize::codes::{
 use crate::legalize::cycles::{cycle_ends, cycle_here, cycle_planes, cycle_words, dwell, hole_moves};
 use crate::legalize::expressions::halves;
 use crate::legalize::features::{Feature, Features};
-use crate::legalize::lathe::{contours, counts, cycle_words as lathe_cycles, other_kind, steps};
+use crate::legalize::lathe::other_kind;
 use crate::legalize::layout::{blanks, counted, heads, scratch, text_ends};
 use crate::legalize::moves::{joined, start};
 use crate::legalize::offsets::{offset_rows, position_length, tool_word};
@@ -44,7 +44,7 @@ pub const GROUPS: &[Group] = &[
     Group { name: "moves", heading: "Moves, coordinates and units", passes: MOVES },
     Group { name: "variables", heading: "Computed variables and the machine's state", passes: VARIABLES },
     Group { name: "cycles", heading: "Stops, waits and drilling cycles", passes: CYCLES },
-    Group { name: "lathe", heading: "Cycles and contours of lathes", passes: LATHE },
+    Group { name: "lathe", heading: "Cycles and contours of lathes", passes: super::lathe::LATHE },
     Group { name: "codes", heading: "Codes that the target lacks", passes: CODES },
     Group { name: "expressions", heading: "Expressions that the target can read", passes: EXPRESSIONS },
     Group { name: "entry", heading: "What must be done at the start of programs", passes: ENTRY },
@@ -359,39 +359,6 @@ const CYCLES: &[Pass] = &[
             cycle_words::ROLES.iter().any(|role| c.role(*role)) && !hole_moves::replaces(context.target)
         })
         .needs(&["dwell", "cycle-here"]),
-];
-
-const LATHE: &[Pass] = &[
-    Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
-        .when(steps::mode_to_letters)
-        .needs(&["start", "beside-moves"]),
-    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
-        .when(steps::letters_to_mode)
-        .needs(&["beside-moves"]),
-    Pass::edits(
-        "lathe-lengths",
-        "pecks and depths of a lathe's cycles that count become lengths",
-        counts::to_lengths,
-    )
-    .when(counts::counts_there)
-    .needs(&["units"]),
-    Pass::each(
-        "lathe-cycles",
-        "depths, ways back and forms of a lathe's cycles stand where the target takes them from",
-        lathe_cycles::run,
-    )
-    .when(lathe_cycles::concerns)
-    .needs(&["lathe-lengths"]),
-    Pass::edits(
-        "lathe-counts",
-        "pecks and depths of a lathe's cycles count where the target counts",
-        counts::to_counts,
-    )
-    .when(counts::counts_here)
-    .needs(&["units", "lathe-cycles"]),
-    Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)
-        .when(|c, _| contours::concerns(c))
-        .needs(&["lathe-cycles", "beside-moves", "pauses"]),
 ];
 
 const CODES: &[Pass] = &[

@@ -5,6 +5,7 @@
 //! is held to what it says that it changes.
 
 mod late;
+mod lathe;
 mod list;
 mod moves;
 mod pass;

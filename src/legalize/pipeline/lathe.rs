@@ -1,0 +1,37 @@
+//! The passes of lathes, in the order they run in.
+
+use super::Pass;
+use crate::legalize::lathe::{contours, counts, cycle_words, steps};
+
+pub(super) const LATHE: &[Pass] = &[
+    Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
+        .when(steps::mode_to_letters)
+        .needs(&["start", "beside-moves"]),
+    Pass::edits("step-modes", "increments that letters tell get a mode", steps::to_mode)
+        .when(steps::letters_to_mode)
+        .needs(&["beside-moves"]),
+    Pass::edits(
+        "lathe-lengths",
+        "pecks and depths of a lathe's cycles that count become lengths",
+        counts::to_lengths,
+    )
+    .when(counts::counts_there)
+    .needs(&["units"]),
+    Pass::each(
+        "lathe-cycles",
+        "depths, ways back and forms of a lathe's cycles stand where the target takes them from",
+        cycle_words::run,
+    )
+    .when(cycle_words::concerns)
+    .needs(&["lathe-lengths"]),
+    Pass::edits(
+        "lathe-counts",
+        "pecks and depths of a lathe's cycles count where the target counts",
+        counts::to_counts,
+    )
+    .when(counts::counts_here)
+    .needs(&["units", "lathe-cycles"]),
+    Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)
+        .when(|c, _| contours::concerns(c))
+        .needs(&["lathe-cycles", "beside-moves", "pauses"]),
+];
