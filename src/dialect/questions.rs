@@ -226,6 +226,8 @@ questions! {
     CycleVariableRetract "cycle.variable.retract" NUMBER, "number of the variable that a drilling cycle takes its retract plane from", if "op:call.cycle";
     CycleVariableDepth "cycle.variable.depth" NUMBER, "number of the variable that a drilling cycle takes its depth from", if "op:call.cycle";
     CycleEndsByMotion "cycle.ends.by.motion" YES, "a rapid, feed or arc code ends the drilling cycle in force", if "said";
+    RoughingEnds "roughing.ends" OneOf(&["along", "levels", "unknown"]), "how the roughing of a contour ends: with a pass along it, always, or level by \
+                                                    level, and along it only with an allowance for that pass", if "op:contour.turning";
     MotionAfterCycle "motion.after.cycle" OneOf(&["kept", "unknown"]), "the interpolation in force when a drilling cycle has ended";
     CycleBlockRuns "cycle.block.runs" YES, "a drilling cycle's own block drills at the position in it", if "said";
     CyclePeckClearance "cycle.peck.clearance" NUMBER, "how far over the last depth a peck drill begins its next step, millimetres", if "said";

@@ -4,6 +4,7 @@ pub mod contours;
 pub mod counts;
 pub mod cycle_words;
 pub mod other_kind;
+pub mod roughing;
 pub mod settings;
 pub mod steps;
 pub mod thread_form;

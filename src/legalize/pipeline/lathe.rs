@@ -1,7 +1,7 @@
 //! The passes of lathes, in the order they run in.
 
 use super::Pass;
-use crate::legalize::lathe::{contours, counts, cycle_words, steps};
+use crate::legalize::lathe::{contours, counts, cycle_words, roughing, steps};
 
 pub(super) const LATHE: &[Pass] = &[
     Pass::edits("steps", "increments that a mode tells get letters of their own", steps::to_letters)
@@ -31,6 +31,8 @@ pub(super) const LATHE: &[Pass] = &[
     )
     .when(counts::counts_here)
     .needs(&["units", "lathe-cycles"]),
+    Pass::reports("roughing", "checks that the roughing of contours ends alike", roughing::run)
+        .when(roughing::concerns),
     Pass::reports("contours", "checks that the contours of cycles are whole", contours::run)
         .when(|c, _| contours::concerns(c))
         .needs(&["lathe-cycles", "beside-moves", "pauses"]),
