@@ -5,6 +5,7 @@
 //! says that the setting is so. Counter-example: a setting that another program needs otherwise.
 
 use super::settings::{Kind, row, setting, takes};
+use super::spring_passes::{Place, passes};
 use super::thread_form;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
@@ -73,7 +74,9 @@ fn in_block(
 ) -> Vec<Stmt> {
     let mut new: Vec<Stmt> = Vec::new();
     let mut set: Vec<(Op, Values)> = Vec::new();
-    for mut stmt in old {
+    let mut place = Place::default();
+    let mut old: std::collections::VecDeque<Stmt> = old.into_iter().collect();
+    while let Some(mut stmt) = old.pop_front() {
         if let Some(kind) = setup_of(&stmt) {
             let values = nc_of(&stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
             let slot = set.iter().position(|(op, _)| *op == kind.setup);
@@ -92,13 +95,20 @@ fn in_block(
             }
             continue;
         }
+        place.step(&stmt);
         let Some(kind) = cycle_of(&stmt) else {
             new.push(stmt);
             continue;
         };
         let before = set.iter().find(|(op, _)| *op == kind.setup).map(|(_, values)| values.clone());
         match resolve(&stmt, kind, before, source, target) {
-            Ok((words, setup)) => {
+            Ok(Given { words, setup, finishes, angle }) => {
+                if finishes > 0 {
+                    match passes(&stmt, angle, finishes, place, old.make_contiguous()) {
+                        Some(all) => all.into_iter().rev().for_each(|pass| old.push_front(pass)),
+                        None => found.push((stmt.site.span, FINISHES.into(), FINISHES_HELP.into())),
+                    }
+                }
                 if !setup.is_empty() {
                     let nc = with(kind.setup, setup);
                     let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
@@ -116,6 +126,24 @@ fn in_block(
     }
     new
 }
+
+/// What a cycle is given on the target.
+#[derive(Default)]
+struct Given {
+    /// By words of its own block.
+    words: Values,
+    /// By words of the block before it.
+    setup: Values,
+    /// Finishing passes of a thread beyond those of the cycle.
+    finishes: usize,
+    /// The thread's angle, degrees.
+    angle: f64,
+}
+
+const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
+                        where the cycle begins, or a number of it, is not known here";
+const FINISHES_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the \
+                             thread one finishing pass and an allowance for it";
 
 const SKIPPED: &str =
     "a block skip before the block that sets what the next cycle takes: whether it counts is not known here";
@@ -145,18 +173,36 @@ fn resolve(
     before: Option<Values>,
     source: &Control,
     target: &Control,
-) -> Result<(Values, Values), (String, String)> {
+) -> Result<Given, (String, String)> {
     let mut values = given(stmt, kind, before, source)?;
     if !thread_form::apart(&mut values) {
         let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
         return Err((what.into(), "write the number as it is: P021060".into()));
     }
     usual(&mut values);
+    let finishes = if takes(target, kind.setup, Role::ThreadForm) { 0 } else { more_finishes(&mut values) };
+    let angle = constant(&values, Role::ThreadAngle).unwrap_or(0.0);
     if takes(target, kind.setup, Role::ThreadForm) && !thread_form::together(&mut values) {
         let what = "the run-out or the angle of this thread has more digits than the target takes";
         return Err((what.into(), "the target takes tenths of a lead, and whole degrees".into()));
     }
-    place(values, kind, target)
+    let (words, setup) = place(values, kind, target)?;
+    Ok(Given { words, setup, finishes, angle })
+}
+
+/// Finishing passes beyond the one that takes off what was left; they are no word of the cycle any more.
+fn more_finishes(values: &mut Values) -> usize {
+    let Some(all) = constant(values, Role::ThreadFinishes).filter(|all| *all >= 1.0) else { return 0 };
+    let left = constant(values, Role::ThreadAllowance).is_some_and(|left| left > 0.0);
+    values.retain(|(role, _)| *role != Role::ThreadFinishes);
+    if left {
+        values.push((Role::ThreadFinishes, Expr::Number(1.0)));
+    }
+    all as usize - usize::from(left)
+}
+
+fn constant(values: &Values, wanted: Role) -> Option<f64> {
+    values.iter().find(|(role, _)| *role == wanted).and_then(|(_, value)| value.constant())
 }
 
 /// All values of a cycle: of its own words, of the block before it, and of the source's settings.
@@ -207,9 +253,6 @@ fn meaning(role: Role) -> String {
 /// A control without a letter for them has one finishing pass, if there is something left for it, and goes in along one flank.
 fn usual(values: &mut Values) {
     values.retain(|(role, value)| *role != Role::ThreadInfeed || value.constant() != Some(1.0));
-    let constant = |values: &Values, wanted: Role| {
-        values.iter().find(|(role, _)| *role == wanted).and_then(|(_, value)| value.constant())
-    };
     let left = constant(values, Role::ThreadAllowance);
     if left.is_some_and(|left| left > 0.0) && values.iter().all(|(role, _)| *role != Role::ThreadFinishes) {
         values.push((Role::ThreadFinishes, Expr::Number(1.0)));
@@ -224,8 +267,7 @@ fn place(
 ) -> Result<(Values, Values), (String, String)> {
     let (words, others): (Values, Values) =
         values.iter().cloned().partition(|(role, _)| takes(target, kind.cycle, *role));
-    let refused =
-        others.iter().find_map(|(role, value)| in_setting(*role, value, &values, kind, target).err());
+    let refused = others.iter().find_map(|(role, value)| in_setting(*role, value, kind, target).err());
     let Some(refused) = refused else { return Ok((words, Values::new())) };
     let (before, rest): (Values, Values) =
         values.iter().cloned().partition(|(role, _)| takes(target, kind.setup, *role));
@@ -236,24 +278,12 @@ fn place(
 }
 
 /// True of a value that the target has without a word of the program.
-fn in_setting(
-    role: Role,
-    value: &Expr,
-    values: &Values,
-    kind: &Kind,
-    target: &Control,
-) -> Result<(), (String, String)> {
+fn in_setting(role: Role, value: &Expr, kind: &Kind, target: &Control) -> Result<(), (String, String)> {
     if role == Role::ThreadFinishes {
-        let left = values.iter().find(|(role, _)| *role == Role::ThreadAllowance);
-        let left = left.is_some_and(|(_, value)| value.constant().is_some_and(|left| left > 0.0));
+        let what = "the number of finishing passes of this thread is computed, or none";
         return match value.constant() {
-            Some(1.0) if left => Ok(()),
-            _ => Err((
-                "the target finishes a thread in one pass, which takes off what was left for it: this one has another number of \
-                 finishing passes, or nothing is left for them"
-                    .into(),
-                "give the thread one finishing pass and an allowance for it, or write the other passes apart".into(),
-            )),
+            Some(1.0) => Ok(()),
+            _ => Err((what.into(), "write it as a number".into())),
         };
     }
     let Some((name, stated)) = setting(target, kind.cycle, role) else {

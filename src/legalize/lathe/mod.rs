@@ -6,5 +6,6 @@ pub mod cycle_words;
 pub mod other_kind;
 pub mod roughing;
 pub mod settings;
+pub mod spring_passes;
 pub mod steps;
 pub mod thread_form;
