@@ -90,6 +90,8 @@ super::vocabulary! {
         ContourFirst = "contour.first",
         /// Sequence number of the last block of a contour.
         ContourLast = "contour.last",
+        /// 1 where a contour may have valleys.
+        ContourType = "contour.type",
         /// Depth of a roughing pass, as a radius or along Z.
         CutDepth = "cut.depth",
         /// How far a pass or a peck goes back from the cut.
@@ -257,6 +259,7 @@ impl Role {
                 | Role::Turret
                 | Role::ContourFirst
                 | Role::ContourLast
+                | Role::ContourType
                 | Role::Passes
                 | Role::ThreadForm
                 | Role::ThreadFinishes

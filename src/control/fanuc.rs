@@ -24,6 +24,8 @@ static STYLE: Style = Style {
         too_deep: "PS0077",
         no_modal_call: "PS1100",
     },
+    numbers_lathe_alarms: true,
+    run_out: None,
 };
 
 /// Runs a program. See [`super::Execute`].

@@ -24,6 +24,8 @@ static STYLE: Style = Style {
         too_deep: "",
         no_modal_call: "",
     },
+    numbers_lathe_alarms: false,
+    run_out: Some(["M23", "M24"]),
 };
 
 /// Runs a program. See [`super::Execute`].

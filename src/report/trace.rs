@@ -179,7 +179,7 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
             number(*radius),
             number(*sweep)
         ),
-        Thread { from, to, lead } => format!("thread {}  lead {}", axes(from, to), number(*lead)),
+        Thread { from, to, lead, .. } => format!("thread {}  lead {}", axes(from, to), number(*lead)),
         Probe { from, to, hit, .. } => {
             format!("probe  {}  {}", axes(from, to), if *hit { "touched" } else { "missed" })
         }
@@ -200,7 +200,10 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
         ToolReady { tool } => format!("tool    {} ready", number(*tool)),
         ToolChange { tool } => format!("tool    {} in the spindle", number(*tool)),
         ToolLength { offset, value } => format!("length  H{offset} = {}", number(*value)),
-        CutterRadius { side, offset, value } => format!("cutter  {side:?} D{offset} = {}", number(*value)),
+        CutterRadius { side, offset, value, .. } => {
+            format!("cutter  {side:?} D{offset} = {}", number(*value))
+        }
+        ToolOffset { offset, x, z } => format!("offset  {offset} = X{} Z{}", number(*x), number(*z)),
         WorkOffset { number } => format!("work offset {number}"),
         Write { state, subscripts, value } => format!("write   {state} {subscripts:?} = {}", number(*value)),
         Variable { name, value: Some(value) } => format!("set     {name} = {}", number(*value)),

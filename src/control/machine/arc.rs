@@ -11,75 +11,128 @@ use crate::control::trace::{EventKind, Position, Trace};
 /// rounding to least increments can cause.
 const SLACK: f64 = 0.01;
 
-/// The ends and the centre of an arc in a plane.
-struct Flat {
-    from: (f64, f64),
-    to: (f64, f64),
-    clockwise: bool,
+/// The ends and the sense of an arc in a plane. On a lathe X is a radius here.
+pub(super) struct Flat {
+    pub from: (f64, f64),
+    pub to: (f64, f64),
+    pub clockwise: bool,
 }
 
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     let (first, second, _) = machine.plane.axes();
-    let from = machine.frame.program(&machine.position);
     let end = machine.target(command);
+    let scale = |axis| machine.real(axis);
+    let flat_of = |at: &Axes| (at[first] * scale(first), at[second] * scale(second));
+    let from = machine.frame.program(&machine.position);
     let to = machine.frame.program(&end);
     let clockwise = machine.motion == Op::ArcCw;
-    let flat = Flat { from: (from[first], from[second]), to: (to[first], to[second]), clockwise };
-    let words = [Role::ArcI, Role::ArcJ, Role::ArcK].map(|role| command.word(role));
-    let unit = machine.unit();
-    let centre = if let Some(radius) = command.word(Role::ArcRadius) {
-        flat.centre_by_radius(radius * unit, machine, trace)?
-    } else if words.iter().any(Option::is_some) {
-        let incremental = machine.rules.centre_is_incremental.ask(trace);
-        let place = |axis: usize| {
-            let word = words[axis].map(|value| value * unit);
-            if incremental { from[axis] + word.unwrap_or(0.0) } else { word.unwrap_or(from[axis]) }
-        };
-        Some((place(first), place(second)))
+    let flat = Flat { from: flat_of(&from), to: flat_of(&to), clockwise };
+    let centre = if has_centre(command) {
+        flat.centre(machine, command, trace)?
     } else {
         match machine.rules.no_centre.ask(trace) {
-            NoCentre::Alarm => return Err(Stop::unnamed("an arc without centre and radius")),
-            NoCentre::Straight => {
+            NoCentre::Straight if !machine.rules.lathe => {
                 machine.feed_to(end, trace);
                 return Ok(());
             }
+            _ => return Err(Stop::alarm(machine.lathe_name("PS0022"), "an arc without centre and radius")),
         }
     };
     let Some(centre) = centre else {
         // A radius and no way to go: no control moves.
         return Ok(());
     };
-    record(machine, &flat, centre, (from, end), trace);
-    Ok(())
+    let centre = (centre.0 / scale(first), centre.1 / scale(second));
+    record(machine, &flat, centre, (from, end), trace)
 }
 
-fn record(machine: &mut Machine, flat: &Flat, centre: (f64, f64), ends: (Axes, Axes), trace: &mut Trace) {
+/// True where a block says where the middle of its arc is.
+pub(super) fn has_centre(command: &Command) -> bool {
+    let words = [Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius];
+    words.iter().any(|role| command.word(*role).is_some())
+}
+
+fn record(
+    machine: &mut Machine,
+    flat: &Flat,
+    centre: (f64, f64),
+    ends: (Axes, Axes),
+    trace: &mut Trace,
+) -> Result<(), Stop> {
     let (first, second, _) = machine.plane.axes();
     let (from, end) = ends;
     let mut middle = from;
     (middle[first], middle[second]) = centre;
-    let start = std::mem::replace(&mut machine.position, end);
     let middle = machine.frame.machine(&middle);
-    let reach = |at: &Axes| (at[first] - middle[first]).hypot(at[second] - middle[second]);
-    let (radius, end_radius) = (reach(&start), reach(&end));
-    machine.doubt_feed_mode(trace);
     let flips = machine.frame.flips((first, second));
-    let sweep = flat.sweep(centre) * if flips { -1.0 } else { 1.0 };
-    machine.pass(radius * sweep.abs().to_radians());
+    let own = (centre.0 * machine.real(first), centre.1 * machine.real(second));
+    let sweep = flat.sweep(own) * if flips { -1.0 } else { 1.0 };
+    turn(machine, end, middle, sweep, trace)
+}
+
+/// Goes to a place on an arc about a middle, machine coordinates.
+pub(super) fn turn(
+    machine: &mut Machine,
+    end: Axes,
+    middle: Axes,
+    sweep: f64,
+    trace: &mut Trace,
+) -> Result<(), Stop> {
+    let (first, second, _) = machine.plane.axes();
+    let start = machine.position;
+    let way = |at: &Axes, axis: usize| (at[axis] - middle[axis]) * machine.real(axis);
+    let reach = |at: &Axes| way(at, first).hypot(way(at, second));
+    let (radius, end_radius) = (reach(&start), reach(&end));
+    let off = end_radius - radius;
+    if machine.rules.turning.arc_limit.is_some_and(|limit| off.abs() > limit + 1e-9) {
+        return Err(Stop::alarm(machine.lathe_name("PS0020"), "the end of the arc is not on its circle"));
+    }
+    machine.position = end;
+    if machine.rules.lathe {
+        super::lathe::time::arc(machine, &start, &middle, sweep, trace);
+    } else {
+        machine.pass(radius * sweep.abs().to_radians());
+    }
     trace.push(EventKind::Arc {
         from: Position(start),
         to: Position(end),
         centre: Position(middle),
         radius,
-        off: end_radius - radius,
+        off,
         plane: machine.plane,
         sweep,
+        diameters: machine.rules.lathe,
         feed: machine.feed,
         mode: machine.feed_mode,
     });
+    Ok(())
 }
 
 impl Flat {
+    /// The centre that the words of a block say; none if start and end are one.
+    pub(super) fn centre(
+        &self,
+        machine: &Machine,
+        command: &Command,
+        trace: &mut Trace,
+    ) -> Result<Option<(f64, f64)>, Stop> {
+        let (first, second, _) = machine.plane.axes();
+        let unit = machine.unit();
+        if let Some(radius) = command.word(Role::ArcRadius) {
+            if machine.rules.lathe && radius < 0.0 {
+                return Err(Stop::alarm(machine.lathe_name("PS0023"), "the radius of an arc is negative"));
+            }
+            return self.centre_by_radius(radius * unit, machine, trace);
+        }
+        let words = [Role::ArcI, Role::ArcJ, Role::ArcK].map(|role| command.word(role));
+        let incremental = machine.rules.centre_is_incremental.ask(trace);
+        let place = |axis: usize, from: f64| {
+            let word = words[axis].map(|value| value * unit);
+            if incremental { from + word.unwrap_or(0.0) } else { word.unwrap_or(from) }
+        };
+        Ok(Some((place(first, self.from.0), place(second, self.from.1))))
+    }
+
     /// The centre of the arc with a signed radius; none if start and end are one.
     fn centre_by_radius(
         &self,
@@ -112,7 +165,7 @@ impl Flat {
     }
 
     /// Degrees that are passed, positive counter-clockwise; a whole turn where the ends are one.
-    fn sweep(&self, centre: (f64, f64)) -> f64 {
+    pub(super) fn sweep(&self, centre: (f64, f64)) -> f64 {
         let angle = |at: (f64, f64)| (at.1 - centre.1).atan2(at.0 - centre.0).to_degrees();
         let turned = (angle(self.to) - angle(self.from)).rem_euclid(360.0);
         let same = (self.from.0 - self.to.0).hypot(self.from.1 - self.to.1) < 1e-7;

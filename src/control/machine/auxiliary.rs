@@ -45,7 +45,8 @@ fn kinds<'c>(machine: &Machine, command: &'c Command) -> impl Iterator<Item = Au
 
 /// True where the tool word has changed the tool before anything else of the block.
 fn changes_by_word(machine: &Machine, command: &Command) -> bool {
-    machine.rules.tool_word_changes.peek() && command.word(Role::Tool).is_some()
+    // The turret of a lathe turns by the word alone, wherever the code for a change stands.
+    machine.rules.lathe || (machine.rules.tool_word_changes.peek() && command.word(Role::Tool).is_some())
 }
 
 fn of_kind(command: &Command, kind: Auxiliary) -> impl Iterator<Item = Op> + '_ {
@@ -152,6 +153,7 @@ fn turn(machine: &mut Machine, command: &Command, direction: Spindle, trace: &mu
         // Surface speed comes in metres or feet a minute.
         let unit = if machine.inch { 304.8 } else { 1000.0 };
         machine.speed = if machine.surface_speed { speed * unit } else { speed };
+        machine.lathe.speeds[usize::from(machine.surface_speed)] = machine.speed;
     }
     machine.spindle = direction;
     trace.push(EventKind::Spindle { direction, speed: machine.speed, surface: machine.surface_speed });

@@ -3,7 +3,7 @@
 //! Modes come first, then tool, spindle and coolant as far as they act with the start of the move, then what moves,
 //! then the rest of them, then a stop.
 
-use super::{Command, Machine, auxiliary, motion, offsets, state, tooling};
+use super::{Command, Machine, auxiliary, lathe, motion, offsets, state, tooling};
 use crate::canon::{Group, Op, Pause, Role};
 use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, Trace};
@@ -11,6 +11,9 @@ use crate::control::trace::{EventKind, Trace};
 pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
     if machine.frame.is_shaped() && command.ops.iter().any(|op| is_of_frame(*op)) {
         machine.rules.frame_codes_when_shaped.ask(trace);
+    }
+    if machine.rules.lathe {
+        lathe::check::block(machine, command, trace)?;
     }
     state::modes(machine, command, trace);
     let before = auxiliary::Before::of(machine, trace);
@@ -67,8 +70,12 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         | Op::WriteRadius
         | Op::WriteRadiusWear
         | Op::WriteOffset => offsets::write_by_code(machine, op, command, trace)?,
+        op if op.is_lathe_setup() => lathe::setup(machine, op, command)?,
+        // They move; of those that read a contour the interpreter knows the blocks.
+        op if op.is_lathe_cycle() => {}
         Op::LimitSpeed => {
             if let Some(speed) = command.word(Role::SpeedLimit) {
+                machine.lathe.limit = Some(speed);
                 trace.push(EventKind::SpeedLimit { speed });
             }
         }
@@ -104,6 +111,7 @@ fn is_done_elsewhere(op: Op) -> bool {
                 | PolarOn
                 | PolarOff
                 | CycleHere
+                | TurretIndex
                 | Stop
                 | OptionalStop
                 | CheckInch

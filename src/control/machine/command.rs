@@ -62,6 +62,11 @@ impl Command {
         self.words.iter().filter_map(|(role, value)| Some((axis(*role)?, *value)))
     }
 
+    /// The same, with whether each says how far the axis goes from where it is.
+    pub fn places(&self) -> impl Iterator<Item = (usize, f64, bool)> + '_ {
+        self.words.iter().filter_map(|(role, value)| Some((axis(*role)?, *value, role.is_step())))
+    }
+
     /// True where an axis word stands in it.
     pub fn has_axes(&self) -> bool {
         self.axes().next().is_some()

@@ -84,6 +84,7 @@ impl Machine {
             side: self.side,
             offset: self.radius_offset,
             value: self.radius_value(self.radius_offset),
+            tip: 0,
         };
         let (direction, speed, surface) = (self.spindle, self.speed, self.surface_speed);
         let told = [

@@ -21,6 +21,8 @@ pub struct Frame {
     pub datum: Axes,
     /// Tool length along Z, with its sign.
     pub length: f64,
+    /// The tool offset of a lathe.
+    pub tool: Option<[f64; 3]>,
     /// Mirrored axes and about which coordinate.
     pub mirror: [Option<f64>; AXES],
     /// Scale factors and their centre.
@@ -48,7 +50,11 @@ impl Frame {
     /// What is added to a coordinate at last.
     pub fn shift(&self, axis: usize) -> f64 {
         let shift = self.work[axis] + self.external[axis] + self.local[axis] + self.datum[axis];
-        if axis == 2 { shift + self.length } else { shift }
+        let shift = if axis == 2 { shift + self.length } else { shift };
+        match self.tool.as_ref().and_then(|tool| tool.get(axis)) {
+            Some(offset) => shift + offset,
+            None => shift,
+        }
     }
 
     /// True where more than a shift is in force.

@@ -14,6 +14,7 @@ mod entry;
 mod exit_state;
 mod expand;
 mod frame;
+mod lathe;
 mod motion;
 mod offsets;
 mod pauses;
@@ -28,6 +29,7 @@ mod tooling;
 pub use command::Command;
 pub use exit_state::ExitState;
 pub use frame::{Frame, Rotation};
+pub use lathe::{Contour, Contoured};
 pub(super) use rules::Rules;
 
 use super::outcome::Stop;
@@ -74,8 +76,6 @@ pub struct Machine {
     plane: Plane,
     feed: f64,
     feed_mode: FeedMode,
-    /// True once a program said what the feed counts.
-    feed_mode_told: bool,
     speed: f64,
     surface_speed: bool,
     spindle: Spindle,
@@ -96,6 +96,8 @@ pub struct Machine {
     path_mode: Op,
     polar: bool,
     references: [Axes; 2],
+    /// What only a lathe has.
+    lathe: lathe::Lathe,
     probes: std::vec::IntoIter<Probe>,
     peck_clearance: f64,
     /// Simulated time, milliseconds, and where the timers were set to zero in it.
@@ -133,7 +135,6 @@ impl Machine {
             plane: Plane::Xy,
             feed: 0.0,
             feed_mode: FeedMode::PerMinute,
-            feed_mode_told: false,
             speed: 0.0,
             surface_speed: false,
             spindle: Spindle::Stopped,
@@ -151,6 +152,7 @@ impl Machine {
             path_mode: Op::CuttingMode,
             polar: false,
             references: scenario.references,
+            lathe: lathe::Lathe::default(),
             probes: scenario.probes.clone().into_iter(),
             peck_clearance,
             clock: 0.0,
@@ -162,6 +164,7 @@ impl Machine {
             cells: HashMap::new(),
             given_acts: HashMap::new(),
         };
+        machine.start_turning(control);
         for cell in &scenario.state {
             machine.preset(cell.state, &cell.subscripts, cell.value);
         }
@@ -228,6 +231,21 @@ impl Machine {
     fn zero(&self) -> Zero {
         let at = std::array::from_fn(|axis| self.frame.shift(axis) - self.frame.local[axis]);
         Zero { at, inch: self.inch, plane: self.plane }
+    }
+
+    /// True for a lathe.
+    pub fn is_lathe(&self) -> bool {
+        self.rules.lathe
+    }
+
+    /// What a length along an axis is multiplied by to be a real one: X of a lathe is a diameter.
+    fn real(&self, axis: usize) -> f64 {
+        if self.rules.lathe && axis == 0 { 0.5 } else { 1.0 }
+    }
+
+    /// The number of an alarm, on a lathe; mills have no name for it here.
+    fn lathe_name<'n>(&self, number: &'n str) -> &'n str {
+        if self.rules.lathe { number } else { "" }
     }
 
     /// Millimetres of one unit of length of the program.

@@ -2,7 +2,7 @@
 
 use super::command::is_rotary;
 use super::tooling::LostBy;
-use super::{Command, Machine, arc, cycle};
+use super::{Command, Machine, arc, cycle, lathe};
 use crate::canon::{Group, Op, Role};
 use crate::control::outcome::Stop;
 use crate::control::scenario::{AXES, Axes, Probe};
@@ -37,6 +37,9 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             machine.cycle = None;
         }
     }
+    if lathe::way::follows(machine, command, trace)? {
+        return Ok(true);
+    }
     if command.has(Op::CycleOff) {
         machine.cycle = None;
     }
@@ -54,6 +57,13 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
                 machine.rapid_to(home, trace);
                 return Ok(false);
             }
+            Op::MachineOnce if machine.rules.lathe => {
+                return lathe::zeros::in_machine_coordinates(machine, command, trace).map(|()| false);
+            }
+            Op::FaceGroove | Op::Groove => {
+                return lathe::groove::run(machine, op, command, trace).map(|()| false);
+            }
+            Op::Threading => return lathe::thread::many(machine, command, trace).map(|()| false),
             Op::ReferenceFrom => {
                 trace.doubt("machine:reference.from");
                 let to = machine.target(command);
@@ -80,6 +90,9 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if drills {
         return cycle::run(machine, command, trace).map(|()| false);
     }
+    if machine.motion.is_pass() {
+        return lathe::pass::run(machine, command, trace).map(|()| false);
+    }
     let arc_words = [Role::ArcI, Role::ArcJ, Role::ArcK].iter().any(|role| command.word(*role).is_some());
     let arcs = matches!(machine.motion, Op::ArcCw | Op::ArcCcw);
     let polar = [Role::PolarDistance, Role::PolarAngle].iter().any(|role| command.word(*role).is_some());
@@ -87,6 +100,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if !goes {
         return Ok(false);
     }
+    lathe::way::doubt_motion(machine, command, trace);
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
             let to = machine.target(command);
@@ -97,11 +111,22 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
             machine.rapid_to(to, trace);
         }
         Op::ArcCw | Op::ArcCcw => arc::run(machine, command, trace)?,
+        Op::Thread | Op::ThreadVariable if machine.rules.lathe => {
+            lathe::thread::single(machine, command, trace)?;
+        }
         Op::Thread => {
             let (from, to) = (machine.position, machine.target(command));
             machine.position = to;
             let lead = command.word(Role::Lead).map_or(machine.feed, |lead| lead * machine.unit());
-            trace.push(EventKind::Thread { from: Position(from), to: Position(to), lead });
+            trace.push(EventKind::Thread {
+                from: Position(from),
+                to: Position(to),
+                lead,
+                start: 0.0,
+                change: 0.0,
+                chamfer: None,
+                chamfer_angle: None,
+            });
         }
         other => {
             if other == Op::ArcTangent {
@@ -119,6 +144,8 @@ fn takes_axes(command: &Command) -> bool {
     command.ops.iter().any(|op| {
         matches!(op, Op::LocalShift | Op::SetPosition | Op::WriteWork | Op::RotateOn | Op::ScaleOn)
             || matches!(op, Op::MirrorOn | Op::MirrorOff | Op::Pole | Op::Dwell)
+            || op.is_lathe_cycle()
+            || op.is_lathe_setup()
     })
 }
 
@@ -129,6 +156,9 @@ fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut
     if named.is_empty() && machine.rules.reference_takes_all.ask(trace) {
         named = (0..AXES).collect();
     }
+    if named.is_empty() && machine.rules.lathe {
+        return lathe::zeros::without_axes(machine, which, trace);
+    }
     if command.has_axes() {
         let by = machine.target(command);
         machine.rapid_to(by, trace);
@@ -136,7 +166,6 @@ fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut
     let mut to = machine.position;
     let along = named.contains(&LENGTH_AXIS);
     for axis in named {
-        let axis = machine.own_axis(axis).0;
         to[axis] = home[axis];
         machine.round_home(axis);
     }
@@ -201,21 +230,17 @@ impl Machine {
     pub(super) fn feed_to(&mut self, to: Axes, trace: &mut Trace) {
         let from = std::mem::replace(&mut self.position, to);
         if from != to {
-            self.doubt_feed_mode(trace);
-            self.pass(distance(&from, &to));
+            if self.rules.lathe {
+                lathe::time::straight(self, &from, &to, trace);
+            } else {
+                self.pass(distance(&from, &to));
+            }
             trace.push(EventKind::Feed {
                 from: Position(from),
                 to: Position(to),
                 feed: self.feed,
                 mode: self.feed_mode,
             });
-        }
-    }
-
-    /// In which feed mode a lathe starts no source says, where the program does not say it first.
-    pub(super) fn doubt_feed_mode(&self, trace: &mut Trace) {
-        if self.rules.lathe && !self.feed_mode_told {
-            trace.doubt("machine:feed.mode.at.start");
         }
     }
 
@@ -231,12 +256,6 @@ impl Machine {
         }
     }
 
-    /// The axis that a word of this axis moves, and whether it is incremental by itself:
-    /// U, V and W of a lathe are incremental X, Y and Z.
-    pub(super) fn own_axis(&self, axis: usize) -> (usize, bool) {
-        if self.rules.lathe && (6..9).contains(&axis) { (axis - 6, true) } else { (axis, false) }
-    }
-
     /// Machine position that the axis words of a block aim at.
     pub(super) fn target(&self, command: &Command) -> Axes {
         if self.polar {
@@ -245,8 +264,7 @@ impl Machine {
         let unit = self.unit();
         if !self.frame.is_shaped() {
             let mut to = self.position;
-            for (axis, value) in command.axes() {
-                let (axis, by_itself) = self.own_axis(axis);
+            for (axis, value, by_itself) in command.places() {
                 let value = if is_rotary(axis) { value } else { value * unit };
                 to[axis] = if self.incremental || by_itself {
                     to[axis] + value
@@ -257,8 +275,7 @@ impl Machine {
             return to;
         }
         let mut work = self.frame.program(&self.position);
-        for (axis, value) in command.axes() {
-            let (axis, by_itself) = self.own_axis(axis);
+        for (axis, value, by_itself) in command.places() {
             let value = if is_rotary(axis) { value } else { value * unit };
             work[axis] = if self.incremental || by_itself { work[axis] + value } else { value };
         }
@@ -302,7 +319,7 @@ impl Machine {
 }
 
 /// The length of a straight way over the linear axes, over all axes where only rotary ones move.
-fn distance(from: &Axes, to: &Axes) -> f64 {
+pub(super) fn distance(from: &Axes, to: &Axes) -> f64 {
     let over = |rotary: bool| {
         (0..AXES)
             .filter(|axis| is_rotary(*axis) == rotary)

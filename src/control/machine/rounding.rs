@@ -98,7 +98,7 @@ impl Machine {
                 (_, Role::PolarAngle) => self.off(command, *role, *value).to_radians() * reach,
                 _ => continue,
             };
-            let named = axis(*role).map(|axis| self.own_axis(axis));
+            let named = axis(*role).map(|axis| (axis, role.is_step()));
             for (at, kept) in self.rounding.axes.iter_mut().enumerate() {
                 // A polar word moves both axes of the plane.
                 if named.map_or(at < 3, |(axis, _)| axis == at) {
@@ -117,7 +117,7 @@ impl Machine {
             // An axis that no word names was turned back and forth where the move began.
             let named = |at: usize| {
                 let mut axes = command.words.iter().filter_map(|(role, _)| axis(*role));
-                axes.any(|axis| self.own_axis(axis).0 == at)
+                axes.any(|axis| axis == at)
             };
             let off = self.off_within(far) - self.rounding.frame.iter().sum::<f64>();
             (0..3).filter(|at| !named(*at)).collect::<Vec<_>>().into_iter().for_each(|at| {

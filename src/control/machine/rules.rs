@@ -1,5 +1,6 @@
 //! The facts of a control that the machine acts by, read once.
 
+use super::lathe::Turning;
 use crate::canon::{Act, Auxiliary, Op, Pause, Running, Sys};
 use crate::control::trace::Trace;
 use crate::dialect::{Control, Machine, Question};
@@ -131,8 +132,13 @@ pub struct Rules {
     pub end_clears_local: Fact<bool>,
     /// True where length and radius share a table.
     pub shared_offsets: bool,
-    /// True on a lathe: U, V and W are incremental X, Y and Z, and X is a diameter.
+    /// True on a lathe: X is a diameter.
     pub lathe: bool,
+    /// A roughing always ends with a pass along the contour; else with a level on its bottom, and along it only with an
+    /// allowance for that (K5, K9 of docs/lathe.md).
+    pub roughing_along: Fact<bool>,
+    /// The settings of a lathe.
+    pub turning: Turning,
 }
 
 impl Rules {
@@ -232,6 +238,8 @@ impl Rules {
             end_clears_local: yes(control, Question::EndClearsLocal, false),
             shared_offsets: has(Sys::ToolOffset) && !has(Sys::LengthGeometry),
             lathe: control.machine() == Machine::Lathe,
+            roughing_along: fact(control, Question::RoughingEnds, word("along", "levels"), true),
+            turning: Turning::new(control),
         }
     }
 

@@ -3,13 +3,13 @@
 use super::frame::Rotation;
 use super::{Command, INCH, Machine};
 use crate::canon::{Group, Op, Role};
-use crate::control::scenario::AXES;
+use crate::control::scenario::{AXES, Axes};
 use crate::control::trace::{EventKind, FeedMode, Plane, Trace};
 
 /// Modes that the rest of the block is read by.
 pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     for &op in &command.ops {
-        machine.feed_mode_told |= op.group() == Group::FeedMode;
+        machine.lathe.feed_mode_told |= op.group() == Group::FeedMode;
         match op {
             Op::Inch | Op::Metric => machine.name_unit(op),
             Op::PlaneXy => machine.plane = Plane::Xy,
@@ -22,6 +22,9 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
             Op::FeedInverse => machine.feed_mode = FeedMode::Inverse,
             Op::ReturnInitial => machine.return_to_r = false,
             Op::ReturnR => machine.return_to_r = true,
+            Op::SurfaceSpeed | Op::TurnsPerMinute if machine.rules.lathe => {
+                machine.change_speed_mode(op == Op::SurfaceSpeed, command, trace);
+            }
             Op::SurfaceSpeed => machine.surface_speed = true,
             Op::TurnsPerMinute => machine.surface_speed = false,
             Op::PolarOn => machine.polar = true,
@@ -32,9 +35,12 @@ pub(super) fn modes(machine: &mut Machine, command: &Command, trace: &mut Trace)
             }
             Op::AxisGain | Op::PathQuality => trace.push(EventKind::Other { operation: op, code: None }),
             Op::PlaneOther | Op::Wrap => trace.doubt("machine:plane"),
-            Op::Thread if command.word(Role::Lead).is_some() => {}
             _ => {}
         }
+    }
+    if let Some(lead) = command.word(Role::Lead).filter(|_| machine.rules.lathe) {
+        // The lead of a thread is its feed, and stays in force as the feed.
+        machine.feed = lead * machine.unit();
     }
     if let Some(feed) = command.word(Role::Feed) {
         let scale = if machine.inch && machine.feed_mode != FeedMode::Inverse { INCH } else { 1.0 };
@@ -68,7 +74,7 @@ pub(super) fn frames(machine: &mut Machine, command: &Command, trace: &mut Trace
             }
             Op::SetPosition => {
                 let at = machine.frame.program(&machine.position);
-                for (axis, value) in machine.named_axes(command) {
+                for (axis, value) in machine.named_places(command, &at) {
                     machine.frame.datum[axis] += at[axis] - value;
                     if machine.frame.local[axis] != 0.0 && machine.rules.set_position_ends_local.ask(trace) {
                         machine.frame.datum[axis] += std::mem::take(&mut machine.frame.local[axis]);
@@ -139,6 +145,16 @@ impl Machine {
     /// True if all zero shifts are cancelled.
     pub fn has_no_offset(&self) -> bool {
         self.frame.number == 0
+    }
+
+    /// The same, where an increment counts from a place.
+    fn named_places(&self, command: &Command, at: &Axes) -> Vec<(usize, f64)> {
+        let unit = |axis| if super::command::is_rotary(axis) { 1.0 } else { self.unit() };
+        let places = command.places();
+        let place = |(axis, value, steps): (usize, f64, bool)| {
+            (axis, value * unit(axis) + if steps { at[axis] } else { 0.0 })
+        };
+        places.map(place).collect()
     }
 
     /// The axis words of a block, lengths in millimetres.

@@ -32,6 +32,10 @@ impl Machine {
             self.round_read();
         }
         if matches!(state, Sys::EndPosition | Sys::WorkPosition | Sys::SkipPosition | Sys::AxisPosition) {
+            if self.rules.lathe && subscripts.last() == Some(&1) {
+                // Whether the number is a radius or a diameter no source says.
+                trace.doubt("machine:lathe.position.diameter");
+            }
             self.place_by_offset(trace);
             // A place along another axis holds no length.
             let along = subscripts.last().is_none_or(|axis| *axis == 3);
@@ -79,7 +83,9 @@ impl Machine {
             }
             Sys::ActiveOffset => {
                 let axis = axis()?;
-                if axis == 2 { length(axis, self.frame.length) } else { 0.0 }
+                let tool = self.frame.tool.as_ref().and_then(|tool| tool.get(axis)).copied();
+                let along = if axis == 2 { self.frame.length } else { 0.0 };
+                length(axis, tool.unwrap_or(along))
             }
             // Who wrote the one register shows in which of the two is not zero.
             Sys::ExternalShift if self.rules.local_is_external.peek() => {
@@ -100,6 +106,9 @@ impl Machine {
             Sys::DiameterWear => tool()?.radius_wear * 2.0 / unit,
             Sys::DiameterOrRadius => tool()?.radius * both / unit,
             Sys::DiameterOrRadiusWear => tool()?.radius_wear * both / unit,
+            Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius | Sys::LatheTip => {
+                self.lathe_offset(state, *subscripts.first()?)
+            }
             Sys::ActiveTool => self.tool,
             Sys::TimerMs => self.clock - self.timer_ms_from,
             Sys::TimerHours => (self.clock - self.timer_hours_from) / 3_600_000.0,
@@ -134,6 +143,10 @@ impl Machine {
             Sys::OutputInverted => (Sys::Output, 1.0 - value),
             _ => (state, value),
         };
+        if matches!(state, Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius | Sys::LatheTip) {
+            self.keep_lathe_offset(state, subscripts.first().copied().unwrap_or(0), value);
+            return;
+        }
         if let (Sys::Act, Some(number)) = (state, subscripts.first()) {
             self.given_acts.insert(*number, value);
         }
@@ -194,9 +207,8 @@ impl Machine {
                 let axis = axis.ok_or_else(nothing)?;
                 self.frame.datum[axis] = value * self.axis_unit(axis);
             }
-            Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius => {
-                self.cells.insert(cell(state, subscripts), value);
-                let value = value * unit;
+            Sys::LatheX | Sys::LatheY | Sys::LatheZ | Sys::LatheRadius | Sys::LatheTip => {
+                let value = self.keep_lathe_offset(state, first.ok_or_else(nothing)?, value);
                 trace.push(EventKind::Write { state, subscripts: subscripts.to_vec(), value });
             }
             // Whatever is not 0 switches a signal one way; the trace says whether it is on.

@@ -14,10 +14,10 @@ pub(super) fn compensation(machine: &mut Machine, command: &Command, trace: &mut
 
 /// Takes the tool word.
 pub(super) fn tool(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    let Some(tool) = command.word(Role::Tool) else { return };
     if machine.rules.lathe {
-        trace.doubt("machine:lathe.tool.word");
+        return super::lathe::turret::index(machine, command, trace);
     }
+    let Some(tool) = command.word(Role::Tool) else { return };
     machine.tool_ready = tool;
     if !machine.rules.tool_word_changes.peek() {
         if !command.has(Op::ToolChange) {
@@ -132,6 +132,9 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     }
     let named = command.word(Role::RadiusOffset).is_some() || with_length.is_some();
     let renewed = named && machine.side != Side::Off;
+    if let Some(side) = side.filter(|_| machine.rules.lathe) {
+        return super::lathe::turret::nose(machine, side, trace);
+    }
     if side.is_some() || renewed {
         machine.side = side.unwrap_or(machine.side);
         let off = machine.side == Side::Off;
@@ -140,7 +143,7 @@ fn radius(machine: &mut Machine, command: &Command, trace: &mut Trace) {
         }
         let offset = if off { 0 } else { machine.radius_offset };
         let value = if off { 0.0 } else { machine.radius_value(offset) };
-        trace.push(EventKind::CutterRadius { side: machine.side, offset, value });
+        trace.push(EventKind::CutterRadius { side: machine.side, offset, value, tip: 0 });
     }
 }
 
@@ -217,6 +220,10 @@ impl Machine {
 
     /// What the end of the program does to the machine.
     pub fn end(&mut self, by: Op, trace: &mut Trace) {
+        if !matches!(by, Op::Return | Op::SubEnd) {
+            self.lathe.offset = 0;
+            self.frame.tool = None;
+        }
         if self.length_op != Op::LengthOff && self.rules.end_cancels_length.peek() {
             self.length_op = Op::LengthOff;
             self.frame.length = 0.0;

@@ -4,6 +4,8 @@ use super::code::{Coded, Meaning, Words};
 use super::meaning::is_code;
 use super::run::{Next, Runner};
 use crate::canon::{Group, Op, Pause, Role};
+use crate::control::machine::Command;
+use crate::control::outcome::Stop;
 use crate::control::session::Halt;
 use crate::control::trace::EventKind;
 use smallvec::SmallVec;
@@ -59,7 +61,12 @@ impl<'c> Runner<'c> {
         if let Some(stop) = &meaning.fault {
             return Err(Halt::Alarm(stop.clone()));
         }
-        self.gather(words, meaning, call, &values);
+        self.refuse_flow(meaning)?;
+        self.gather(words, meaning, call, &values)?;
+        if self.keep_contoured() {
+            return Ok(Next::On);
+        }
+        self.switch_run_out();
         let mut command = std::mem::take(&mut self.command);
         let moves = command.has_axes() && !command.ops.iter().any(|op| keeps_axes(*op));
         let shown = words.shown.as_ref().filter(|_| command.has(Op::Stop));
@@ -71,6 +78,11 @@ impl<'c> Runner<'c> {
         } else {
             self.session.machine.run(&command, &mut self.session.trace)
         };
+        let done = done.map_err(|stop| self.lathe_stop(stop));
+        if let Some(op) = command.ops.iter().copied().find(|op| op.reads_contour()) {
+            self.command = Command::default();
+            return done.and_then(|()| self.contour(op, &command));
+        }
         command.clear();
         self.command = command;
         done?;
@@ -96,7 +108,13 @@ impl<'c> Runner<'c> {
     }
 
     /// Makes the command of those words that are no arguments.
-    fn gather(&mut self, words: &Words, meaning: &Meaning, call: Option<Coded>, values: &[Option<f64>]) {
+    fn gather(
+        &mut self,
+        words: &Words,
+        meaning: &Meaning,
+        call: Option<Coded>,
+        values: &[Option<f64>],
+    ) -> Result<(), Halt> {
         let mut command = std::mem::take(&mut self.command);
         for code in &meaning.codes {
             let Some(row) = self.row(code.row) else {
@@ -116,7 +134,7 @@ impl<'c> Runner<'c> {
                 command.own_code = Some(row.code.clone());
             }
             command.ops.push(row.op);
-            if row.op.is_cycle() {
+            if row.op.is_cycle() || row.op.is_pass() {
                 self.cycle = Some(row);
             }
         }
@@ -151,10 +169,29 @@ impl<'c> Runner<'c> {
                     command.words.push((role, value));
                 }
                 None if flow => {}
+                // A lathe does nothing of which nobody knows what it does.
+                None if self.session.machine.is_lathe() => {
+                    let text = format!("the emulated lathe knows no {} here", word.letter);
+                    self.command = command;
+                    self.command.clear();
+                    return Err(self.lathe_stop(Stop::unnamed(text)));
+                }
                 None => self.session.trace.doubt(&format!("word:{}", word.letter)),
             }
         }
         self.command = command;
+        Ok(())
+    }
+
+    /// Switches the run-out of threads, where a code of the block does.
+    fn switch_run_out(&mut self) {
+        let Some([on, off]) = self.style.run_out else { return };
+        let Some(code) = self.command.own_code.as_deref().filter(|_| self.session.machine.is_lathe()) else {
+            return;
+        };
+        if code == on || code == off {
+            self.session.machine.set_run_out(code == on);
+        }
     }
 
     /// Notes the code in force in a modal group, and the end of a drilling cycle.

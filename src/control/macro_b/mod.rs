@@ -8,6 +8,7 @@ mod calls;
 mod code;
 mod commands;
 mod compile;
+mod contours;
 mod digits;
 mod eval;
 mod expressions;
@@ -69,6 +70,10 @@ pub struct Alarms {
 pub struct Style {
     /// Names of alarms.
     pub alarms: Alarms,
+    /// True where the alarms of a lathe's cycles have the numbers of the maker's list.
+    pub numbers_lathe_alarms: bool,
+    /// The codes that switch the run-out of a lathe's threads on and off.
+    pub run_out: Option<[&'static str; 2]>,
 }
 
 impl Style {

@@ -11,7 +11,7 @@ use super::{Style, meaning};
 use crate::canon::{Op, Pause, Role};
 use crate::control::kept::{Kept, with_kept};
 use crate::control::library::{Library, ProgramRef};
-use crate::control::machine::Command;
+use crate::control::machine::{Command, Contour};
 use crate::control::outcome::{Run, Stop};
 use crate::control::scenario::Scenario;
 use crate::control::session::{Halt, Session};
@@ -69,6 +69,8 @@ pub struct Runner<'c> {
     pub addresses: [f64; 27],
     /// The row of the drilling cycle in force.
     pub cycle: Option<&'c CodeMeaning>,
+    /// The contour that is being read.
+    pub contour: Option<Contour>,
     /// True while the port for output is open.
     pub port_open: bool,
     /// By how much the value of the last expression may be off.
@@ -129,6 +131,7 @@ impl<'c> Runner<'c> {
             modal: [0.0; 32],
             addresses: [0.0; 27],
             cycle: None,
+            contour: None,
             port_open: false,
             off: 0.0,
         };
@@ -172,6 +175,11 @@ impl<'c> Runner<'c> {
     /// The number of a branch of the running program among those of all programs.
     pub fn branch_at(&self, branch: usize) -> usize {
         self.frames.last().map_or(0, |frame| frame.program.branches) + branch
+    }
+
+    /// The section of the running program.
+    pub fn section(&self) -> usize {
+        self.frames.last().map_or(0, |frame| frame.program.section)
     }
 
     /// The row of a code.

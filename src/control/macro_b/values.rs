@@ -38,6 +38,9 @@ impl<'c> Runner<'c> {
     /// The value of a word in the units of the program; none if the word is dropped.
     pub fn word_value(&mut self, word: &Word, known: RoleOf<'_>) -> Result<Option<f64>, Halt> {
         let role = known.map(|(role, _)| role);
+        if known.and_then(|(_, row)| row).is_some_and(|row| row.counts.contains(&word.letter)) {
+            return self.counted(word);
+        }
         if word.form.is_literal() {
             let value = self.eval(&word.value)?.unwrap_or(0.0);
             return self.literal(word, value, role).map(Some);
@@ -55,6 +58,19 @@ impl<'c> Runner<'c> {
             });
         }
         Ok(Some(self.computed(value, role, increment)))
+    }
+
+    /// The value of a word that counts least increments and has no point.
+    fn counted(&mut self, word: &Word) -> Result<Option<f64>, Halt> {
+        if word.form == Form::Point {
+            let stop =
+                Stop::alarm(self.style.alarms.point, "a decimal point in a number of least increments");
+            return Err(Halt::Alarm(stop));
+        }
+        let Some(count) = self.eval(&word.value)? else { return Ok(None) };
+        self.rounds_to_whole(count);
+        let increment = self.length_increment();
+        Ok(Some(to_increment(count.round() * increment, increment)))
     }
 
     /// True where the one variable of a word is vacant.

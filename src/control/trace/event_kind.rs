@@ -83,6 +83,21 @@ pub enum Spindle {
     Oriented,
 }
 
+/// True for a number that an event leaves out.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// True for a mark that an event leaves out.
+fn is_false(mark: &bool) -> bool {
+    !*mark
+}
+
+/// True for a count that an event leaves out.
+fn is_none(count: &u32) -> bool {
+    *count == 0
+}
+
 /// What happened.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
@@ -121,6 +136,9 @@ pub enum EventKind {
         plane: Plane,
         /// Angle passed, degrees, positive counter-clockwise.
         sweep: f64,
+        /// True on a lathe: X of the places is a diameter, the radius is a radius.
+        #[serde(skip_serializing_if = "is_false")]
+        diameters: bool,
         /// The feed.
         feed: f64,
         /// What the feed counts.
@@ -134,6 +152,18 @@ pub enum EventKind {
         to: Position,
         /// The lead.
         lead: f64,
+        /// Angle of the spindle at which it begins, thousandths of a degree.
+        #[serde(skip_serializing_if = "is_zero")]
+        start: f64,
+        /// By how much the lead grows each turn.
+        #[serde(skip_serializing_if = "is_zero")]
+        change: f64,
+        /// Over which length before its end the tool is pulled out; none where the machine alone knows it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        chamfer: Option<f64>,
+        /// The angle of that, degrees.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        chamfer_angle: Option<f64>,
     },
     /// A move that the probe could end.
     Probe {
@@ -213,6 +243,18 @@ pub enum EventKind {
         offset: u32,
         /// The radius.
         value: f64,
+        /// On a lathe, the direction in which the tip of the tool points, 1 to 9.
+        #[serde(skip_serializing_if = "is_none")]
+        tip: u32,
+    },
+    /// A tool of a lathe's turret took another offset.
+    ToolOffset {
+        /// The number of the offset; 0 for none.
+        offset: u32,
+        /// What it adds to X: a diameter.
+        x: f64,
+        /// What it adds to Z.
+        z: f64,
     },
     /// Another work offset was selected: 0 none, 1 to 6, 101 and up.
     WorkOffset {

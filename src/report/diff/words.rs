@@ -252,6 +252,9 @@ impl Unit {
             ToolReady { tool } | ToolChange { tool } => number(*tool),
             ToolLength { offset, .. } => format!("number {offset}"),
             CutterRadius { side, offset, .. } => format!("{side:?}, number {offset}").to_lowercase(),
+            ToolOffset { offset, x, z } => {
+                format!("number {offset}, X {} Z {}", self.length(*x, true), self.length(*z, true))
+            }
             WorkOffset { number } => number.to_string(),
             Write { state, subscripts, value } => {
                 let of: Vec<String> = subscripts.iter().map(ToString::to_string).collect();
@@ -331,6 +334,7 @@ fn kind(what: &EventKind) -> &'static str {
         ToolChange { .. } => "tool change",
         ToolLength { .. } => "tool length",
         CutterRadius { .. } => "cutter radius",
+        ToolOffset { .. } => "tool offset",
         WorkOffset { .. } => "work offset",
         Write { .. } => "written",
         Variable { .. } => "variable",

@@ -153,8 +153,10 @@ impl Path {
                 self.line(Kind::Cut, point(&from.0), point(&to.0));
                 self.touches.extend(hit.then(|| point(&to.0)));
             }
-            EventKind::Arc { from, to, centre, plane, sweep, .. } => {
-                self.arc((point(&from.0), point(&to.0)), point(&centre.0), plane.axes(), *sweep);
+            EventKind::Arc { from, to, centre, plane, sweep, diameters, .. } => {
+                let scale = [if *diameters { 2.0 } else { 1.0 }, 1.0, 1.0];
+                let ends = (point(&from.0), point(&to.0));
+                self.arc(ends, point(&centre.0), plane.axes(), *sweep, scale);
             }
             EventKind::Hole { at, .. } => self.holes.push(point(&at.0)),
             EventKind::ToolChange { tool } => self.tool = Some(*tool),
@@ -220,18 +222,25 @@ impl Path {
         }
     }
 
-    /// An arc in pieces of at most three degrees.
-    fn arc(&mut self, (from, to): (Point, Point), centre: Point, axes: (usize, usize, usize), sweep: f64) {
-        let (first, second, along) = axes;
-        let (a, b) = (from[first] - centre[first], from[second] - centre[second]);
+    /// An arc in pieces of at most three degrees; lengths along the axes are so many times real ones.
+    fn arc(
+        &mut self,
+        (from, to): (Point, Point),
+        centre: Point,
+        (first, second, along): (usize, usize, usize),
+        sweep: f64,
+        scale: Point,
+    ) {
+        let (wide, high) = (scale[first], scale[second]);
+        let (a, b) = ((from[first] - centre[first]) / wide, (from[second] - centre[second]) / high);
         let pieces = ((sweep.abs() / 3.0).ceil() as usize).clamp(1, 400);
         let mut before = from;
         for piece in 1..=pieces {
             let part = piece as f64 / pieces as f64;
             let (sin, cos) = (sweep * part).to_radians().sin_cos();
             let mut next = from;
-            next[first] = centre[first] + a * cos - b * sin;
-            next[second] = centre[second] + a * sin + b * cos;
+            next[first] = centre[first] + wide * (a * cos - b * sin);
+            next[second] = centre[second] + high * (a * sin + b * cos);
             next[along] = from[along] + (to[along] - from[along]) * part;
             let next = if piece == pieces { to } else { next };
             self.line(Kind::Cut, before, next);

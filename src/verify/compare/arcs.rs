@@ -32,7 +32,9 @@ pub fn joined(acts: Vec<Act<'_>>) -> Vec<Act<'_>> {
 /// The arc that two are, whose centres lie at most so far apart; none if they are none.
 fn both(first: &EventKind, second: &EventKind, centres: f64) -> Option<EventKind> {
     use EventKind::Arc;
-    let Arc { from, to, centre, radius, plane, sweep, feed, mode, .. } = first else { return None };
+    let Arc { from, to, centre, radius, plane, sweep, feed, mode, diameters, .. } = first else {
+        return None;
+    };
     let Arc {
         from: from2,
         to: to2,
@@ -43,6 +45,7 @@ fn both(first: &EventKind, second: &EventKind, centres: f64) -> Option<EventKind
         off: off2,
         feed: feed2,
         mode: mode2,
+        diameters: _,
     } = second
     else {
         return None;
@@ -58,17 +61,21 @@ fn both(first: &EventKind, second: &EventKind, centres: f64) -> Option<EventKind
         radius: *radius,
         off: r2 + off2 - radius,
         plane: *plane,
-        sweep: ending(sweep + more, [from, to2, centre], *plane),
+        sweep: ending(sweep + more, [from, to2, centre], *plane, *diameters),
+        diameters: *diameters,
         feed: *feed,
         mode: *mode,
     })
 }
 
 /// The sweep about the first centre that ends where the arc does: each piece turned about a centre of its own, a hair off.
-fn ending(sum: f64, [from, to, centre]: [&Position; 3], plane: Plane) -> f64 {
+fn ending(sum: f64, [from, to, centre]: [&Position; 3], plane: Plane, diameters: bool) -> f64 {
     let [first, second] = axes(plane);
-    let angle =
-        |at: &Position| (at.0[second] - centre.0[second]).atan2(at.0[first] - centre.0[first]).to_degrees();
+    let way = |at: &Position, axis: usize| {
+        let scale = if diameters && axis == 0 { 2.0 } else { 1.0 };
+        (at.0[axis] - centre.0[axis]) / scale
+    };
+    let angle = |at: &Position| way(at, second).atan2(way(at, first)).to_degrees();
     let off = angle(to) - angle(from) - sum;
     sum + off - 360.0 * (off / 360.0).round()
 }

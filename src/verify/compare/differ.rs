@@ -54,8 +54,16 @@ pub fn differ(
                 (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
             }
         }
-        (Thread { to, lead, .. }, Thread { to: other, lead: other_lead, .. }) => {
-            (beyond(far(to, other)) || about(*lead, *other_lead)).then_some("the thread differs")
+        (
+            Thread { to, lead, start, change, .. },
+            Thread { to: other, lead: other_lead, start: other_start, change: other_change, .. },
+        ) => {
+            let turns = start != other_start || about(*change, *other_change);
+            if beyond(far(to, other)) || about(*lead, *other_lead) || turns {
+                Some("the thread differs")
+            } else {
+                runs_out_otherwise(source, target).then_some("the thread runs out otherwise")
+            }
         }
         (
             Probe { aim, to, hit, feed, .. },
@@ -78,8 +86,13 @@ pub fn differ(
         (ToolLength { value, .. }, ToolLength { value: other, .. }) => {
             written(*value, *other).then_some("the tool length in force differs")
         }
-        (CutterRadius { side, value, .. }, CutterRadius { side: other_side, value: other, .. }) => {
-            (side != other_side || written(*value, *other)).then_some("the cutter radius in force differs")
+        (
+            CutterRadius { side, value, tip, .. },
+            CutterRadius { side: other_side, value: other, tip: other_tip, .. },
+        ) => (side != other_side || tip != other_tip || written(*value, *other))
+            .then_some("the cutter radius in force differs"),
+        (ToolOffset { x, z, .. }, ToolOffset { x: other_x, z: other_z, .. }) => {
+            (written(*x, *other_x) || written(*z, *other_z)).then_some("the tool offset in force differs")
         }
         (WorkOffset { number }, WorkOffset { number: other }) => {
             (number != other).then_some("the work offset in force at the return differs")
@@ -131,6 +144,20 @@ fn alarm_differs(source: &Stop, target: &Stop, room: Option<usize>) -> Option<&'
         (None, Some(_)) if source.no_label => None,
         _ => Some("one alarm comes from the program, the other from the control"),
     }
+}
+
+/// True where the one thread runs out over another length than the other, as far as both are known.
+fn runs_out_otherwise(source: &EventKind, target: &EventKind) -> bool {
+    use EventKind::Thread;
+    let (
+        Thread { chamfer: Some(chamfer), chamfer_angle, .. },
+        Thread { chamfer: Some(other), chamfer_angle: other_angle, .. },
+    ) = (source, target)
+    else {
+        return false;
+    };
+    let another = exceeds((chamfer - other).abs(), 1e-3);
+    another || (*chamfer > 0.0 && chamfer_angle != other_angle)
 }
 
 /// True where a difference is larger than allowed, or no number at all.

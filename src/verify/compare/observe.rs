@@ -37,7 +37,8 @@ fn initial(run: &Run) -> Vec<EventKind> {
     vec![
         EventKind::WorkOffset { number: 1 },
         EventKind::ToolLength { offset: 0, value: 0.0 },
-        EventKind::CutterRadius { side: Side::Off, offset: 0, value: 0.0 },
+        EventKind::CutterRadius { side: Side::Off, offset: 0, value: 0.0, tip: 0 },
+        EventKind::ToolOffset { offset: 0, x: 0.0, z: 0.0 },
         EventKind::Spindle { direction: Spindle::Stopped, speed, surface: false },
         EventKind::Coolant { state: Op::CoolantOff },
     ]

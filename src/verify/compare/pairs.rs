@@ -364,7 +364,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
         }
         // A size of the tool was rounded where it was written, which another block did.
         let allowed = match **a {
-            EventKind::ToolLength { .. } | EventKind::CutterRadius { .. } => {
+            EventKind::ToolLength { .. } | EventKind::CutterRadius { .. } | EventKind::ToolOffset { .. } => {
                 allowed.max(self.tolerance.rounded)
             }
             _ => allowed,

@@ -65,16 +65,20 @@ pub fn arcs_apart(a: &EventKind, b: &EventKind) -> f64 {
 
 /// Where an arc is after so many parts of its way.
 fn arc_place(what: &EventKind, at: u32) -> Option<Position> {
-    let EventKind::Arc { from, to, centre, off, plane, sweep, radius, .. } = what else { return None };
+    let EventKind::Arc { from, to, centre, off, plane, sweep, radius, diameters, .. } = what else {
+        return None;
+    };
     if at == 0 || at == PLACES {
         return Some(if at == 0 { *from } else { *to });
     }
     let part = f64::from(at) / f64::from(PLACES);
     let [first, second] = axes(*plane);
     let mut place: Axes = std::array::from_fn(|axis| from.0[axis] + (to.0[axis] - from.0[axis]) * part);
-    let start = (from.0[second] - centre.0[second]).atan2(from.0[first] - centre.0[first]);
+    let [wide, high] = [first, second].map(|axis| if *diameters && axis == 0 { 2.0 } else { 1.0 });
+    let start = ((from.0[second] - centre.0[second]) / high).atan2((from.0[first] - centre.0[first]) / wide);
     let (sin, cos) = (start + (sweep * part).to_radians()).sin_cos();
     let reach = radius + off * part;
-    (place[first], place[second]) = (centre.0[first] + reach * cos, centre.0[second] + reach * sin);
+    (place[first], place[second]) =
+        (centre.0[first] + wide * reach * cos, centre.0[second] + high * reach * sin);
     Some(Position(place))
 }

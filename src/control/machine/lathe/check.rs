@@ -1,0 +1,90 @@
+//! What an emulated lathe refuses, with the word or the code that is in the way.
+
+use super::alarm;
+use crate::canon::{Group, Op, Role};
+use crate::control::machine::{Command, Machine};
+use crate::control::outcome::Stop;
+use crate::control::trace::Trace;
+
+/// An absolute word and the increment of the same axis.
+const TWINS: [(Role, Role); 4] =
+    [(Role::X, Role::StepX), (Role::Y, Role::StepY), (Role::Z, Role::StepZ), (Role::C, Role::StepC)];
+
+/// Refuses a block that the emulated lathe does not do.
+pub fn block(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let has = |role| command.word(role).is_some();
+    if TWINS.iter().any(|(place, step)| has(*place) && has(*step)) {
+        return Err(Stop::unnamed("an axis has its place and its increment in one block"));
+    }
+    if command.ops.iter().any(|op| is_refused(*op)) {
+        let code = command.own_code.as_deref().map(str::to_owned);
+        let what = code.unwrap_or_else(|| {
+            command.ops.iter().find(|op| is_refused(**op)).map_or_else(String::new, ToString::to_string)
+        });
+        return Err(Stop::unnamed(format!("the emulated lathe does not run {what}")));
+    }
+    // What only this control has is a code of the machine (M) or moves in a way of its own (G).
+    let own = |op: &Op| matches!(op, Op::MachineSpecific | Op::CycleOther | Op::Builder);
+    if let Some(code) = command.own_code.as_ref().filter(|code| code.starts_with('G'))
+        && command.ops.iter().any(own)
+    {
+        return Err(Stop::unnamed(format!("the emulated lathe does not run {code}")));
+    }
+    letters(machine, command)?;
+    tool_word(command)?;
+    arcs(machine, command, trace)
+}
+
+fn is_refused(op: Op) -> bool {
+    use Op::*;
+    let shapes = matches!(op, ScaleOn | MirrorOn | RotateOn | PolarOn | Pole | Wrap | PlaneOther);
+    let offsets =
+        matches!(op, LengthPlus | LengthMinus | OffsetPlus | OffsetMinus | OffsetPlus2 | OffsetMinus2);
+    shapes || offsets || matches!(op, ArcTangent | ReferenceFrom | Home | ProbeOther | FeedInverse)
+}
+
+/// Corners without a comma, angles of lines (Q3), and axes that no lathe here has.
+fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
+    let motion = command.of(Group::Motion).unwrap_or(machine.motion);
+    let has = |roles: &[Role]| roles.iter().find(|role| command.word(**role).is_some()).copied();
+    let arcs = matches!(motion, Op::ArcCw | Op::ArcCcw);
+    if let Some(role) = has(&[Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius]).filter(|_| !arcs) {
+        return Err(Stop::unnamed(format!("{role} in a block that makes no arc")));
+    }
+    let turned = [Role::C, Role::StepC];
+    let turned = has(&turned).filter(|_| !machine.rules.turning.has_c);
+    let axis = has(&[Role::A, Role::B, Role::E, Role::U, Role::V, Role::W]).or(turned);
+    match axis {
+        Some(role) => Err(Stop::unnamed(format!("{role}, which the emulated lathe does not have"))),
+        None => Ok(()),
+    }
+}
+
+/// T6.
+fn tool_word(command: &Command) -> Result<(), Stop> {
+    let aside = |op: &Op| {
+        matches!(op, Op::SetPosition | Op::LimitSpeed | Op::Dwell | Op::WriteWork | Op::WriteOffset)
+    };
+    if command.word(Role::Turret).is_some() && command.ops.iter().any(aside) {
+        return Err(alarm("PS0245", "a T word in a block that sets a zero, writes an offset or waits"));
+    }
+    Ok(())
+}
+
+/// Arcs are made in the plane of Z and X (C6); compensation does not begin in one (Q1).
+fn arcs(machine: &Machine, command: &Command, trace: &mut Trace) -> Result<(), Stop> {
+    let motion = command.of(Group::Motion).unwrap_or(machine.motion);
+    if !matches!(motion, Op::ArcCw | Op::ArcCcw) || !command.has_axes() {
+        return Ok(());
+    }
+    let plane = command.of(Group::Plane);
+    let zx = plane.map_or(machine.plane == crate::control::trace::Plane::Zx, |op| op == Op::PlaneZx);
+    if !zx {
+        return Err(Stop::unnamed("an arc outside the plane of Z and X"));
+    }
+    if command.has(Op::RadiusLeft) || command.has(Op::RadiusRight) {
+        trace.rounded = machine.off_by();
+        return Err(alarm("PS0034", "compensation of the nose radius begins in an arc"));
+    }
+    Ok(())
+}

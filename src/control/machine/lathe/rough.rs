@@ -1,0 +1,164 @@
+//! Roughing a contour by passes along Z or along X (R5, R10, R11, K1 to K13).
+
+use super::levels::{Levels, sense_of};
+use super::profile::Profile;
+use super::shape::Piece;
+use super::stretches::{DEEPER, Rough};
+use super::way::Point;
+use super::{Cut, alarm, along, sense};
+use crate::canon::Role;
+use crate::control::machine::{Command, Machine};
+use crate::control::outcome::Stop;
+use crate::control::trace::Trace;
+
+/// What stays on the part: for finishing, and for the last roughing pass; X as a radius.
+struct Allowances {
+    finish: Point,
+    rough: Point,
+}
+
+/// Roughs; `axis` is that of the infeed: 0 for X, 1 for Z.
+pub fn run(
+    machine: &mut Machine,
+    command: &Command,
+    profile: &Profile,
+    axis: usize,
+    trace: &mut Trace,
+) -> Result<(), Stop> {
+    let cut = cut(machine, command, axis)?;
+    let valleys = has_valleys(machine, command, profile, axis)?;
+    let a = machine.tool_at();
+    let (begin, end) = (profile.begin(), profile.end());
+    let infeed = infeed(profile, a, axis);
+    let along = sense_of(begin, end, 1 - axis);
+    monotone(profile, (a, axis), (infeed, along), valleys)?;
+    beyond(machine, profile, (a, axis), infeed)?;
+    let left = allowances(machine, command);
+    let into = |place: usize, sense: f64| left.finish[place] * sense > 0.0;
+    if into(axis, infeed) || into(1 - axis, along) {
+        trace.doubt("machine:lathe.allowance.into.part");
+    }
+    let off: Point = std::array::from_fn(|place| left.finish[place] + left.rough[place]);
+    let corner: Point = std::array::from_fn(|place| a[place] + off[place]);
+    machine.go(true, corner, trace);
+    if infeed != 0.0 && along != 0.0 {
+        let parts = profile.pieces.iter().flat_map(|piece| piece.moved(off).parts()).collect();
+        let rough = Rough { parts, axis, sense: infeed, zero: corner[axis] };
+        let bottom = !machine.rules.roughing_along.ask(trace);
+        let levels = Levels {
+            rough: &rough,
+            corner,
+            cut: along,
+            depth: cut.0,
+            retract: cut.1,
+            rapid: profile.rapid,
+            bottom,
+        };
+        if valleys { levels.valleys(machine, trace)? } else { levels.steps(machine, trace)? }
+    }
+    along_contour(machine, profile, &left, trace)
+}
+
+/// The depth of a pass and how far it goes back (R1, K1).
+fn cut(machine: &Machine, command: &Command, axis: usize) -> Result<(f64, f64), Stop> {
+    let (unit, turning) = (machine.unit(), &machine.rules.turning);
+    let told = if axis == 0 { machine.lathe.turning } else { machine.lathe.facing };
+    let Cut { depth, retract } = match command.word(Role::CutDepth) {
+        Some(depth) => Cut { depth: Some(depth * unit), retract: None },
+        None => told,
+    };
+    let depth = depth.or(turning.depth);
+    let retract = retract.or(turning.retract);
+    let depth =
+        depth.ok_or_else(|| Stop::unnamed("a roughing whose depth no block and no parameter says"))?;
+    if depth <= 0.0 {
+        return Err(alarm("PS0062", "the depth of a roughing pass is not over 0"));
+    }
+    let retract =
+        retract.ok_or_else(|| Stop::unnamed("a roughing whose way back no block and no parameter says"))?;
+    Ok((depth, retract))
+}
+
+/// R5 and R6: the letters of the first block say it, or a word of the cycle.
+fn has_valleys(machine: &Machine, command: &Command, profile: &Profile, axis: usize) -> Result<bool, Stop> {
+    if axis == 0 && machine.rules.turning.valleys_by_word {
+        return Ok(command.word(Role::ContourType) == Some(1.0));
+    }
+    match (profile.names[axis], profile.names[1 - axis]) {
+        (true, across) => Ok(across),
+        (false, _) => {
+            Err(alarm("PS0323", "the first block of the contour does not name the axis of the infeed"))
+        }
+    }
+}
+
+/// K2: the sense of the infeed; 0 where there is none.
+fn infeed(profile: &Profile, a: Point, axis: usize) -> f64 {
+    let first = sense_of(a, profile.begin(), axis);
+    if first != 0.0 {
+        return first;
+    }
+    let parts = profile.pieces.iter().flat_map(Piece::parts);
+    let ways = parts.map(|part| part.to[axis] - a[axis]);
+    sense(ways.fold(0.0, |most: f64, way| if way.abs() > most.abs() { way } else { most }))
+}
+
+/// R10.
+fn monotone(
+    profile: &Profile,
+    (a, axis): (Point, usize),
+    (infeed, along): (f64, f64),
+    valleys: bool,
+) -> Result<(), Stop> {
+    let (first, second) = if axis == 0 { ("PS0064", "PS0329") } else { ("PS0329", "PS0064") };
+    let back = || alarm(first, "the contour turns back along the cut");
+    let other = 1 - axis;
+    if valleys && (profile.begin()[other] - a[other]) * along < -DEEPER {
+        return Err(back());
+    }
+    for part in profile.pieces.iter().skip(1).flat_map(Piece::parts) {
+        let way = |axis: usize| part.to[axis] - part.from[axis];
+        if way(other) * along < -DEEPER || (along == 0.0 && way(other).abs() > DEEPER) {
+            return Err(back());
+        }
+        if !valleys && way(axis) * infeed > DEEPER {
+            return Err(alarm(second, "the contour turns back along the infeed"));
+        }
+    }
+    Ok(())
+}
+
+/// R11: nothing lies beyond the start of the cycle; where roughing has no first block, its last block may.
+fn beyond(machine: &Machine, profile: &Profile, (a, axis): (Point, usize), infeed: f64) -> Result<(), Stop> {
+    let lies = |at: Point| (at[axis] - a[axis]) * infeed < -DEEPER;
+    let two_blocks = machine.rules.turning.two_blocks;
+    let last = profile.blocks.iter().rfind(|pieces| !pieces.is_empty()).map_or(0, |pieces| pieces.start);
+    let held = profile.pieces.iter().enumerate().filter(|(at, _)| two_blocks || *at < last);
+    match held.flat_map(|(_, piece)| piece.parts()).any(|part| lies(part.to)) {
+        true => Err(alarm("PS0322", "the contour goes beyond the start of the cycle")),
+        false => Ok(()),
+    }
+}
+
+fn allowances(machine: &Machine, command: &Command) -> Allowances {
+    let unit = machine.unit();
+    let length = |role| command.word(role).map_or(0.0, |value| value * unit);
+    Allowances {
+        finish: [length(Role::AllowanceX) / 2.0, length(Role::AllowanceZ)],
+        rough: [length(Role::RoughX), length(Role::RoughZ)],
+    }
+}
+
+/// K9.
+fn along_contour(
+    machine: &mut Machine,
+    profile: &Profile,
+    left: &Allowances,
+    trace: &mut Trace,
+) -> Result<(), Stop> {
+    let always = machine.rules.roughing_along.ask(trace);
+    if !always && left.rough == [0.0; 2] {
+        return Ok(());
+    }
+    along::run(machine, profile, left.finish, trace)
+}

@@ -1,0 +1,45 @@
+//! Returns and machine coordinates of a lathe (Z1 to Z4).
+
+use crate::canon::{Op, Role};
+use crate::control::machine::{Command, Machine};
+use crate::control::outcome::Stop;
+use crate::control::trace::Trace;
+
+/// A return without an axis: X and Z go home at once, where the control does so.
+pub fn without_axes(machine: &mut Machine, which: usize, trace: &mut Trace) -> Result<(), Stop> {
+    if machine.rules.turning.two_blocks {
+        return Err(Stop::unnamed("a return to the reference point without an axis"));
+    }
+    trace.doubt("machine:lathe.home.without.axes");
+    let home = machine.references[which];
+    let mut to = machine.position;
+    for axis in [0, 2] {
+        to[axis] = home[axis];
+        machine.round_home(axis);
+    }
+    machine.rapid_to(to, trace);
+    Ok(())
+}
+
+/// A move in machine coordinates, X as a diameter.
+pub fn in_machine_coordinates(
+    machine: &mut Machine,
+    command: &Command,
+    trace: &mut Trace,
+) -> Result<(), Stop> {
+    if machine.incremental || command.words.iter().any(|(role, _)| role.is_step()) {
+        return Err(Stop::unnamed("machine coordinates as increments"));
+    }
+    if machine.motion != Op::Rapid && !machine.rules.turning.two_blocks {
+        return Err(Stop::unnamed("machine coordinates without rapid traverse in force"));
+    }
+    let mut to = machine.position;
+    for (axis, value) in machine.named_axes(command) {
+        to[axis] = value;
+    }
+    if command.word(Role::Feed).is_some() && machine.motion != Op::Rapid {
+        trace.doubt("machine:lathe.machine.rapid");
+    }
+    machine.rapid_to(to, trace);
+    Ok(())
+}
