@@ -55,6 +55,8 @@ pub enum Told {
     SameTool,
     /// A spindle that a drilling cycle stops, turns round, or lets turn again.
     Cycle,
+    /// A move of the roughing of a contour.
+    Pass,
 }
 
 /// A place of a library: a program and bytes of its file.
@@ -137,6 +139,8 @@ pub struct Trace {
     pub at: Place,
     /// How far positions may be off by rounding, from now on.
     pub rounded: f64,
+    /// True while a contour is roughed.
+    pub roughs: bool,
     /// For spindle and coolant: true if nobody knows whether a stop has ended it, and no code has said since what runs.
     pub open: [bool; 2],
     limit: usize,
@@ -167,6 +171,7 @@ impl Trace {
             taken: 0,
             at: Place::default(),
             rounded: 0.0,
+            roughs: false,
             open: [false; 2],
             limit,
             room: MOST_TEXT,
@@ -325,6 +330,7 @@ impl Trace {
     }
 
     fn event(&self, what: EventKind) -> Event {
-        Event { at: self.at, what, rounded: self.rounded, told: Told::Plain, open: self.open }
+        let told = if self.roughs { Told::Pass } else { Told::Plain };
+        Event { at: self.at, what, rounded: self.rounded, told, open: self.open }
     }
 }

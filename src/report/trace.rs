@@ -193,6 +193,13 @@ fn describe(what: &EventKind, programs: &[Program]) -> String {
             number(at.0[2]),
             number(*bottom)
         ),
+        Roughing { cycle, depth, allowance: [x, z], contour, .. } => format!(
+            "rough   {cycle} of {} lines and arcs, {} deep, leaves X{} Z{}",
+            contour.len(),
+            number(*depth),
+            number(*x),
+            number(*z)
+        ),
         Dwell { seconds } => format!("dwell   {} s", number(*seconds)),
         Spindle { direction, speed, .. } => format!("spindle {direction:?} {}", number(*speed)),
         SpeedLimit { speed } => format!("speed   at most {}", number(*speed)),

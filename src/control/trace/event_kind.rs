@@ -98,6 +98,19 @@ fn is_none(count: &u32) -> bool {
     *count == 0
 }
 
+/// A line or an arc of a contour.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Leg {
+    /// Where it ends.
+    pub to: Position,
+    /// The centre of an arc.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre: Option<Position>,
+    /// True for an arc that turns counter-clockwise.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub ccw: bool,
+}
+
 /// What happened.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
@@ -193,6 +206,21 @@ pub enum EventKind {
         at: Position,
         /// Machine coordinate of the bottom, along the drilling axis.
         bottom: f64,
+    },
+    /// A contour is roughed; the passes follow.
+    Roughing {
+        /// The cycle.
+        cycle: Op,
+        /// Depth of a pass: real, no diameter.
+        depth: f64,
+        /// What stays for finishing, along X (a diameter) and Z.
+        allowance: [f64; 2],
+        /// The contour, from its first place on.
+        contour: Vec<Leg>,
+        /// The feed.
+        feed: f64,
+        /// What the feed counts.
+        mode: FeedMode,
     },
     /// A wait.
     Dwell {

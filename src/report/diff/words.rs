@@ -326,6 +326,7 @@ fn kind(what: &EventKind) -> &'static str {
         Probe { .. } => "probe move",
         Corner { .. } => "corner",
         Hole { .. } => "hole",
+        Roughing { .. } => "roughing",
         Dwell { .. } => "wait",
         Spindle { .. } => "spindle",
         SpeedLimit { .. } => "limit of the spindle speed",

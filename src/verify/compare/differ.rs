@@ -4,7 +4,7 @@ use super::kinds::returns;
 use super::paths::{apart, arcs_apart};
 use super::texts::say_the_same;
 use crate::control::Stop;
-use crate::control::trace::{EventKind, Position};
+use crate::control::trace::{EventKind, Leg, Position};
 
 /// Seconds by which waits may lie apart: words count milliseconds, and round to the nearest.
 const LEAST_WAIT: f64 = 0.000_501;
@@ -72,6 +72,26 @@ pub fn differ(
             let apart = beyond(far(aim, other_aim)) || beyond(far(to, other));
             (apart || hit != other_hit || about(*feed, *other_feed)).then_some("the probe move differs")
         }
+        (
+            Roughing { cycle, depth, allowance, contour, feed, mode },
+            Roughing {
+                cycle: other,
+                depth: other_depth,
+                allowance: others,
+                contour: legs,
+                feed: other_feed,
+                mode: other_mode,
+            },
+        ) => {
+            let left = allowance.iter().zip(others).any(|(a, b)| written(*a, *b));
+            if cycle != other || left || written(*depth, *other_depth) {
+                Some("the roughing takes another depth, or leaves another allowance")
+            } else if contours_differ(contour, legs, &mut beyond) {
+                Some("the contour that is roughed differs")
+            } else {
+                (about(*feed, *other_feed) || mode != other_mode).then_some(ANOTHER_FEED)
+            }
+        }
         (Dwell { seconds }, Dwell { seconds: other }) => {
             exceeds((seconds - other).abs(), LEAST_WAIT).then_some("the wait differs")
         }
@@ -128,6 +148,20 @@ pub fn differ(
         (_, Alarm(_)) => Some("the target stops with an alarm, the source goes on"),
         _ => (source != target).then_some("they do different things"),
     }
+}
+
+/// True where two contours are not the same lines and arcs.
+fn contours_differ(ours: &[Leg], theirs: &[Leg], beyond: &mut impl FnMut(f64) -> bool) -> bool {
+    let mut legs = ours.iter().zip(theirs);
+    let apart = |a: &Position, b: &Position| apart(a, b);
+    ours.len() != theirs.len()
+        || legs.any(|(a, b)| {
+            let centres = a.centre.zip(b.centre).is_some_and(|(a, b)| beyond(apart(&a, &b)));
+            a.centre.is_some() != b.centre.is_some()
+                || a.ccw != b.ccw
+                || centres
+                || beyond(apart(&a.to, &b.to))
+        })
 }
 
 /// An alarm of the program's own must be one on the target too, of the same number and text. Of a jump to a number that

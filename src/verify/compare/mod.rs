@@ -16,6 +16,7 @@ mod pairs;
 mod paths;
 mod pauses;
 mod renamed;
+mod roughing;
 mod shown;
 mod substitutes;
 mod texts;

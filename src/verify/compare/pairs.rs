@@ -13,6 +13,7 @@ use super::observe::{Act, observe};
 use super::paths::{apart, ends, goes_nowhere, leaves};
 use super::pauses::{Runs, ends_cycle, may_do_so, may_turn, starts_again};
 use super::renamed::Renaming;
+use super::roughing;
 use super::shown::{as_messages, end_differs, lacks_messages, texts, without_outputs};
 use super::substitutes::{
     cannot_cancel, goes_on, has_no_feed, is_builders, is_idle, is_left_out, makes_ready, returns_to_caller,
@@ -74,6 +75,9 @@ pub(super) fn acts<'r>(
     if target.0.control.profile().outputs.is_some() {
         (ours, theirs) = (without_outputs(ours), without_outputs(theirs));
     }
+    if roughing::differs(source.0.control, target.0.control) {
+        (ours, theirs) = (roughing::without_passes(ours), roughing::without_passes(theirs));
+    }
     if brought(source.0.control, target.0.control) {
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
@@ -102,6 +106,8 @@ pub(super) struct Pairs<'p, 'r> {
     target: &'p Side<'p>,
     /// What variables are called in texts.
     renaming: Renaming<'p>,
+    /// True if the target ends the roughing of a contour otherwise.
+    roughs_otherwise: bool,
     /// True for two runs of one side, of which all that differs is told.
     one_side: bool,
     /// True where the target's tool word brings a length that the source takes up without one.
@@ -135,6 +141,7 @@ impl<'p, 'r> Pairs<'p, 'r> {
             target,
             renaming: Renaming { names, source: source.control, target: target.control },
             brings_lengths: brought(source.control, target.control),
+            roughs_otherwise: roughing::differs(source.control, target.control),
             one_side: std::ptr::eq(source, target),
             tolerance,
             found: Comparison::default(),
@@ -160,6 +167,9 @@ impl<'p, 'r> Pairs<'p, 'r> {
                 (None, None) => return (i, j),
                 (Some(a), Some(b)) => match self.differ(a, b, self.near(a, b)) {
                     None => {
+                        if self.roughs_otherwise {
+                            self.found.replaced.extend(roughing::stands_for(&a.what));
+                        }
                         self.moved(0, a);
                         self.moved(1, b);
                         (i, j) = (i + 1, j + 1);

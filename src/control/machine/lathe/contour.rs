@@ -46,6 +46,7 @@ impl Machine {
             _ => finish::finish(self, contour, &profile, trace)?,
         }
         self.rapid_to(start, trace);
+        trace.roughs = false;
         self.cycle_done(motion);
         Ok(())
     }

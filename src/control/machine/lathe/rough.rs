@@ -6,10 +6,10 @@ use super::shape::Piece;
 use super::stretches::{DEEPER, Rough};
 use super::way::Point;
 use super::{Cut, alarm, along, sense};
-use crate::canon::Role;
+use crate::canon::{Op, Role};
 use crate::control::machine::{Command, Machine};
 use crate::control::outcome::Stop;
-use crate::control::trace::Trace;
+use crate::control::trace::{EventKind, Leg, Position, Trace};
 
 /// What stays on the part: for finishing, and for the last roughing pass; X as a radius.
 struct Allowances {
@@ -40,6 +40,7 @@ pub fn run(
     }
     let off: Point = std::array::from_fn(|place| left.finish[place] + left.rough[place]);
     let corner: Point = std::array::from_fn(|place| a[place] + off[place]);
+    tell(machine, (command, profile), cut.0, &left, trace);
     machine.go(true, corner, trace);
     if infeed != 0.0 && along != 0.0 {
         let parts = profile.pieces.iter().flat_map(|piece| piece.moved(off).parts()).collect();
@@ -57,6 +58,32 @@ pub fn run(
         if valleys { levels.valleys(machine, trace)? } else { levels.steps(machine, trace)? }
     }
     along_contour(machine, profile, &left, trace)
+}
+
+/// Says what is roughed, ahead of the passes.
+fn tell(
+    machine: &Machine,
+    (command, profile): (&Command, &Profile),
+    depth: f64,
+    left: &Allowances,
+    trace: &mut Trace,
+) {
+    let cycle = command.ops.iter().copied().find(|op| op.reads_contour()).unwrap_or(Op::RoughTurning);
+    let at = |place: Point| Position(machine.placed(Some(place[0]), Some(place[1])));
+    let legs = profile.pieces.iter().map(|piece| Leg {
+        to: at(piece.to),
+        centre: piece.arc.map(|(centre, _)| at(centre)),
+        ccw: piece.arc.is_some_and(|(_, sweep)| sweep > 0.0),
+    });
+    trace.push(EventKind::Roughing {
+        cycle,
+        depth,
+        allowance: [2.0 * left.finish[0], left.finish[1]],
+        contour: legs.collect(),
+        feed: machine.feed,
+        mode: machine.feed_mode,
+    });
+    trace.roughs = true;
 }
 
 /// The depth of a pass and how far it goes back (R1, K1).
