@@ -69,6 +69,8 @@ pub enum Predicate {
     Main,
     /// This tool is in the spindle when the program starts.
     Loaded(u32),
+    /// A setting of the target has this value, in the unit of its control.
+    Setting(Arc<str>, f64),
     /// The arcs of these blocks pass at most half a turn.
     ShortArcs(Vec<Span>),
     /// The arcs of these blocks end as far from their centre as they begin.
@@ -108,6 +110,7 @@ impl Predicate {
             Self::Start(_) => "start",
             Self::Main => "main",
             Self::Loaded(_) => "tool",
+            Self::Setting(..) => "setting",
             Self::ShortArcs(_) => "arcs",
             Self::ArcEnds(_) => "arc_ends",
             Self::Tools(_) => "tools",
@@ -127,7 +130,8 @@ impl Predicate {
 
     /// True where runs show whether it holds. Runs take facts, the unit and the tool to be as it says.
     pub fn is_seen(&self) -> bool {
-        let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_));
+        let set = matches!(self, Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_))
+            || matches!(self, Self::Setting(..));
         !set && !self.is_accepted()
     }
 
@@ -145,7 +149,12 @@ impl Predicate {
             Self::Nesting { most, .. } => [1, 2].map(|by| f64::from(most.saturating_add(by))).into(),
             Self::Codes { same, .. } => same.clone(),
             Self::Alarms(most) => vec![*most, most + 1.0],
-            Self::Fact(_) | Self::Unit | Self::Start(_) | Self::Main | Self::Loaded(_) => Vec::new(),
+            Self::Fact(_)
+            | Self::Unit
+            | Self::Start(_)
+            | Self::Main
+            | Self::Loaded(_)
+            | Self::Setting(..) => Vec::new(),
             Self::ShortArcs(_) | Self::ArcEnds(_) | Self::Tools(_) | Self::Substitute(_) | Self::Unseen => {
                 Vec::new()
             }

@@ -52,6 +52,9 @@ pub struct Scenario {
     /// True where that holds for texts too that are only shown before a stop, as the control of the other side has messages.
     #[serde(skip)]
     pub sets_named: bool,
+    /// Settings of the control that are another than its profile says, by name: lengths in the unit of the control.
+    #[serde(skip)]
+    pub settings: BTreeMap<String, f64>,
     /// State that the machine does not model, by name and subscripts: inputs, settings, parameters. Else 0.
     pub state: Vec<StateValue>,
     /// Date, as yyyymmdd.
@@ -133,6 +136,7 @@ impl Default for Scenario {
     fn default() -> Self {
         Self {
             variables: BTreeMap::new(),
+            settings: BTreeMap::new(),
             called: false,
             sets_named: false,
             inch: None,

@@ -164,6 +164,12 @@ impl Machine {
             cells: HashMap::new(),
             given_acts: HashMap::new(),
         };
+        if !scenario.settings.is_empty() {
+            let turning = lathe::settings::Turning::with(control, &scenario.settings);
+            let mut rules = Rules::clone(&machine.rules);
+            rules.turning = turning;
+            machine.rules = Arc::new(rules);
+        }
         machine.start_turning(control);
         for cell in &scenario.state {
             machine.preset(cell.state, &cell.subscripts, cell.value);

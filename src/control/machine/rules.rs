@@ -86,7 +86,7 @@ pub enum NoCentre {
 }
 
 /// The facts.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Rules {
     /// Whether each kind of [`Auxiliary`] acts when the move of its block is done.
     late: [Fact<bool>; Auxiliary::ALL.len()],

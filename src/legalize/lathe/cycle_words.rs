@@ -7,19 +7,23 @@
 use super::settings::{Kind, row, setting, takes};
 use super::spring_passes::{Place, passes};
 use super::thread_form;
+use crate::assume::Predicate;
 use crate::canon::{Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Control;
-use crate::ir::{Expr, Nc, NcItem, Program, Stmt, StmtKind};
+use crate::dialect::{Control, Question};
+use crate::ir::{Expr, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::text::Span;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What a cycle takes besides its own words.
 type Values = Vec<(Role, Expr)>;
 
 /// True if there are such cycles, and the target does not take the values from where the source does.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
+    let rough = features.role(Role::RoughX) || features.role(Role::RoughZ);
     let differs = |kind: &Kind| {
         features.op(kind.cycle)
             && kind.roles.iter().any(|role| {
@@ -27,7 +31,7 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
                     || takes(context.source, kind.cycle, *role) != takes(context.target, kind.cycle, *role)
             })
     };
-    super::settings::KINDS.iter().any(differs)
+    rough || super::settings::KINDS.iter().any(differs)
 }
 
 /// Gives each cycle its values in the target's form.
@@ -38,14 +42,38 @@ pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bo
         if block.stmts.iter().any(|stmt| cycle_of(stmt).is_some()) {
             changed = true;
             let old = std::mem::take(&mut block.stmts);
-            block.stmts = in_block(old, context.source, context.target, &mut found).into();
+            let ends = matches!(block.term.kind, TermKind::End { .. });
+            block.stmts = in_block(old, ends, (context.source, context.target), &mut found).into();
         }
     }
-    for (span, what, help) in found {
-        let finding = Diagnostic::new(Code::NoEquivalent, span, what);
-        context.add(index, if help.is_empty() { finding } else { finding.with_help(help) });
+    refuse_two_values(&mut found);
+    for (span, what, help, needs) in found {
+        let code = if needs.is_some() { Code::Conditional } else { Code::NoEquivalent };
+        let finding = Diagnostic::new(code, span, what.as_str());
+        let finding = if help.is_empty() { finding } else { finding.with_help(help) };
+        match needs {
+            Some(predicate) => context.add_once(index, &what, finding.assuming(predicate)),
+            None => context.add(index, finding),
+        }
     }
     changed
+}
+
+/// A setting cannot change while a program runs: what needs another value than a cycle before is refused.
+fn refuse_two_values(found: &mut Found) {
+    let mut values: BTreeMap<Arc<str>, f64> = BTreeMap::new();
+    for (_, what, help, needs) in found {
+        let Some(Predicate::Setting(name, value)) = needs else { continue };
+        let first = *values.entry(name.clone()).or_insert(*value);
+        if first.to_bits() != value.to_bits() {
+            let number = name.trim_start_matches("setting.");
+            *what = format!(
+                "setting {number} must be {value} here, and {first} for a cycle before: a program cannot change it"
+            );
+            *help = "give both cycles the same value, or make two programs of them".into();
+            *needs = None;
+        }
+    }
 }
 
 fn nc_of(stmt: &Stmt) -> Option<&Nc> {
@@ -63,13 +91,13 @@ fn setup_of(stmt: &Stmt) -> Option<&'static Kind> {
     nc_of(stmt)?.ops().find_map(Kind::of_setup)
 }
 
-/// What is found: where, what, and what to do.
-type Found = Vec<(Span, String, String)>;
+/// What is found: where, what, what to do, and what the conversion supposes; of a refusal nothing.
+type Found = Vec<(Span, String, String, Option<Predicate>)>;
 
 fn in_block(
     old: impl IntoIterator<Item = Stmt>,
-    source: &Control,
-    target: &Control,
+    ends: bool,
+    (source, target): (&Control, &Control),
     found: &mut Found,
 ) -> Vec<Stmt> {
     let mut new: Vec<Stmt> = Vec::new();
@@ -86,7 +114,7 @@ fn in_block(
             });
             replace(&mut set[slot].1, values);
             if stmt.site.skip.is_some() {
-                found.push((stmt.site.span, SKIPPED.into(), String::new()));
+                found.push((stmt.site.span, SKIPPED.into(), String::new(), None));
             }
             // The comments stay; the block is written anew where the target has one.
             stmt.kind = StmtKind::Comment;
@@ -102,11 +130,13 @@ fn in_block(
         };
         let before = set.iter().find(|(op, _)| *op == kind.setup).map(|(_, values)| values.clone());
         match resolve(&stmt, kind, before, source, target) {
-            Ok(Given { words, setup, finishes, angle }) => {
+            Ok(Given { words, setup, finishes, angle, needs }) => {
+                let span = stmt.site.span;
+                found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
                 if finishes > 0 {
-                    match passes(&stmt, angle, finishes, place, old.make_contiguous()) {
+                    match passes(&stmt, (angle, finishes), place, (old.make_contiguous(), ends)) {
                         Some(all) => all.into_iter().rev().for_each(|pass| old.push_front(pass)),
-                        None => found.push((stmt.site.span, FINISHES.into(), FINISHES_HELP.into())),
+                        None => found.push((stmt.site.span, FINISHES.into(), FINISHES_HELP.into(), None)),
                     }
                 }
                 if !setup.is_empty() {
@@ -115,16 +145,28 @@ fn in_block(
                     new.push(Stmt { kind: StmtKind::Nc(nc), site });
                 }
                 if let StmtKind::Nc(nc) = &mut stmt.kind {
+                    drop_rough(nc, target);
                     nc.items
                         .retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
                     nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
                 }
             }
-            Err((what, help)) => found.push((stmt.site.span, what, help)),
+            Err((what, help)) => found.push((stmt.site.span, what, help, None)),
         }
         new.push(stmt);
     }
     new
+}
+
+/// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
+/// that the passes differ.
+fn drop_rough(nc: &mut Nc, target: &Control) {
+    let along = target.behaviour(Question::RoughingEnds).is_some_and(|row| row.value == "along");
+    let Some(op) = nc.ops().find(|op| matches!(op, Op::RoughTurning | Op::RoughFacing)) else { return };
+    let rough = |role: Role| matches!(role, Role::RoughX | Role::RoughZ) && !takes(target, op, role);
+    if along {
+        nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if rough(*role)));
+    }
 }
 
 /// What a cycle is given on the target.
@@ -138,7 +180,12 @@ struct Given {
     finishes: usize,
     /// The thread's angle, degrees.
     angle: f64,
+    /// Settings that the target must have.
+    needs: Vec<Need>,
 }
+
+/// A setting that the target must have: what, what to do, and as a value.
+type Need = (String, String, Predicate);
 
 const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
                         where the cycle begins, or a number of it, is not known here";
@@ -186,8 +233,8 @@ fn resolve(
         let what = "the run-out or the angle of this thread has more digits than the target takes";
         return Err((what.into(), "the target takes tenths of a lead, and whole degrees".into()));
     }
-    let (words, setup) = place(values, kind, target)?;
-    Ok(Given { words, setup, finishes, angle })
+    let (words, setup, needs) = place(values, kind, target)?;
+    Ok(Given { words, setup, finishes, angle, needs })
 }
 
 /// Finishing passes beyond the one that takes off what was left; they are no word of the cycle any more.
@@ -259,30 +306,41 @@ fn usual(values: &mut Values) {
     }
 }
 
-/// Puts each value where the target takes it from.
+/// Puts each value where the target takes it from: its words, the block before it, or settings that it needs. A setting that is
+/// not as the program needs it is worse than a block before.
 fn place(
     values: Values,
     kind: &'static Kind,
     target: &Control,
-) -> Result<(Values, Values), (String, String)> {
+) -> Result<(Values, Values, Vec<Need>), (String, String)> {
     let (words, others): (Values, Values) =
         values.iter().cloned().partition(|(role, _)| takes(target, kind.cycle, *role));
-    let refused = others.iter().find_map(|(role, value)| in_setting(*role, value, kind, target).err());
-    let Some(refused) = refused else { return Ok((words, Values::new())) };
+    let needs: Result<Vec<Option<Need>>, _> =
+        others.iter().map(|(role, value)| in_setting(*role, value, kind, target)).collect();
+    if let Ok(needs) = &needs
+        && needs.iter().all(Option::is_none)
+    {
+        return Ok((words, Values::new(), Vec::new()));
+    }
     let (before, rest): (Values, Values) =
         values.iter().cloned().partition(|(role, _)| takes(target, kind.setup, *role));
     if !before.is_empty() && rest.iter().all(|(role, _)| takes(target, kind.cycle, *role)) {
-        return Ok((rest, before));
+        return Ok((rest, before, Vec::new()));
     }
-    Err(refused)
+    Ok((words, Values::new(), needs?.into_iter().flatten().collect()))
 }
 
-/// True of a value that the target has without a word of the program.
-fn in_setting(role: Role, value: &Expr, kind: &Kind, target: &Control) -> Result<(), (String, String)> {
+/// What the target must be set to for a value that no word of it says; nothing where it is so.
+fn in_setting(
+    role: Role,
+    value: &Expr,
+    kind: &Kind,
+    target: &Control,
+) -> Result<Option<Need>, (String, String)> {
     if role == Role::ThreadFinishes {
         let what = "the number of finishing passes of this thread is computed, or none";
         return match value.constant() {
-            Some(1.0) => Ok(()),
+            Some(1.0) => Ok(None),
             _ => Err((what.into(), "write it as a number".into())),
         };
     }
@@ -290,29 +348,22 @@ fn in_setting(role: Role, value: &Expr, kind: &Kind, target: &Control) -> Result
         return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
     };
     let number = name.trim_start_matches("setting.");
-    match (value.constant(), stated) {
-        (Some(value), Some(stated)) if (value - stated).abs() < 1e-9 => Ok(()),
-        (Some(value), Some(stated)) => Err((
-            format!(
-                "the program says {value} for {}, and setting {number} of the target is {stated}",
-                meaning(role)
-            ),
-            format!("set {number} to {value} for this program, or change the program"),
-        )),
-        (Some(value), None) => {
-            let title = &target.dialect().title;
-            let what = format!(
-                "setting {number} of the {title} says {}, and its profile does not give it",
-                meaning(role)
-            );
-            let help = format!(
-                "the program needs {value}: if the machine is set so, write in its profile, under [settings]: {number} = \"{value}\""
-            );
-            Err((what, help))
-        }
-        (None, _) => Err((
-            format!("{} is computed, and the target takes it from setting {number}", meaning(role)),
-            "write it as a number".into(),
-        )),
+    let Some(value) = value.constant() else {
+        let what = format!("{} is computed, and the target takes it from setting {number}", meaning(role));
+        return Err((what, "write it as a number".into()));
+    };
+    if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) {
+        return Ok(None);
     }
+    let now =
+        stated.map_or("its profile does not give it".into(), |stated| format!("its profile says {stated}"));
+    let title = &target.dialect().title;
+    let what = format!(
+        "setting {number} of the {title} must be {value} while this program runs ({}); {now}",
+        meaning(role)
+    );
+    let help = format!(
+        "set it so before the program is run; if the machine is always set so, write in its profile, under [settings]: {number} = \"{value}\""
+    );
+    Ok(Some((what, help, Predicate::Setting(name.into(), value))))
 }

@@ -2,7 +2,7 @@
 //!
 //! Law: each of them is a move to where the thread begins at full depth, the thread, and the way out and back, as the cycle makes it
 //! (docs/lathe.md, P5, P7, P8). Side conditions: the place where the cycle begins, the end, the height, the taper and the angle are known numbers,
-//! and the next block that moves says how. Error bound: half of the fourth decimal. Counter-example: a start that a called program leaves.
+//! and the next block that moves says how. Error bound: half of the sixth decimal. Counter-example: a start that a called program leaves.
 
 use crate::canon::{Group, Op, Role};
 use crate::ir::{Expr, Nc, NcItem, SourceInfo, Stmt, StmtKind};
@@ -86,7 +86,7 @@ impl Pass {
     }
 
     fn stmts(&self, span: Span) -> [Stmt; 4] {
-        let word = |role: Role, value: f64| NcItem::Word(role, Expr::Number((value * 1e4).round() / 1e4));
+        let word = |role: Role, value: f64| NcItem::Word(role, Expr::Number((value * 1e6).round() / 1e6));
         let items = [
             vec![NcItem::Op(Op::Rapid), word(Role::X, self.begin.0), word(Role::Z, self.begin.1)],
             vec![
@@ -105,22 +105,27 @@ impl Pass {
 
 /// The blocks of so many passes after a thread's cycle; none where a number of it is not known, or what moves next rests on
 /// the motion code that was in force before.
-pub fn passes(stmt: &Stmt, angle: f64, count: usize, from: Place, next: &[Stmt]) -> Option<Vec<Stmt>> {
+pub fn passes(
+    stmt: &Stmt,
+    (angle, count): (f64, usize),
+    from: Place,
+    (next, ends): (&[Stmt], bool),
+) -> Option<Vec<Stmt>> {
     let StmtKind::Nc(nc) = &stmt.kind else { return None };
-    if stmt.site.skip.is_some() || !says_how(next) {
+    if stmt.site.skip.is_some() || !says_how(next, ends) {
         return None;
     }
     let pass = Pass::of(nc, angle, from)?.stmts(stmt.site.span);
     Some(std::iter::repeat_n(pass, count).flatten().collect())
 }
 
-/// True where the next block with axis words has a code for how it moves.
-fn says_how(next: &[Stmt]) -> bool {
+/// True where the next block with axis words has a code for how it moves, or the program ends before one.
+fn says_how(next: &[Stmt], ends: bool) -> bool {
     let moves = next.iter().find_map(|stmt| match &stmt.kind {
         StmtKind::Nc(nc) if nc.names_axis() || nc.ops().any(|op| op.group() == Group::Motion) => Some(nc),
         _ => None,
     });
-    moves.is_some_and(|nc| {
+    moves.map_or(ends, |nc| {
         nc.ops().any(|op| op.group() == Group::Motion || op.is_lathe_cycle())
             || nc.ops().any(|op| op == Op::ReferenceReturn)
     })

@@ -7,10 +7,11 @@
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Axis, Control, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
 use crate::legalize::{Context, replace_statements};
 
+const AT_ONCE: &str = "all axes return at the same time; no source says in which order the source moves them";
 const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
                       stand at their reference position, or that the target's machine has no such axes";
 
@@ -53,6 +54,7 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             axes.iter().copied().filter(named).collect()
         })
         .collect();
+    let letters = step_letters(context.source);
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
@@ -63,14 +65,14 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
         {
             context.rests_on_source(index, span, Question::ReferenceAllAxes);
             let (code, what) = match state.op(Group::Distance) {
+                _ if !letters.is_empty() => {
+                    by_letters(nc, &letters);
+                    (Code::Conditional, AT_ONCE)
+                }
                 Some(distance) => {
                     restore = (distance == Op::Absolute).then_some(distance);
                     name(nc, &own[index]);
-                    (
-                        Code::Conditional,
-                        "all axes return at the same time; no source says in which order the source moves \
-                         them",
-                    )
+                    (Code::Conditional, AT_ONCE)
                 }
                 None => (
                     Code::NoEquivalent,
@@ -79,7 +81,8 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
                 ),
             };
             context.add(index, Diagnostic::new(code, span, what).asked_once());
-            if [Role::A, Role::B, Role::C].into_iter().any(|role| target.letter(role, None).is_none()) {
+            let rotary = letters.is_empty() && rotary.iter().any(|role| target.letter(*role, None).is_none());
+            if rotary {
                 context.add_once(
                     index,
                     ROTARY,
@@ -93,6 +96,22 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
         }
     });
+}
+
+/// The increments of the axes of a machine that has letters for them; none on others.
+fn step_letters(source: &Control) -> Vec<Role> {
+    let has = |role: Role| source.letter(role, None).is_some();
+    let axes = source.profile().axes.clone().unwrap_or_else(|| vec![Axis::X, Axis::Z]);
+    let steps =
+        [(Axis::X, Role::StepX), (Axis::Y, Role::StepY), (Axis::Z, Role::StepZ), (Axis::C, Role::StepC)];
+    let own = steps.into_iter().filter(|(axis, role)| axes.contains(axis) && has(*role));
+    own.map(|(_, role)| role).collect()
+}
+
+fn by_letters(nc: &mut Nc, letters: &[Role]) {
+    let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
+    let words = letters.iter().map(|role| NcItem::Word(*role, Expr::Number(0.0)));
+    nc.items.splice(at + 1..at + 1, words);
 }
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.

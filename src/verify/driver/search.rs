@@ -9,6 +9,7 @@ use crate::verify::compare::{is_cut, returns};
 use crate::verify::explore::{Circumstances, Proposals, inputs_of_both, unit};
 use crate::verify::sides::{Effort, Job, Side};
 use crate::verify::triage::telling_numbers;
+use std::collections::BTreeMap;
 
 /// How much longer the first run may be where it comes to no end, and how much shorter the others are while none does.
 const LONGER: u64 = 5;
@@ -50,6 +51,12 @@ impl Verifier<'_, '_> {
             Predicate::Loaded(tool) => Some(tool),
             _ => None,
         });
+        let settings: BTreeMap<String, f64> = assumed()
+            .filter_map(|one| match &one.predicate {
+                Predicate::Setting(name, value) => Some((name.to_string(), *value)),
+                _ => None,
+            })
+            .collect();
         let as_stated = self.job.as_stated(self.program);
         let mut proposals = Proposals::new(&found, Effort { steps, ..effort });
         self.skips = proposals.skips().to_vec();
@@ -66,6 +73,7 @@ impl Verifier<'_, '_> {
             at_reference(&mut scenario, target);
             self.given.start(&mut scenario);
             scenario.as_stated = as_stated.clone();
+            scenario.settings.clone_from(&settings);
             self.theirs = proposals.theirs().clone();
             if is_long {
                 scenario.steps /= SHORTER;

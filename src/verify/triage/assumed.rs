@@ -124,7 +124,8 @@ fn on_source(predicate: &Predicate, of: (&Side<'_>, ProgramRef), run: &Run) -> H
         | Predicate::Unit
         | Predicate::Start(_)
         | Predicate::Main
-        | Predicate::Loaded(_) => Held::Kept,
+        | Predicate::Loaded(_)
+        | Predicate::Setting(..) => Held::Kept,
         Predicate::Substitute(_) | Predicate::Unseen => Held::Untried,
         Predicate::Subscripts(subscripts) => {
             let here = computed(&run.computed_numbers, of, run, Some(&subscripts.places));
@@ -166,6 +167,7 @@ fn on_target(predicate: &Predicate, of: Option<(&Side<'_>, ProgramRef)>, run: &R
         | Predicate::Start(_)
         | Predicate::Main
         | Predicate::Loaded(_)
+        | Predicate::Setting(..)
         | Predicate::ShortArcs(_)
         | Predicate::ArcEnds(_)
         | Predicate::Tools(_)

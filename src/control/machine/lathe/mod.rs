@@ -12,7 +12,7 @@ mod levels;
 pub(super) mod pass;
 mod profile;
 mod rough;
-mod settings;
+pub(super) mod settings;
 mod shape;
 mod stretches;
 pub(super) mod thread;

@@ -3,6 +3,7 @@
 use crate::canon::Op;
 use crate::control::machine::INCH;
 use crate::dialect::{Axis, Control, Units};
+use std::collections::BTreeMap;
 
 /// The settings; lengths in millimetres.
 #[derive(Clone, Debug, Default)]
@@ -32,8 +33,14 @@ pub struct Turning {
 impl Turning {
     /// Those of a control.
     pub fn new(control: &Control) -> Self {
+        Self::with(control, &BTreeMap::new())
+    }
+
+    /// The same with some settings that are another than the profile says.
+    pub fn with(control: &Control, others: &BTreeMap<String, f64>) -> Self {
         let unit = if control.units() == Some(Units::Inch) { INCH } else { 1.0 };
-        let number = |name: &str| control.setting(name).and_then(|value| value.parse::<f64>().ok());
+        let stated = |name: &str| control.setting(name).and_then(|value| value.parse::<f64>().ok());
+        let number = |name: &str| others.get(name).copied().or_else(|| stated(name));
         let length = |names: [&str; 2]| names.into_iter().find_map(number).map(|value| value * unit);
         Self {
             two_blocks: control.code_for(Op::ThreadingSetup, &Default::default()).is_some(),
