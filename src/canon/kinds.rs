@@ -121,6 +121,7 @@ impl Op {
                 | WriteRadius
                 | WriteRadiusWear
                 | WriteOffset
+                | WriteTurret
                 | ReadOffset
                 | WriteVariable
                 | Pole

@@ -165,6 +165,8 @@ super::vocabulary! {
         WriteRadiusWear = "offset.write.radius.wear",
         /// Writes a tool offset on a control with one value a tool.
         WriteOffset = "offset.write",
+        /// Writes the places, the nose radius and the tip of a tool offset of a lathe.
+        WriteTurret = "offset.write.turret",
         /// Reads an offset into program variables.
         ReadOffset = "offset.read",
         /// Writes program variables.

@@ -171,6 +171,10 @@ super::vocabulary! {
         OffsetRow = "offset.row",
         /// Value that is written into an offset table.
         OffsetValue = "offset.value",
+        /// Nose radius that is written into a tool offset of a lathe.
+        OffsetNose = "offset.nose",
+        /// Direction of the tip, 0 to 9, that is written into it.
+        OffsetTip = "offset.tip",
         /// Number of a probed point.
         ProbePoint = "probe.point",
         /// Spindle-speed limit.
@@ -276,6 +280,7 @@ impl Role {
                 | Role::Output
                 | Role::Lookahead
                 | Role::OffsetRow
+                | Role::OffsetTip
                 | Role::ProbePoint
                 | Role::Act
         )
@@ -338,6 +343,7 @@ impl Role {
                 | Role::CycleJ
                 | Role::PolarDistance
                 | Role::OffsetValue
+                | Role::OffsetNose
         )
     }
 }

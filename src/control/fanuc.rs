@@ -25,6 +25,8 @@ static STYLE: Style = Style {
         no_modal_call: "PS1100",
     },
     numbers_lathe_alarms: true,
+    // The end of G68, and the watch over the spindle's speed.
+    lathe_signs: &["G69", "G25", "G26"],
     run_out: None,
 };
 

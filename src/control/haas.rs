@@ -25,6 +25,7 @@ static STYLE: Style = Style {
         no_modal_call: "",
     },
     numbers_lathe_alarms: false,
+    lathe_signs: &[],
     run_out: Some(["M23", "M24"]),
 };
 

@@ -45,7 +45,9 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
 
 /// True where a block places something by the tool length, in coordinates of the program.
 fn places_length(machine: &Machine, command: &Command) -> bool {
-    let aside = |op: &Op| matches!(op, Op::MachineOnce | Op::WriteWork | Op::LocalShift | Op::Dwell);
+    let aside = |op: &Op| {
+        matches!(op, Op::MachineOnce | Op::WriteWork | Op::WriteTurret | Op::LocalShift | Op::Dwell)
+    };
     let depth = command.word(Role::Z).is_some() && !machine.incremental;
     // Words that are kept for later place nothing yet; a hole is placed by those that were kept.
     let drills = machine.cycle.is_some() && command.has_axes();
@@ -70,6 +72,7 @@ fn one_shot(machine: &mut Machine, op: Op, command: &Command, trace: &mut Trace)
         | Op::WriteRadius
         | Op::WriteRadiusWear
         | Op::WriteOffset => offsets::write_by_code(machine, op, command, trace)?,
+        Op::WriteTurret => machine.write_turret(command, trace)?,
         op if op.is_lathe_setup() => lathe::setup(machine, op, command)?,
         // They move; of those that read a contour the interpreter knows the blocks.
         op if op.is_lathe_cycle() => {}

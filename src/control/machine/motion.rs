@@ -33,6 +33,7 @@ pub(super) fn run(machine: &mut Machine, command: &Command, trace: &mut Trace) -
 fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<bool, Stop> {
     if let Some(op) = command.of(Group::Motion) {
         machine.motion = op;
+        machine.lathe.after_cycle = false;
         if machine.cycle.is_some() && machine.rules.motion_ends_cycle.ask(trace) {
             machine.cycle = None;
         }
@@ -100,7 +101,7 @@ fn moves(machine: &mut Machine, command: &Command, trace: &mut Trace) -> Result<
     if !goes {
         return Ok(false);
     }
-    lathe::way::doubt_motion(machine, command, trace);
+    lathe::way::doubt_motion(machine, trace);
     match machine.motion {
         _ if command.has(Op::RapidOnce) => {
             let to = machine.target(command);
@@ -144,6 +145,7 @@ fn takes_axes(command: &Command) -> bool {
     command.ops.iter().any(|op| {
         matches!(op, Op::LocalShift | Op::SetPosition | Op::WriteWork | Op::RotateOn | Op::ScaleOn)
             || matches!(op, Op::MirrorOn | Op::MirrorOff | Op::Pole | Op::Dwell)
+            || *op == Op::WriteTurret
             || op.is_lathe_cycle()
             || op.is_lathe_setup()
     })
@@ -153,11 +155,11 @@ fn takes_axes(command: &Command) -> bool {
 fn reference(machine: &mut Machine, command: &Command, which: usize, trace: &mut Trace) -> Result<(), Stop> {
     let home = machine.references[which];
     let mut named: Vec<usize> = machine.named_axes(command).iter().map(|(axis, _)| *axis).collect();
-    if named.is_empty() && machine.rules.reference_takes_all.ask(trace) {
-        named = (0..AXES).collect();
-    }
     if named.is_empty() && machine.rules.lathe {
         return lathe::zeros::without_axes(machine, which, trace);
+    }
+    if named.is_empty() && machine.rules.reference_takes_all.ask(trace) {
+        named = (0..AXES).collect();
     }
     if command.has_axes() {
         let by = machine.target(command);

@@ -288,6 +288,11 @@ impl<'c> Runner<'c> {
         self.session.trace.push(EventKind::Leave);
     }
 
+    /// True where a modal call is in force.
+    pub fn has_modal_call(&self) -> bool {
+        self.visible_call().is_some()
+    }
+
     /// True where a modal call in force calls after every block.
     pub fn modal_call_each(&self) -> bool {
         self.visible_call().is_some_and(|(_, call)| call.each)

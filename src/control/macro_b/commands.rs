@@ -67,6 +67,7 @@ impl<'c> Runner<'c> {
             return Ok(Next::On);
         }
         self.switch_run_out();
+        self.refuse_modal_call()?;
         let mut command = std::mem::take(&mut self.command);
         let moves = command.has_axes() && !command.ops.iter().any(|op| keeps_axes(*op));
         let shown = words.shown.as_ref().filter(|_| command.has(Op::Stop));
@@ -130,6 +131,12 @@ impl<'c> Runner<'c> {
             if row.op.is_flow() {
                 continue;
             }
+            if self.session.machine.is_lathe() && self.style.lathe_signs.contains(&row.code.as_str()) {
+                let what = EventKind::Other { operation: row.op, code: Some(row.code.clone()) };
+                self.session.trace.push(what);
+                self.session.trace.doubt("machine:lathe.code.moves.nothing");
+                continue;
+            }
             if matches!(row.op, Op::MachineSpecific | Op::Builder | Op::CycleOther) {
                 command.own_code = Some(row.code.clone());
             }
@@ -170,7 +177,7 @@ impl<'c> Runner<'c> {
                 }
                 None if flow => {}
                 // A lathe does nothing of which nobody knows what it does.
-                None if self.session.machine.is_lathe() => {
+                None if self.session.machine.is_lathe() && !picks_code(self, meaning, word.letter) => {
                     let text = format!("the emulated lathe knows no {} here", word.letter);
                     self.command = command;
                     self.command.clear();
@@ -180,6 +187,16 @@ impl<'c> Runner<'c> {
             }
         }
         self.command = command;
+        Ok(())
+    }
+
+    /// After which moves of a lathe's cycle a modal call calls, no source says.
+    fn refuse_modal_call(&mut self) -> Result<(), Halt> {
+        let motion = self.command.of(Group::Motion).unwrap_or(self.session.machine.motion());
+        let passes = motion.is_pass() && self.command.has_axes();
+        if (passes || self.command.ops.iter().any(|op| op.is_lathe_cycle())) && self.has_modal_call() {
+            return Err(self.lathe_stop(Stop::unnamed("a cycle of a lathe while a modal call is in force")));
+        }
         Ok(())
     }
 
@@ -275,6 +292,13 @@ impl<'c> Runner<'c> {
     }
 }
 
+/// True for a word by which a code of the block is told from others, and which says nothing else: L2 of G10 L2.
+fn picks_code(runner: &Runner<'_>, meaning: &Meaning, letter: char) -> bool {
+    let rows = meaning.codes.iter().filter_map(|code| runner.row(code.row));
+    let mut beside = rows.flat_map(|row| row.code.split_whitespace().skip(1));
+    beside.any(|word| word.starts_with(letter) && word.len() > 1)
+}
+
 /// The place of an address among the last values: A at 1.
 pub fn place_of(letter: char) -> usize {
     (letter as usize).wrapping_sub('A' as usize).wrapping_add(1)
@@ -285,6 +309,15 @@ fn keeps_axes(op: Op) -> bool {
     use Op::*;
     matches!(
         op,
-        LocalShift | SetPosition | WriteWork | RotateOn | ScaleOn | MirrorOn | MirrorOff | Pole | Dwell
+        LocalShift
+            | SetPosition
+            | WriteWork
+            | WriteTurret
+            | RotateOn
+            | ScaleOn
+            | MirrorOn
+            | MirrorOff
+            | Pole
+            | Dwell
     )
 }

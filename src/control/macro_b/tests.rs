@@ -3,6 +3,7 @@
 mod arguments;
 mod digits;
 mod flow;
+mod lathes;
 mod programs;
 mod values;
 

@@ -51,6 +51,10 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
     if let Some(role) = has(&[Role::ArcI, Role::ArcJ, Role::ArcK, Role::ArcRadius]).filter(|_| !arcs) {
         return Err(Stop::unnamed(format!("{role} in a block that makes no arc")));
     }
+    let steps = command.words.iter().any(|(role, _)| role.is_step());
+    if steps && command.ops.iter().any(|op| matches!(op, Op::WriteWork | Op::LocalShift)) {
+        return Err(Stop::unnamed("increments of a zero"));
+    }
     let turned = [Role::C, Role::StepC];
     let turned = has(&turned).filter(|_| !machine.rules.turning.has_c);
     let axis = has(&[Role::A, Role::B, Role::E, Role::U, Role::V, Role::W]).or(turned);
@@ -63,7 +67,7 @@ fn letters(machine: &Machine, command: &Command) -> Result<(), Stop> {
 /// T6.
 fn tool_word(command: &Command) -> Result<(), Stop> {
     let aside = |op: &Op| {
-        matches!(op, Op::SetPosition | Op::LimitSpeed | Op::Dwell | Op::WriteWork | Op::WriteOffset)
+        matches!(op, Op::SetPosition | Op::LimitSpeed | Op::Dwell | Op::WriteWork | Op::WriteTurret)
     };
     if command.word(Role::Turret).is_some() && command.ops.iter().any(aside) {
         return Err(alarm("PS0245", "a T word in a block that sets a zero, writes an offset or waits"));

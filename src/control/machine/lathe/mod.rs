@@ -69,7 +69,10 @@ pub(super) struct Form {
 pub(super) struct Lathe {
     /// The number of the tool offset in force.
     pub offset: u32,
+    /// The one table, or that of the wear.
     pub table: BTreeMap<u32, Offset>,
+    /// What is written as the geometry of a tool.
+    pub geometry: BTreeMap<u32, Offset>,
     /// The limit of turns a minute.
     pub limit: Option<f64>,
     /// The last speed in turns, and the last surface speed.

@@ -1,15 +1,21 @@
 //! The turret, the tool offsets, and what of them a program reads and writes (T1 to T9, Q1).
 
-use super::Offset;
+use super::{Lathe, Offset};
 use crate::canon::{Op, Role, Sys};
 use crate::control::machine::{Command, Machine};
+use crate::control::outcome::Stop;
 use crate::control::trace::{EventKind, FeedMode, Plane, Side, Trace};
 use crate::dialect::Control;
+use std::collections::BTreeMap;
 
 /// Takes the T word: the station turns to its place, then the offset counts.
 pub fn index(machine: &mut Machine, command: &Command, trace: &mut Trace) {
     let Some(word) = command.number(Role::Turret) else { return };
     let (station, offset) = (f64::from(word / 100), word % 100);
+    if (1..100).contains(&word) {
+        // By its digits it is an offset alone; whether a machine takes it for a station no source says.
+        trace.doubt("machine:lathe.tool.word.short");
+    }
     machine.tool_ready = station;
     if station != 0.0 && station != machine.tool {
         machine.tool = station;
@@ -28,13 +34,34 @@ pub fn nose(machine: &mut Machine, side: Side, trace: &mut Trace) {
     }
     machine.side = side;
     machine.radius_offset = if off { 0 } else { machine.lathe.offset };
-    let row = machine.lathe.table.get(&machine.radius_offset).copied().unwrap_or_default();
+    let row = machine.lathe.row(machine.radius_offset);
     let (value, tip) = if off { (0.0, 0) } else { (row.radius, row.tip.clamp(0.0, 9.0) as u32) };
     if !off {
         // The path that the tool takes is not worked out.
         trace.doubt("machine:lathe.nose.path");
     }
     trace.push(EventKind::CutterRadius { side, offset: machine.radius_offset, value, tip });
+}
+
+/// What is added to the number of a geometry offset where a program writes it.
+const GEOMETRY: u32 = 10_000;
+
+impl Lathe {
+    /// What an offset adds: geometry and wear together (T3).
+    fn row(&self, number: u32) -> Offset {
+        if number == 0 {
+            return Offset::default();
+        }
+        let of = |table: &BTreeMap<u32, Offset>| table.get(&number).copied().unwrap_or_default();
+        let (own, more) = (of(&self.table), of(&self.geometry));
+        Offset {
+            x: own.x + more.x,
+            y: own.y + more.y,
+            z: own.z + more.z,
+            radius: own.radius + more.radius,
+            tip: if own.tip == 0.0 { more.tip } else { own.tip },
+        }
+    }
 }
 
 impl Machine {
@@ -67,8 +94,7 @@ impl Machine {
     /// The offset in force counts from here on; nothing moves (T3).
     fn apply_offset(&mut self, before: u32, trace: &mut Trace) {
         let number = self.lathe.offset;
-        let row = self.lathe.table.get(&number).copied().filter(|_| number != 0);
-        let Offset { x, y, z, .. } = row.unwrap_or_default();
+        let Offset { x, y, z, .. } = self.lathe.row(number);
         let old = self.frame.tool.unwrap_or_default();
         if old != [x, y, z] {
             // Whether the slide goes there at once, and what the offset is, no source says for every machine.
@@ -78,6 +104,47 @@ impl Machine {
         if before != number || old != [x, y, z] {
             trace.push(EventKind::ToolOffset { offset: number, x, z });
         }
+    }
+
+    /// Writes the words of a block into an offset (Z8). It counts from the next T word on.
+    pub(in crate::control::machine) fn write_turret(
+        &mut self,
+        command: &Command,
+        trace: &mut Trace,
+    ) -> Result<(), Stop> {
+        let number = command.number(Role::OffsetRow).unwrap_or(0);
+        let (number, geometry) = if number > GEOMETRY { (number - GEOMETRY, true) } else { (number, false) };
+        if number == 0 {
+            return Err(Stop::unnamed("the shift of all zeros, written by its number 0"));
+        }
+        if command.word(Role::C).or(command.word(Role::StepC)).is_some() {
+            return Err(Stop::unnamed("an increment of a nose radius"));
+        }
+        trace.rounded = self.off_by() + self.most_off(command, |_| true);
+        for (role, value) in command.words.iter().copied() {
+            let (state, adds) = match role {
+                Role::X => (Sys::LatheX, self.incremental),
+                Role::StepX => (Sys::LatheX, true),
+                Role::Y => (Sys::LatheY, self.incremental),
+                Role::StepY => (Sys::LatheY, true),
+                Role::Z => (Sys::LatheZ, self.incremental),
+                Role::StepZ => (Sys::LatheZ, true),
+                Role::OffsetNose => (Sys::LatheRadius, false),
+                Role::OffsetTip => (Sys::LatheTip, false),
+                _ => continue,
+            };
+            if geometry {
+                std::mem::swap(&mut self.lathe.table, &mut self.lathe.geometry);
+            }
+            let old = if adds { self.lathe_offset(state, number) } else { 0.0 };
+            let value = self.keep_lathe_offset(state, number, old + value);
+            if geometry {
+                std::mem::swap(&mut self.lathe.table, &mut self.lathe.geometry);
+            }
+            let row = if geometry { number + GEOMETRY } else { number };
+            trace.push(EventKind::Write { state, subscripts: vec![row], value });
+        }
+        Ok(())
     }
 
     /// A value of the table of tool offsets, in the unit of the program.

@@ -24,8 +24,8 @@ pub fn follows(machine: &mut Machine, command: &Command, trace: &mut Trace) -> R
 }
 
 /// After a cycle nobody knows for certain which code of motion is in force (K12).
-pub fn doubt_motion(machine: &mut Machine, command: &Command, trace: &mut Trace) {
-    if std::mem::take(&mut machine.lathe.after_cycle) && command.of(Group::Motion).is_none() {
+pub fn doubt_motion(machine: &mut Machine, trace: &mut Trace) {
+    if std::mem::take(&mut machine.lathe.after_cycle) {
         trace.doubt("machine:lathe.motion.after.cycle");
     }
 }

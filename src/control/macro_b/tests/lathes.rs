@@ -1,0 +1,228 @@
+//! Lathes: what the lists of `tests/motions/` do not hold. Rows are those of docs/lathe.md.
+
+use super::run_on;
+use crate::control::trace::EventKind;
+use crate::control::{End, Run, Scenario};
+use crate::dialect::Control;
+
+const FANUC: &str = "dialect = \"fanuc\"\nmachine = \"lathe\"\nunits = \"metric\"\n";
+const HAAS: &str = "dialect = \"haas\"\nmachine = \"lathe\"\nunits = \"metric\"\n";
+
+fn run(profile: &str, text: &str) -> Run {
+    let control = Control::from_profile(profile).expect("a profile");
+    let mut scenario = Scenario::default();
+    (scenario.start[0], scenario.start[2]) = (100.0, 50.0);
+    run_on(&control, &[text], &scenario)
+}
+
+fn moves(run: &Run) -> Vec<[f64; 2]> {
+    let ends = run.events.iter().filter_map(|event| match &event.what {
+        EventKind::Rapid { to, .. } | EventKind::Feed { to, .. } | EventKind::Thread { to, .. } => Some(to),
+        _ => None,
+    });
+    ends.map(|to| [to.0[0], to.0[2]]).collect()
+}
+
+/// The number and the text of the alarm that ends it.
+fn alarm(run: &Run) -> (String, String) {
+    match &run.end {
+        End::Alarm { stop, .. } => (stop.number.clone(), stop.text.clone()),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn refusal(profile: &str, block: &str) -> String {
+    alarm(&run(profile, &format!("O1\nG0 X60. Z2.\n{block}\nM30\n"))).1
+}
+
+fn variable(run: &Run, name: &str) -> f64 {
+    run.variables.get(name).copied().unwrap_or(f64::NAN)
+}
+
+#[test]
+fn increments_are_differences_of_diameters() {
+    // D1: U of X, W of Z, also beside an absolute word of the other axis.
+    let run = run(FANUC, "O1\nG0 X60. Z2.\nU-4. Z0.\nX50. W-3.\nM30\n");
+    assert_eq!(moves(&run), [[60.0, 2.0], [56.0, 0.0], [50.0, -3.0]]);
+}
+
+#[test]
+fn what_the_page_does_not_describe_is_refused_by_name() {
+    // D1, Q3, and codes of measuring.
+    for (block, names) in [
+        ("G0 X40. U-2.", "place and its increment"),
+        ("G1 X40. C2. F.1", "axis.c"),
+        ("G1 X40. R2. F.1", "arc.radius"),
+        ("G1 X40. A45. F.1", "axis.a"),
+        ("G36 X40.", "G36"),
+        ("G12.1", "G12.1"),
+        ("G83 Z-10. R2. F50.", "G83"),
+        ("G68", "G68"),
+        ("G1 X40. L2 F.1", "no L"),
+    ] {
+        let text = refusal(FANUC, block);
+        assert!(text.contains(names), "{block}: {text}");
+    }
+    // D2: U and W are no words of motion in system B.
+    let system_b = format!("{FANUC}[settings]\ngcode_system = \"B\"\n");
+    assert!(refusal(&system_b, "G0 U-4.").contains("no U"));
+    // Z2 and Z4.
+    assert!(refusal(FANUC, "G28").contains("without an axis"));
+    assert!(refusal(FANUC, "G53 U10.").contains("increments"));
+    assert!(refusal(HAAS, "G1 X50. F.1\nG53 X10.").contains("rapid"));
+}
+
+#[test]
+fn a_tool_word_turns_the_turret_and_takes_its_offset() {
+    let text =
+        "O1\n#2003=-4.\n#2103=2.\nT303\nG0 X60. Z2.\n#100=#5041\n#101=#5021\nT0300\nG0 X60.\nT0303\nM30\n";
+    let run = run(FANUC, text);
+    assert_eq!(moves(&run), [[56.0, 4.0], [60.0, 4.0]]);
+    // The work coordinate holds the offset, the machine's does not; both are diameters.
+    assert_eq!((variable(&run, "#100"), variable(&run, "#101")), (60.0, 56.0));
+    let told: Vec<String> = run
+        .events
+        .iter()
+        .filter_map(|event| match &event.what {
+            EventKind::ToolChange { tool } => Some(format!("station {tool}")),
+            EventKind::ToolOffset { offset, x, z } => Some(format!("offset {offset}: {x} {z}")),
+            _ => None,
+        })
+        .collect();
+    // T2: the station in its place is not changed to again.
+    assert_eq!(told, ["station 3", "offset 3: -4 2", "offset 0: 0 0", "offset 3: -4 2"]);
+}
+
+#[test]
+fn an_offset_beside_a_zero_is_an_alarm() {
+    assert_eq!(alarm(&run(FANUC, "O1\nG50 S2000 T0101\nM30\n")).0, "PS0245");
+    assert_eq!(alarm(&run(FANUC, "O1\nG4 X1. T0101\nM30\n")).0, "PS0245");
+}
+
+#[test]
+fn a_feed_by_the_turn_takes_its_time() {
+    // S5: 20 mm at .2 a turn are 100 turns, at 600 a minute 10 s. C5: U-4. is 2 mm.
+    let text = "O1\nG97 S600 M3\nG0 X60. Z20.\n#1=#3001\nG1 Z0. F.2\n#100=#3001-#1\n#1=#3001\nU-4.\n#101=#3001-#1\nM30\n";
+    let run = run(FANUC, text);
+    assert!((variable(&run, "#100") - 10_000.0).abs() < 5.0, "{}", variable(&run, "#100"));
+    assert!((variable(&run, "#101") - 1000.0).abs() < 5.0, "{}", variable(&run, "#101"));
+}
+
+#[test]
+fn a_wait_or_a_code_of_its_own_makes_no_pass() {
+    // B9, and B7: a pass comes back to where it began.
+    let text = "O1\nG0 X60. Z2.\nG90 X50. Z-10. F.2\nG4 X1.\nM8\nF.1\nX46.\nM30\n";
+    let cut = |x: f64| [[x, 2.0], [x, -10.0], [60.0, -10.0], [60.0, 2.0]];
+    let expected: Vec<[f64; 2]> = [[60.0, 2.0]].into_iter().chain(cut(50.0)).chain(cut(46.0)).collect();
+    assert_eq!(moves(&run(FANUC, text)), expected);
+}
+
+#[test]
+fn a_pass_without_its_other_word_is_refused() {
+    // B8, and B7: the code again takes all afresh.
+    assert!(refusal(FANUC, "G90 X50. F.2").contains("without X or without Z"));
+    assert!(refusal(FANUC, "G90 X50. Z-10. F.2\nG90 X46.").contains("without X or without Z"));
+    assert_eq!(alarm(&run(FANUC, "O1\nG0 X60. Z2.\nG90 X50. Z-10. Y1. F.2\nM30\n")).0, "PS0330");
+}
+
+/// A roughing of one step from 60 to 40, and blocks around it.
+fn roughing(before: &str, inside: &str) -> String {
+    format!(
+        "O1\nG97 S500 M3\nG0 X60. Z2.\nG71 U20. R1.\nG71 P10 Q20 U0 W0 F.2\n{before}N10 G0 X40.\n{inside}G1 Z-10.\nN20 X60.\n\
+         G0 X70.\nM30\n"
+    )
+}
+
+#[test]
+fn a_contour_is_passed_over_and_what_it_says_does_nothing() {
+    // R8, K12: F, S, M and waits of the profile do nothing while roughing.
+    let run = run(FANUC, &roughing("(COMMENT)\n", "G4 X5.\nM8\nS900\nF.5\n"));
+    let expected = [[60.0, 2.0], [40.0, 2.0], [40.0, -10.0], [60.0, -10.0], [60.0, 2.0], [70.0, 2.0]];
+    assert_eq!(moves(&run), expected);
+    let acts = |what: &EventKind| matches!(what, EventKind::Dwell { .. } | EventKind::Coolant { .. });
+    assert!(!run.events.iter().any(|event| acts(&event.what)));
+    let feeds = run.events.iter().filter_map(|event| match event.what {
+        EventKind::Feed { feed, .. } => Some(feed),
+        _ => None,
+    });
+    assert_eq!(feeds.collect::<Vec<_>>(), [0.2, 0.2]);
+}
+
+#[test]
+fn what_has_no_place_in_a_contour_stops_the_run() {
+    // R7, R3, K12.
+    for (inside, number, names) in [
+        ("M98 P2\n", "PS0210", "call"),
+        ("G65 P2\n", "PS0210", "call"),
+        ("G20\n", "PS0066", "units.inch"),
+        ("G54\n", "PS0066", "wcs.select"),
+        ("#1=2.\n", "", "statement"),
+        ("IF[1 EQ 2] GOTO 20\n", "", "statement"),
+        ("G1 X41. K2.\n", "", "comma"),
+    ] {
+        let found = alarm(&run(FANUC, &roughing("", inside)));
+        assert!(found.0 == number && found.1.contains(names), "{inside}: {found:?}");
+    }
+    assert!(alarm(&run(FANUC, &roughing("M8\n", ""))).1.contains("passed over"));
+    assert!(alarm(&run(FANUC, &roughing("N10\n", ""))).1.contains("more than once"));
+    // Haas has no numbers for its alarms.
+    let text = "O1\nG0 X60. Z2.\nG71 P10 Q30 D2. F.2\nN10 G0 X40.\nN20 G1 Z-10.\nM30\n";
+    assert_eq!(alarm(&run(HAAS, text)).0, "");
+}
+
+#[test]
+fn numbers_of_increments_are_computed_too() {
+    // G1: P and Q count thousandths whatever a number without a point counts elsewhere; with a point they are an alarm.
+    let profile = format!("{FANUC}[parameters]\n3401.0 = 1\n");
+    let text =
+        |peck: &str| format!("O1\nG97 S500 M3\nG0 X0 Z2.\nG74 R.5\n#1=4.\nG74 Z-6. Q{peck} F.1\nM30\n");
+    let expected = [[0.0, 2.0], [0.0, -2.0], [0.0, -1.5], [0.0, -6.0], [0.0, 2.0]];
+    assert_eq!(moves(&run(&profile, &text("4000"))), expected);
+    assert_eq!(moves(&run(&profile, &text("[#1*1000]"))), expected);
+    assert_eq!(alarm(&run(&profile, &text("4."))).0, "PS0007");
+}
+
+#[test]
+fn a_variable_lead_has_a_longer_way_each_turn() {
+    // M5: the event holds the change; a lead that becomes negative before the end is an alarm.
+    let text = |k: &str| format!("O1\nG97 S500 M3\nG0 X30. Z2.\nG34 Z-38. F2. K{k} Q90000\nM30\n");
+    let grows = run(FANUC, &text("0.1"));
+    let found = grows.events.iter().find_map(|event| match event.what {
+        EventKind::Thread { lead, change, start, .. } => Some((lead, change, start)),
+        _ => None,
+    });
+    assert_eq!(found, Some((2.0, 0.1, 90_000.0)));
+    assert_eq!(alarm(&run(FANUC, &text("-0.1"))).0, "PS0313");
+}
+
+#[test]
+fn the_nose_comes_from_the_offset() {
+    // Q1.
+    let run = run(FANUC, "O1\n#2203=.8\n#2303=3\nT0303\nG42 G0 X60. Z2.\nG40 G0 X70.\nM30\n");
+    let told: Vec<(f64, u32)> = run
+        .events
+        .iter()
+        .filter_map(|event| match event.what {
+            EventKind::CutterRadius { value, tip, .. } => Some((value, tip)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(told, [(0.8, 3), (0.0, 0)]);
+}
+
+#[test]
+fn threads_run_out_as_the_settings_say() {
+    // P9: tenths of a lead on Fanuc, leads by setting 95 on Haas, nothing after M24.
+    let chamfers = |run: &Run| -> Vec<Option<f64>> {
+        let threads = run.events.iter().filter_map(|event| match event.what {
+            EventKind::Thread { chamfer, .. } => Some(chamfer),
+            _ => None,
+        });
+        threads.collect()
+    };
+    let text = "O1\nG97 S500 M3\nG0 X30. Z2.\nG76 P011560 Q100 R0.\nG76 X27. Z-20. P1500 Q1500 F2.\nG92 X29. Z-20. F2.\nM30\n";
+    assert_eq!(chamfers(&run(FANUC, text)), [Some(3.0), Some(3.0), None]);
+    let profile = format!("{HAAS}[settings]\n95 = \"1\"\n96 = \"45\"\n86 = \"0\"\n99 = \"0\"\n");
+    let text = "O1\nG97 S500 M3\nG0 X30. Z2.\nG92 X29. Z-20. F2.\nM24\nX28.\nM23\nX27.\nM30\n";
+    assert_eq!(chamfers(&run(&profile, text)), [Some(2.0), Some(0.0), Some(2.0)]);
+}
