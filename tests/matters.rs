@@ -113,8 +113,12 @@ fn matters_are_listed_and_each_may_come() {
 
 /// What a run on a machine of this profile is unsure of.
 fn unsure(profile: &str, program: &str) -> BTreeSet<String> {
-    let profile = Profile::read(&format!("dialect = \"fanuc\"\n{profile}")).unwrap();
-    let entry = registry::find("fanuc").unwrap();
+    unsure_on("fanuc", profile, program)
+}
+
+fn unsure_on(dialect: &str, profile: &str, program: &str) -> BTreeSet<String> {
+    let profile = Profile::read(&format!("dialect = \"{dialect}\"\n{profile}")).unwrap();
+    let entry = registry::find(dialect).unwrap();
     let control = Control::new(entry, profile).unwrap();
     let parsed = parse_file(program.as_bytes(), entry.parse);
     let files = [LoadedFile { name: "a.nc", parsed: &parsed }];
@@ -134,15 +138,20 @@ fn a_confirmed_matter_is_not_doubted() {
     assert!(!unsure(&format!("confirm = [\"{fact}\"]\n"), program).contains(fact));
 }
 
-/// Neither is stated: in which feed mode a lathe starts, and what the digits of its tool word are.
+/// No source says what a tool word of two digits is, nor in which feed mode a Haas lathe starts.
 #[test]
 fn a_lathe_is_doubted_where_it_is_no_mill() {
     let lathe = "machine = \"lathe\"\naxes = [\"X\", \"Z\", \"C\", \"Y\"]\n";
-    let (feed, tool) = ("machine:feed.mode.at.start", "machine:lathe.tool.word");
-    let silent = unsure(lathe, "O1\nT0101\nG0X10.\nG1X5.F.2\nM30\n");
-    assert!(silent.contains(feed) && silent.contains(tool), "{silent:?}");
-    let told = unsure(lathe, "O1\nG99G0X10.\nG1X5.F.2\nM30\n");
-    assert!(!told.contains(feed) && !told.contains(tool), "{told:?}");
+    let (feed, tool) = ("machine:feed.mode.at.start", "machine:lathe.tool.word.short");
+    let cut = "G97S500M3\nG0X10.\nG1X5.F.2\nM30\n";
+    let short = unsure(lathe, &format!("O1\nT01\n{cut}"));
+    assert!(short.contains(tool) && !short.contains(feed), "{short:?}");
+    let whole = unsure(lathe, &format!("O1\nT0101\n{cut}"));
+    assert!(!whole.contains(feed) && !whole.contains(tool), "{whole:?}");
+    let silent = unsure_on("haas", lathe, &format!("O1\nT0101\n{cut}"));
+    assert!(silent.contains(feed), "{silent:?}");
+    let told = unsure_on("haas", lathe, &format!("O1\nG99T0101\n{cut}"));
+    assert!(!told.contains(feed), "{told:?}");
     let mill = unsure("", "O1\nT1M6\nG0X10.\nG1X5.F100.\nM30\n");
     assert!(!mill.contains(feed) && !mill.contains(tool), "{mill:?}");
 }

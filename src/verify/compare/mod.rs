@@ -21,6 +21,7 @@ mod shown;
 mod substitutes;
 mod texts;
 mod tolerance;
+mod unseen;
 mod variables;
 
 pub use all::{Apart, differences};

@@ -5,7 +5,7 @@ use super::builders;
 use super::differ::{ANOTHER_FEED, differ};
 use super::exit_state::left_differs;
 use super::found::{Comparison, Difference};
-use super::kinds::{is_cut, setting};
+use super::kinds::is_cut;
 use super::lengths::{brought, shown_by_moves, skips_same_tool};
 use super::letters;
 use super::loose::{Found, Order, farthest};
@@ -20,9 +20,10 @@ use super::substitutes::{
     stands_for,
 };
 use super::tolerance::Tolerance;
+use super::unseen::{before_alarm, told_at};
 use super::variables::variables_differ;
 use crate::control::Run;
-use crate::control::trace::{Event, EventKind, Position, Told};
+use crate::control::trace::{EventKind, Position, Told};
 use crate::verify::sides::{Side, SymbolMap};
 
 /// Least increments by which two arcs may lie apart between their ends, where the words of both rounded:
@@ -82,22 +83,6 @@ pub(super) fn acts<'r>(
         (ours, theirs) = (shown_by_moves(ours), shown_by_moves(theirs));
     }
     [joined(ours), joined(theirs)]
-}
-
-/// How many settings stand on each side before an alarm of one of them: it keeps them from doing anything, and the other side
-/// goes on, and may set them otherwise first.
-fn before_alarm(sides: [&[Act<'_>]; 2]) -> [usize; 2] {
-    let settings = sides.map(|acts| acts.iter().take_while(|act| setting(&act.what).is_some()).count());
-    let alarm = |side: usize| {
-        sides[side].get(settings[side]).is_some_and(|act| matches!(*act.what, EventKind::Alarm(_)))
-    };
-    if alarm(0) == alarm(1) { [0; 2] } else { settings }
-}
-
-/// Where the first of these acts shows: what was found running does at what comes next.
-fn told_at<'r>(acts: &[Act<'r>]) -> Option<&'r Event> {
-    let act = acts.iter().find(|act| act.told != Told::Found).or_else(|| acts.first());
-    act.map(|act| act.event)
 }
 
 /// Two runs side by side.
