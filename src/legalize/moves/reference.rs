@@ -2,13 +2,14 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves; of those the target
+//! axes the machine has is taken from the moves of the library: X, Y (on a lathe only where it is moved), Z and the rotary ones it moves; of those the target
 //! has no letter for, the ones that the program itself moves.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::Question;
+use crate::dialect::{Machine, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::legalize::lathe::steps::{PAIRS, has_letters};
 use crate::legalize::{Context, replace_statements};
 
 const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
@@ -37,7 +38,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let rotary = [Role::A, Role::B, Role::C];
     let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
-    let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
+    let turns = context.source.machine() == Machine::Lathe;
+    let has_y = !turns || ncs().any(|nc| nc.word(Role::Y).is_some() || nc.word(Role::StepY).is_some());
+    let linear = [Role::X, Role::Y, Role::Z].into_iter().filter(|role| *role != Role::Y || has_y);
+    let axes: Vec<Role> = linear.chain(moved).collect();
+    let letters = has_letters(context.source);
     // What the target has no letter for is named where the program moves it, and refused there.
     let target = context.target;
     let own: Vec<Vec<Role>> = module
@@ -62,17 +67,18 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             && bare(nc)
         {
             context.rests_on_source(index, span, Question::ReferenceAllAxes);
-            let (code, what) = match state.op(Group::Distance) {
-                Some(distance) => {
-                    restore = (distance == Op::Absolute).then_some(distance);
-                    name(nc, &own[index]);
+            let distance = state.op(Group::Distance);
+            let (code, what) = match distance {
+                _ if letters || distance.is_some() => {
+                    restore = distance.filter(|distance| !letters && *distance == Op::Absolute);
+                    name(nc, &own[index], letters);
                     (
                         Code::Conditional,
                         "all axes return at the same time; no source says in which order the source moves \
                          them",
                     )
                 }
-                None => (
+                _ => (
                     Code::NoEquivalent,
                     "a return to the reference position without axes, and it is not known whether G90 or \
                      G91 is in force: write one of them before it",
@@ -125,10 +131,16 @@ fn bare(nc: &Nc) -> bool {
     nc.has(Op::ReferenceReturn) && !nc.moves()
 }
 
-fn name(nc: &mut Nc, axes: &[Role]) {
+/// Names the axes at an increment of 0: by letters for increments where the source has them, else by the mode.
+fn name(nc: &mut Nc, axes: &[Role], letters: bool) {
     nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
     let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
-    nc.items.insert(at, NcItem::Op(Op::Incremental));
-    let words = axes.iter().map(|axis| NcItem::Word(*axis, Expr::Number(0.0)));
-    nc.items.splice(at + 2..at + 2, words);
+    let word = |axis: Role| {
+        let step = PAIRS.iter().find(|(whole, _)| letters && *whole == axis).map(|(_, step)| *step);
+        NcItem::Word(step.unwrap_or(axis), Expr::Number(0.0))
+    };
+    nc.items.splice(at + 1..at + 1, axes.iter().copied().map(word));
+    if !letters {
+        nc.items.insert(at, NcItem::Op(Op::Incremental));
+    }
 }
