@@ -84,8 +84,10 @@ super::vocabulary! {
         ThreadStart = "thread.start",
         /// By how much the lead of a thread grows each turn.
         LeadGrowth = "lead.growth",
-        /// Taper of a turning, facing or threading pass: radius (or Z) at its start less that at its end.
+        /// Taper of a turning or threading pass: the radius at its start less that at its end.
         Taper = "taper",
+        /// Taper of a facing pass: Z at its start less that at its end.
+        TaperZ = "taper.z",
         /// Sequence number of the first block of a contour.
         ContourFirst = "contour.first",
         /// Sequence number of the last block of a contour.
@@ -268,6 +270,8 @@ impl Role {
                 | Role::ThreadForm
                 | Role::ThreadFinishes
                 | Role::ThreadInfeed
+                | Role::ThreadStart
+                | Role::ThreadAngle
                 | Role::LengthOffset
                 | Role::RadiusOffset
                 | Role::WorkOffset
@@ -311,6 +315,7 @@ impl Role {
                 | Role::StepY
                 | Role::StepZ
                 | Role::Taper
+                | Role::TaperZ
                 | Role::CutDepth
                 | Role::CutRetract
                 | Role::AllowanceX

@@ -1,13 +1,16 @@
 //! Contours: the blocks that a cycle of a lathe finds by the sequence numbers of the first and the last one.
 //!
 //! Law: a cycle reads the same contour if the same blocks stand between the two numbers, and each number stands once. Side condition: nothing
-//! but moves and comments stands there, on one way. Counter-example: a label between them, where a jump may come in.
+//! but moves and comments stands there, on one way; a jump that comes in from elsewhere runs the same blocks as they stand. Counter-example: a
+//! macro call between them, which the cycle does not look into.
 
+use super::straight::goes_on_to;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Module, Nc, Program, Stmt, StmtKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
+use crate::text::Span;
 
 /// True where cycles read contours.
 pub fn concerns(features: &Features) -> bool {
@@ -23,7 +26,9 @@ pub fn run(module: &Module, context: &mut Context<'_>) {
                 continue;
             }
             if let Err(what) = check(program, nc) {
-                context.add(index, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
+                // The pass runs twice.
+                let fact = format!("{what} {:?}", stmt.site.span);
+                context.add_once(index, &fact, Diagnostic::new(Code::NoEquivalent, stmt.site.span, what));
             }
         }
     }
@@ -39,20 +44,47 @@ fn check(program: &Program, nc: &Nc) -> Result<(), String> {
     };
     let from = find(program, first)?;
     let to = find(program, last)?;
-    if from.0 != to.0 {
-        return Err(format!(
-            "a jump can come in or go out between N{first} and N{last}: a contour goes straight through"
-        ));
-    }
-    if from.1 > to.1 {
+    if from > to {
         return Err(format!("N{last}, the end of the contour, stands before N{first}, its beginning"));
     }
-    let blocks =
-        program.blocks.get(from.0).and_then(|block| block.stmts.get(from.1..=to.1)).unwrap_or_default();
-    match blocks.iter().find(|stmt| !is_of_contour(stmt)) {
-        Some(_) => Err(format!("something other than moves stands between N{first} and N{last}")),
-        None => Ok(()),
+    let begins = program.blocks.get(from.0).and_then(|block| block.stmts.get(from.1));
+    let moves = |nc: &Nc| nc.has(Op::Rapid) || nc.has(Op::Linear);
+    if !begins.is_some_and(|stmt| stmt.kind.nc().is_some_and(moves)) {
+        return Err(format!(
+            "N{first}, the first block of the contour, has no G0 or G1 of its own, which the cycle needs"
+        ));
     }
+    let goes_on = |at: usize| program.blocks.get(at).is_some_and(|b| goes_on_to(&b.term.kind, at + 1));
+    if !(from.0..to.0).all(goes_on) {
+        return Err(format!(
+            "a jump or a call stands between N{first} and N{last}: a contour goes straight through"
+        ));
+    }
+    let part = |at: usize| {
+        let stmts = program.blocks.get(at).map_or(&[][..], |block| &block.stmts);
+        let begin = if at == from.0 { from.1 } else { 0 };
+        let end = if at == to.0 { to.1 + 1 } else { stmts.len() };
+        stmts.get(begin..end).unwrap_or_default()
+    };
+    if !(from.0..=to.0).flat_map(part).all(is_of_contour) {
+        return Err(format!("something other than moves stands between N{first} and N{last}"));
+    }
+    if is_split(program, to) {
+        return Err(format!(
+            "N{last}, the last block of the contour, became two blocks, and the contour would end in between: give the M code in it a \
+             block of its own"
+        ));
+    }
+    Ok(())
+}
+
+/// True where what stood in one block of the source goes on after a statement.
+fn is_split(program: &Program, (at, place): (usize, usize)) -> bool {
+    let after = |at: usize| program.blocks.get(at).map_or(&[][..], |block| &block.stmts);
+    let this = after(at).get(place);
+    let next = after(at).get(place + 1).or_else(|| after(at + 1).first());
+    this.zip(next)
+        .is_some_and(|(this, next)| this.site.span == next.site.span && this.site.span != Span::default())
 }
 
 /// The only block and statement with a sequence number.

@@ -14,6 +14,9 @@ use crate::legalize::moves::increments::{Counted, Texts, each};
 const ROLES: [Role; 5] =
     [Role::GrooveX, Role::GrooveZ, Role::ThreadHeight, Role::ThreadFirst, Role::ThreadLeast];
 
+/// Lengths that a control may take from a setting, which is a length: a count of increments must not meet it.
+const SET: [Role; 2] = [Role::CutRetract, Role::ThreadAllowance];
+
 const TEXTS: Texts = Texts {
     unknown: "a peck or a depth counts least increments on the target, and their size depends on the unit in force, which is \
               not known here",
@@ -21,9 +24,16 @@ const TEXTS: Texts = Texts {
               change it",
 };
 
-/// True where such a word counts on the source.
+/// True where such a word counts on the source alone.
 pub fn counts_there(features: &Features, context: &Context<'_>) -> bool {
-    ROLES.iter().any(|role| features.role(*role) && counted(context.source, *role))
+    lengths(context.source, context.target).iter().any(|role| features.role(*role))
+}
+
+/// The roles whose counts must become lengths.
+fn lengths(source: &Control, target: &Control) -> Vec<Role> {
+    let there = ROLES.into_iter().filter(|role| counted(source, *role) && !counted(target, *role));
+    let given = |role: &Role| target.dialect().settings.iter().any(|setting| setting.gives == Some(*role));
+    there.chain(SET.into_iter().filter(given)).collect()
 }
 
 /// True where one counts on the target.
@@ -42,21 +52,28 @@ fn counted(control: &Control, role: Role) -> bool {
 
 /// Makes lengths of all such words.
 pub fn to_lengths(module: &mut Module, context: &mut Context<'_>) -> bool {
-    all(module, context, |_, _| false)
+    let roles = lengths(context.source, context.target);
+    all(module, context, &roles, |_, _| false)
 }
 
 /// Makes counts of those that count on the target.
 pub fn to_counts(module: &mut Module, context: &mut Context<'_>) -> bool {
-    all(module, context, counted)
+    all(module, context, &ROLES, counted)
 }
 
-fn all(module: &mut Module, context: &mut Context<'_>, counts: impl Fn(&Control, Role) -> bool) -> bool {
+fn all(
+    module: &mut Module,
+    context: &mut Context<'_>,
+    roles: &[Role],
+    counts: impl Fn(&Control, Role) -> bool,
+) -> bool {
     let target = context.target;
-    let chosen =
-        |block: &Block| block.stmts.iter().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if has(nc)));
+    let chosen = |block: &Block| {
+        block.stmts.iter().any(|stmt| matches!(&stmt.kind, StmtKind::Nc(nc) if has(nc, roles)))
+    };
     each(module, context, TEXTS, chosen, &mut |kind, units| match kind {
         Counted::Stmt(StmtKind::Nc(nc)) => nc.items.iter_mut().all(|item| match item {
-            NcItem::Word(role, value) if ROLES.contains(role) => {
+            NcItem::Word(role, value) if roles.contains(role) => {
                 let made = changed(value, units, counts(target, *role), target);
                 made.is_some_and(|made| {
                     *value = made;
@@ -69,13 +86,18 @@ fn all(module: &mut Module, context: &mut Context<'_>, counts: impl Fn(&Control,
     })
 }
 
-fn has(nc: &Nc) -> bool {
-    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if ROLES.contains(role)))
+fn has(nc: &Nc, roles: &[Role]) -> bool {
+    nc.items.iter().any(|item| matches!(item, NcItem::Word(role, _) if roles.contains(role)))
 }
 
-/// The value in the other form; none where it has none.
+/// The value in the other form; none where the unit must be known for it.
 fn changed(value: &Expr, units: Option<Units>, counts: bool, target: &Control) -> Option<Expr> {
     let numbers = target.numbers();
+    let is_count = matches!(value, Expr::Increments(_));
+    // What has its form already; and a computed length, which is no count: the emitter refuses it, whatever the unit.
+    if is_count == counts || (counts && value.constant().is_none()) {
+        return Some(value.clone());
+    }
     let size = match units {
         Some(Units::Inch) => numbers.increment_inch,
         Some(Units::Metric) => numbers.increment_mm,
@@ -84,11 +106,12 @@ fn changed(value: &Expr, units: Option<Units>, counts: bool, target: &Control) -
     };
     let whole = |number: f64| (number - number.round()).abs() < 1e-6;
     match (value, counts) {
-        (Expr::Increments(count), false) => Some(Expr::Number(count * size)),
+        // By a division: 2800 * 0.001 has digits that no one wrote.
+        (Expr::Increments(count), false) => Some(Expr::Number(count / (1.0 / size).round())),
         (Expr::Number(number), true) if whole(number / size) => {
             Some(Expr::Increments((number / size).round()))
         }
-        (Expr::Increments(_), true) | (Expr::Number(_), false) => Some(value.clone()),
-        _ => None,
+        // A length that is no whole count is refused where it is written.
+        _ => Some(value.clone()),
     }
 }

@@ -1,25 +1,24 @@
 //! Cycles of a lathe whose depth, way back and form stand in a block before them, in their own block, or in settings.
 //!
 //! Law: a cycle does the same if each of these values is the same, wherever it is taken from. Side conditions: the block that sets them
-//! stands before the cycle with no jump between; a value that the target takes from a setting is a constant, and the target's profile
-//! says that the setting is so. Counter-example: a setting that another program needs otherwise.
+//! stands before the cycle with no jump between, and nothing that changes what it is computed from; a value that the target takes from
+//! a setting is a constant, and the target's profile says that the setting is so. Counter-example: a setting that another program needs
+//! otherwise.
 
-use super::settings::{Kind, row, setting, takes};
+use super::cycle_values::{Given, Values, nc_of, replace, resolve, values_of};
+use super::settings::{Kind, setting, takes};
 use super::spring_passes::{Place, passes};
-use super::thread_form;
+use super::straight::entered_straight;
 use crate::assume::Predicate;
-use crate::canon::{Op, Role};
+use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Control, Question};
-use crate::ir::{Expr, Nc, NcItem, Program, Stmt, StmtKind, TermKind};
+use crate::dialect::{Control, Question, Units};
+use crate::ir::{Nc, NcItem, Program, Stmt, StmtKind, TermKind};
 use crate::legalize::Context;
 use crate::legalize::features::Features;
 use crate::text::Span;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-
-/// What a cycle takes besides its own words.
-type Values = Vec<(Role, Expr)>;
 
 /// True if there are such cycles, and the target does not take the values from where the source does.
 pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
@@ -36,14 +35,22 @@ pub fn concerns(features: &Features, context: &Context<'_>) -> bool {
 
 /// Gives each cycle its values in the target's form.
 pub fn run(program: &mut Program, index: usize, context: &mut Context<'_>) -> bool {
-    let mut found = Vec::new();
+    let straight = entered_straight(program);
+    let other_unit = names_other_unit(program, context.source) || names_other_unit(program, context.target);
+    let (mut set, mut found) = (Vec::new(), Vec::new());
     let mut changed = false;
-    for block in &mut program.blocks {
-        if block.stmts.iter().any(|stmt| cycle_of(stmt).is_some()) {
+    for (block, straight) in program.blocks.iter_mut().zip(straight) {
+        if !straight {
+            set.clear();
+        }
+        if block.stmts.iter().any(|stmt| cycle_of(stmt).is_some() || setup_of(stmt).is_some()) {
             changed = true;
             let old = std::mem::take(&mut block.stmts);
-            let ends = matches!(block.term.kind, TermKind::End { .. });
-            block.stmts = in_block(old, ends, (context.source, context.target), &mut found).into();
+            let mut run = Run { source: context.source, target: context.target, other_unit, set, found };
+            block.stmts = run.block(old, matches!(block.term.kind, TermKind::End { .. })).into();
+            (set, found) = (run.set, run.found);
+        } else if block.stmts.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Comment)) {
+            set.iter_mut().for_each(Set::pass);
         }
     }
     refuse_two_values(&mut found);
@@ -76,13 +83,6 @@ fn refuse_two_values(found: &mut Found) {
     }
 }
 
-fn nc_of(stmt: &Stmt) -> Option<&Nc> {
-    match &stmt.kind {
-        StmtKind::Nc(nc) => Some(nc),
-        _ => None,
-    }
-}
-
 fn cycle_of(stmt: &Stmt) -> Option<&'static Kind> {
     nc_of(stmt)?.ops().find_map(Kind::of_cycle)
 }
@@ -94,68 +94,168 @@ fn setup_of(stmt: &Stmt) -> Option<&'static Kind> {
 /// What is found: where, what, what to do, and what the conversion supposes; of a refusal nothing.
 type Found = Vec<(Span, String, String, Option<Predicate>)>;
 
-fn in_block(
-    old: impl IntoIterator<Item = Stmt>,
-    ends: bool,
-    (source, target): (&Control, &Control),
-    found: &mut Found,
-) -> Vec<Stmt> {
-    let mut new: Vec<Stmt> = Vec::new();
-    let mut set: Vec<(Op, Values)> = Vec::new();
-    let mut place = Place::default();
-    let mut old: std::collections::VecDeque<Stmt> = old.into_iter().collect();
-    while let Some(mut stmt) = old.pop_front() {
-        if let Some(kind) = setup_of(&stmt) {
-            let values = nc_of(&stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
-            let slot = set.iter().position(|(op, _)| *op == kind.setup);
-            let slot = slot.unwrap_or_else(|| {
-                set.push((kind.setup, Values::new()));
-                set.len() - 1
-            });
-            replace(&mut set[slot].1, values);
-            if stmt.site.skip.is_some() {
-                found.push((stmt.site.span, SKIPPED.into(), String::new(), None));
-            }
-            // The comments stay; the block is written anew where the target has one.
-            stmt.kind = StmtKind::Comment;
-            if !stmt.site.comments.is_empty() {
-                new.push(stmt);
-            }
-            continue;
-        }
-        place.step(&stmt);
-        let Some(kind) = cycle_of(&stmt) else {
-            new.push(stmt);
-            continue;
-        };
-        let before = set.iter().find(|(op, _)| *op == kind.setup).map(|(_, values)| values.clone());
-        match resolve(&stmt, kind, before, source, target) {
-            Ok(Given { words, setup, finishes, angle, needs }) => {
-                let span = stmt.site.span;
-                found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
-                if finishes > 0 {
-                    match passes(&stmt, (angle, finishes), place, (old.make_contiguous(), ends)) {
-                        Some(all) => all.into_iter().rev().for_each(|pass| old.push_front(pass)),
-                        None => found.push((stmt.site.span, FINISHES.into(), FINISHES_HELP.into(), None)),
-                    }
-                }
-                if !setup.is_empty() {
-                    let nc = with(kind.setup, setup);
-                    let site = crate::ir::SourceInfo { span: stmt.site.span, ..Default::default() };
-                    new.push(Stmt { kind: StmtKind::Nc(nc), site });
-                }
-                if let StmtKind::Nc(nc) = &mut stmt.kind {
-                    drop_rough(nc, target);
-                    nc.items
-                        .retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
-                    nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
-                }
-            }
-            Err((what, help)) => found.push((stmt.site.span, what, help, None)),
-        }
-        new.push(stmt);
+/// What a block before has set for the cycles of a kind.
+struct Set {
+    setup: Op,
+    values: Values,
+    /// True once something ran that may change what a computed value is.
+    passed: bool,
+}
+
+impl Set {
+    fn pass(&mut self) {
+        self.passed = true;
     }
-    new
+
+    /// True where a value may not be any more what it was when it was set.
+    fn is_stale(&self) -> bool {
+        self.passed && self.values.iter().any(|(_, value)| value.constant().is_none())
+    }
+}
+
+/// The walk through the blocks of a program.
+struct Run<'c> {
+    source: &'c Control,
+    target: &'c Control,
+    /// True where the program may run in another unit than the one that the settings are in.
+    other_unit: bool,
+    set: Vec<Set>,
+    found: Found,
+}
+
+impl Run<'_> {
+    fn block(&mut self, old: impl IntoIterator<Item = Stmt>, ends: bool) -> Vec<Stmt> {
+        let mut new: Vec<Stmt> = Vec::new();
+        let mut old: VecDeque<Stmt> = old.into_iter().collect();
+        let mut place = Place::default();
+        while let Some(stmt) = old.pop_front() {
+            if let Some(kind) = setup_of(&stmt) {
+                new.extend(self.setup(kind, stmt));
+                continue;
+            }
+            place.step(&stmt);
+            if let Some(kind) = cycle_of(&stmt) {
+                let (made, more) = self.cycle(kind, stmt, place, (old.make_contiguous(), ends));
+                new.extend(made);
+                more.into_iter().rev().for_each(|pass| old.push_front(pass));
+            } else {
+                let comment = matches!(stmt.kind, StmtKind::Comment);
+                new.push(stmt);
+                if comment {
+                    continue;
+                }
+            }
+            self.set.iter_mut().for_each(Set::pass);
+        }
+        new
+    }
+
+    /// Takes the values of a block that sets them; what else it does stays. It is written anew where the target has such a block.
+    fn setup(&mut self, kind: &Kind, mut stmt: Stmt) -> Option<Stmt> {
+        let nc = nc_of(&stmt)?;
+        let values = values_of(nc, kind);
+        let own = |item: &NcItem| match item {
+            NcItem::Op(op) => *op == kind.setup,
+            NcItem::Word(role, _) => kind.roles.contains(role),
+            NcItem::Code(..) => false,
+        };
+        let rest: Vec<NcItem> = nc.items.iter().filter(|item| !own(item)).cloned().collect();
+        let moves = |item: &NcItem| match item {
+            NcItem::Op(op) => matches!(op.group(), Group::Motion),
+            NcItem::Word(role, _) => role.is_axis(),
+            NcItem::Code(..) => true,
+        };
+        if stmt.site.skip.is_some() {
+            self.found.push((stmt.site.span, SKIPPED.into(), String::new(), None));
+        }
+        if rest.iter().any(moves) {
+            self.found.push((stmt.site.span, MOVES.into(), "give the move a block of its own".into(), None));
+        }
+        match self.set.iter_mut().find(|set| set.setup == kind.setup) {
+            Some(set) => {
+                // What it computed before may be old, and what this block leaves out stays.
+                let stale = set.is_stale();
+                replace(&mut set.values, values);
+                set.passed = stale;
+            }
+            None => self.set.push(Set { setup: kind.setup, values, passed: false }),
+        }
+        stmt.kind = if rest.is_empty() { StmtKind::Comment } else { StmtKind::Nc(Nc { items: rest }) };
+        let empty = matches!(stmt.kind, StmtKind::Comment) && stmt.site.comments.is_empty();
+        (!empty).then_some(stmt)
+    }
+
+    /// True where a length of the cycle comes from a setting, or is to be in one.
+    fn rests_on_length(&self, kind: &Kind, setup: &Values) -> bool {
+        let written = |role: &Role| setup.iter().any(|(found, _)| found == role);
+        kind.roles.iter().any(|role| {
+            let there = setting(self.source, kind.cycle, *role).is_some();
+            let here = setting(self.target, kind.cycle, *role).is_some() && !written(role);
+            role.is_length() && (there || here)
+        })
+    }
+
+    /// The cycle with its words, after the block that sets the rest, if the target has one; and the passes that the target's
+    /// cycle does not make.
+    fn cycle(
+        &mut self,
+        kind: &'static Kind,
+        mut stmt: Stmt,
+        place: Place,
+        next: (&[Stmt], bool),
+    ) -> (Vec<Stmt>, Vec<Stmt>) {
+        let span = stmt.site.span;
+        let set = self.set.iter().find(|set| set.setup == kind.setup);
+        if set.is_some_and(Set::is_stale) {
+            self.refuse(span, STALE, "write the block that sets it right before this one");
+            return (vec![stmt], Vec::new());
+        }
+        let before = set.map(|set| set.values.clone());
+        let Given { words, setup, finishes, angle, needs } =
+            match resolve(&stmt, kind, before, self.source, self.target) {
+                Ok(given) => given,
+                Err((what, help)) => {
+                    self.refuse(span, &what, &help);
+                    return (vec![stmt], Vec::new());
+                }
+            };
+        if self.other_unit && self.rests_on_length(kind, &setup) {
+            self.refuse(
+                span,
+                OTHER_UNIT,
+                "write the program in the unit that the profile of the machine gives",
+            );
+        }
+        self.found.extend(needs.into_iter().map(|(what, help, needs)| (span, what, help, Some(needs))));
+        let more =
+            if finishes > 0 { passes(&stmt, (angle, finishes), place, next) } else { Some(Vec::new()) };
+        if more.is_none() {
+            self.refuse(span, FINISHES, FINISHES_HELP);
+        }
+        if let StmtKind::Nc(nc) = &mut stmt.kind {
+            drop_rough(nc, self.target);
+            nc.items.retain(|item| !matches!(item, NcItem::Word(role, _) if kind.roles.contains(role)));
+            nc.items.extend(words.into_iter().map(|(role, value)| NcItem::Word(role, value)));
+        }
+        let site = crate::ir::SourceInfo { span, ..Default::default() };
+        let setup = (!setup.is_empty()).then(|| Stmt { kind: StmtKind::Nc(with(kind, setup)), site });
+        (setup.into_iter().chain([stmt]).collect(), more.unwrap_or_default())
+    }
+
+    fn refuse(&mut self, span: Span, what: &str, help: &str) {
+        self.found.push((span, what.into(), help.into(), None));
+    }
+}
+
+/// True of a program that names another unit than the machine's profile gives, in which lengths of settings are.
+fn names_other_unit(program: &Program, control: &Control) -> bool {
+    let other = match control.units() {
+        Some(Units::Metric) => Op::Inch,
+        Some(Units::Inch) => Op::Metric,
+        None => return false,
+    };
+    let mut stmts = program.blocks.iter().flat_map(|block| &block.stmts);
+    stmts.any(|stmt| nc_of(stmt).is_some_and(|nc| nc.has(other)))
 }
 
 /// A control that always ends roughing with a pass along the contour needs no words for what that pass takes: `roughing` says
@@ -169,201 +269,20 @@ fn drop_rough(nc: &mut Nc, target: &Control) {
     }
 }
 
-/// What a cycle is given on the target.
-#[derive(Default)]
-struct Given {
-    /// By words of its own block.
-    words: Values,
-    /// By words of the block before it.
-    setup: Values,
-    /// Finishing passes of a thread beyond those of the cycle.
-    finishes: usize,
-    /// The thread's angle, degrees.
-    angle: f64,
-    /// Settings that the target must have.
-    needs: Vec<Need>,
-}
-
-/// A setting that the target must have: what, what to do, and as a value.
-type Need = (String, String, Predicate);
-
 const FINISHES: &str = "the target finishes a thread in one pass, if something is left for it, and this one has more: they are not written out, as \
                         where the cycle begins, or a number of it, is not known here";
 const FINISHES_HELP: &str = "write X and Z of the start as numbers right before the thread, and a G code in the next block that moves; or give the \
                              thread one finishing pass and an allowance for it";
-
+const OTHER_UNIT: &str = "a length of this cycle is in a setting, in the unit of the control, and the program names the other unit";
+const STALE: &str = "a value that this cycle takes from a block before it is computed, and what it is computed from may have changed since";
+const MOVES: &str =
+    "a move in the block that sets what the next cycle takes: no source says what the control does with it";
 const SKIPPED: &str =
     "a block skip before the block that sets what the next cycle takes: whether it counts is not known here";
 
-fn with(op: Op, values: Values) -> Nc {
+/// The block that sets the values, in the order that people write them in.
+fn with(kind: &Kind, mut values: Values) -> Nc {
+    values.sort_by_key(|(role, _)| kind.roles.iter().position(|found| found == role));
     let words = values.into_iter().map(|(role, value)| NcItem::Word(role, value));
-    Nc { items: std::iter::once(NcItem::Op(op)).chain(words).collect() }
-}
-
-fn values_of(nc: &Nc, kind: &Kind) -> Values {
-    let words = nc.items.iter().filter_map(|item| match item {
-        NcItem::Word(role, value) if kind.roles.contains(role) => Some((*role, value.clone())),
-        _ => None,
-    });
-    words.collect()
-}
-
-fn replace(values: &mut Values, new: Values) {
-    values.retain(|(role, _)| new.iter().all(|(other, _)| other != role));
-    values.extend(new);
-}
-
-/// The words of the cycle's own block, and of the block before it.
-fn resolve(
-    stmt: &Stmt,
-    kind: &'static Kind,
-    before: Option<Values>,
-    source: &Control,
-    target: &Control,
-) -> Result<Given, (String, String)> {
-    let mut values = given(stmt, kind, before, source)?;
-    if !thread_form::apart(&mut values) {
-        let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
-        return Err((what.into(), "write the number as it is: P021060".into()));
-    }
-    usual(&mut values);
-    let finishes = if takes(target, kind.setup, Role::ThreadForm) { 0 } else { more_finishes(&mut values) };
-    let angle = constant(&values, Role::ThreadAngle).unwrap_or(0.0);
-    if takes(target, kind.setup, Role::ThreadForm) && !thread_form::together(&mut values) {
-        let what = "the run-out or the angle of this thread has more digits than the target takes";
-        return Err((what.into(), "the target takes tenths of a lead, and whole degrees".into()));
-    }
-    let (words, setup, needs) = place(values, kind, target)?;
-    Ok(Given { words, setup, finishes, angle, needs })
-}
-
-/// Finishing passes beyond the one that takes off what was left; they are no word of the cycle any more.
-fn more_finishes(values: &mut Values) -> usize {
-    let Some(all) = constant(values, Role::ThreadFinishes).filter(|all| *all >= 1.0) else { return 0 };
-    let left = constant(values, Role::ThreadAllowance).is_some_and(|left| left > 0.0);
-    values.retain(|(role, _)| *role != Role::ThreadFinishes);
-    if left {
-        values.push((Role::ThreadFinishes, Expr::Number(1.0)));
-    }
-    all as usize - usize::from(left)
-}
-
-fn constant(values: &Values, wanted: Role) -> Option<f64> {
-    values.iter().find(|(role, _)| *role == wanted).and_then(|(_, value)| value.constant())
-}
-
-/// All values of a cycle: of its own words, of the block before it, and of the source's settings.
-fn given(
-    stmt: &Stmt,
-    kind: &'static Kind,
-    before: Option<Values>,
-    source: &Control,
-) -> Result<Values, (String, String)> {
-    let mut values = before.unwrap_or_default();
-    let own = nc_of(stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
-    replace(&mut values, own);
-    for role in kind.roles {
-        if values.iter().any(|(found, _)| found == role) {
-            continue;
-        }
-        match setting(source, kind.cycle, *role) {
-            Some((_, Some(value))) => values.push((*role, Expr::Number(value))),
-            Some((name, None)) => return Err(of_setting(source, name, *role)),
-            None => {}
-        }
-    }
-    if values.is_empty() && row(source, kind.setup).is_some() {
-        let code = row(source, kind.setup).map_or("", |row| row.code.as_str());
-        let what = format!("no {code} block before this one sets {}", meaning(kind.roles[0]));
-        return Err((what, format!("write the {code} block right before this one")));
-    }
-    Ok(values)
-}
-
-fn of_setting(control: &Control, name: &str, role: Role) -> (String, String) {
-    let number = name.trim_start_matches("setting.");
-    let title = &control.dialect().title;
-    let what =
-        format!("setting {number} of the {title} says {}, and its profile does not give it", meaning(role));
-    (
-        what,
-        format!("look it up on the machine, and write in its profile, under [settings]: {number} = \"...\""),
-    )
-}
-
-fn meaning(role: Role) -> String {
-    let meaning = role.meaning().trim().trim_end_matches('.');
-    let mut chars = meaning.chars();
-    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
-}
-
-/// A control without a letter for them has one finishing pass, if there is something left for it, and goes in along one flank.
-fn usual(values: &mut Values) {
-    values.retain(|(role, value)| *role != Role::ThreadInfeed || value.constant() != Some(1.0));
-    let left = constant(values, Role::ThreadAllowance);
-    if left.is_some_and(|left| left > 0.0) && values.iter().all(|(role, _)| *role != Role::ThreadFinishes) {
-        values.push((Role::ThreadFinishes, Expr::Number(1.0)));
-    }
-}
-
-/// Puts each value where the target takes it from: its words, the block before it, or settings that it needs. A setting that is
-/// not as the program needs it is worse than a block before.
-fn place(
-    values: Values,
-    kind: &'static Kind,
-    target: &Control,
-) -> Result<(Values, Values, Vec<Need>), (String, String)> {
-    let (words, others): (Values, Values) =
-        values.iter().cloned().partition(|(role, _)| takes(target, kind.cycle, *role));
-    let needs: Result<Vec<Option<Need>>, _> =
-        others.iter().map(|(role, value)| in_setting(*role, value, kind, target)).collect();
-    if let Ok(needs) = &needs
-        && needs.iter().all(Option::is_none)
-    {
-        return Ok((words, Values::new(), Vec::new()));
-    }
-    let (before, rest): (Values, Values) =
-        values.iter().cloned().partition(|(role, _)| takes(target, kind.setup, *role));
-    if !before.is_empty() && rest.iter().all(|(role, _)| takes(target, kind.cycle, *role)) {
-        return Ok((rest, before, Vec::new()));
-    }
-    Ok((words, Values::new(), needs?.into_iter().flatten().collect()))
-}
-
-/// What the target must be set to for a value that no word of it says; nothing where it is so.
-fn in_setting(
-    role: Role,
-    value: &Expr,
-    kind: &Kind,
-    target: &Control,
-) -> Result<Option<Need>, (String, String)> {
-    if role == Role::ThreadFinishes {
-        let what = "the number of finishing passes of this thread is computed, or none";
-        return match value.constant() {
-            Some(1.0) => Ok(None),
-            _ => Err((what.into(), "write it as a number".into())),
-        };
-    }
-    let Some((name, stated)) = setting(target, kind.cycle, role) else {
-        return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
-    };
-    let number = name.trim_start_matches("setting.");
-    let Some(value) = value.constant() else {
-        let what = format!("{} is computed, and the target takes it from setting {number}", meaning(role));
-        return Err((what, "write it as a number".into()));
-    };
-    if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) {
-        return Ok(None);
-    }
-    let now =
-        stated.map_or("its profile does not give it".into(), |stated| format!("its profile says {stated}"));
-    let title = &target.dialect().title;
-    let what = format!(
-        "setting {number} of the {title} must be {value} while this program runs ({}); {now}",
-        meaning(role)
-    );
-    let help = format!(
-        "set it so before the program is run; if the machine is always set so, write in its profile, under [settings]: {number} = \"{value}\""
-    );
-    Ok(Some((what, help, Predicate::Setting(name.into(), value))))
+    Nc { items: std::iter::once(NcItem::Op(kind.setup)).chain(words).collect() }
 }

@@ -2,10 +2,12 @@
 
 pub mod contours;
 pub mod counts;
+mod cycle_values;
 pub mod cycle_words;
 pub mod other_kind;
 pub mod roughing;
 pub mod settings;
 pub mod spring_passes;
 pub mod steps;
+pub mod straight;
 pub mod thread_form;

@@ -3,32 +3,42 @@
 //! Law: a word moves its axis by what it moved it by. Side conditions: where a mode becomes letters, it is known at each block that moves; where
 //! letters become a mode, a block has words of one kind only. Counter-example: `G1 X50. W-2.`, which no mode can say.
 
+use super::straight::entered_straight;
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
 use crate::dialect::Control;
-use crate::ir::{BlockId, Module, Nc, NcItem, StmtKind};
-use crate::legalize::Context;
+use crate::ir::{BlockId, Module, Nc, NcItem, Stmt, StmtKind};
 use crate::legalize::features::Features;
+use crate::legalize::{Context, ModalFacts};
+use crate::text::Span;
+use std::collections::BTreeMap;
 
 /// Each axis word and its increment.
-const PAIRS: [(Role, Role); 4] =
+pub(in crate::legalize) const PAIRS: [(Role, Role); 4] =
     [(Role::X, Role::StepX), (Role::Y, Role::StepY), (Role::Z, Role::StepZ), (Role::C, Role::StepC)];
 
-/// True where the target has letters for increments, and no mode.
+/// True where the target has letters for increments, and no mode; a program that names no mode begins in one all the same.
 pub fn mode_to_letters(features: &Features, context: &Context<'_>) -> bool {
-    (features.op(Op::Incremental) || features.op(Op::Absolute))
-        && has_letters(context.target)
-        && !has_mode(context.target)
+    let modes = features.op(Op::Incremental)
+        || features.op(Op::Absolute)
+        || has_mode(context.source) && moves_any(features);
+    modes && has_letters(context.target) && !has_mode(context.target)
 }
 
-/// True where the target has a mode for increments, and no letters.
+fn moves_any(features: &Features) -> bool {
+    PAIRS.iter().any(|(whole, step)| features.role(*whole) || features.role(*step))
+}
+
+/// True where the target has a mode for increments, and no letters; a program without increments must say so there too.
 pub fn letters_to_mode(features: &Features, context: &Context<'_>) -> bool {
-    PAIRS.iter().any(|(_, step)| features.role(*step))
+    moves_any(features)
         && has_mode(context.target)
         && !has_letters(context.target)
+        && !has_mode(context.source)
 }
 
-fn has_letters(control: &Control) -> bool {
+/// True of a control that has letters for increments.
+pub(in crate::legalize) fn has_letters(control: &Control) -> bool {
     control.dialect().words.iter().any(|row| row.role == Role::StepX)
 }
 
@@ -39,7 +49,7 @@ fn has_mode(control: &Control) -> bool {
 /// Puts increments into letters of their own, and takes the modes away.
 pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
     let facts = context.modal_facts(module);
-    let mut found = Vec::new();
+    let mut found = contours_elsewhere(module, &facts);
     for (index, program) in module.programs.iter_mut().enumerate() {
         for (at, block) in program.blocks.iter_mut().enumerate() {
             let mut modal = facts.at(index, BlockId(at as u32));
@@ -67,6 +77,39 @@ pub fn to_letters(module: &mut Module, context: &mut Context<'_>) -> bool {
     true
 }
 
+/// Cycles that read a contour in another mode than the one it stands in.
+fn contours_elsewhere(module: &Module, facts: &ModalFacts) -> Vec<(usize, Span, &'static str)> {
+    let mut found = Vec::new();
+    for (index, program) in module.programs.iter().enumerate() {
+        let (mut begun, mut read) = (BTreeMap::new(), Vec::new());
+        for (at, block) in program.blocks.iter().enumerate() {
+            let mut modal = facts.at(index, BlockId(at as u32));
+            for stmt in &block.stmts {
+                let before = modal.op(Group::Distance);
+                modal.step(stmt);
+                let StmtKind::Nc(nc) = &stmt.kind else { continue };
+                // A first block that says its mode is read alike from everywhere.
+                let says = nc.ops().any(|op| op.group() == Group::Distance);
+                if let Some(number) = stmt.site.sequence.filter(|_| !says) {
+                    begun.insert(number, before);
+                }
+                if nc.ops().any(Op::reads_contour) {
+                    let first = nc.word(Role::ContourFirst).and_then(|first| first.constant());
+                    read.push((first, modal.op(Group::Distance), stmt.site.span));
+                }
+            }
+        }
+        let elsewhere = read.into_iter().filter(|(first, mode, _)| {
+            let stands = first.and_then(|first| begun.get(&(first as u32)));
+            stands.is_some_and(|stands| stands != mode)
+        });
+        found.extend(elsewhere.map(|(_, _, span)| (index, span, CONTOUR)));
+    }
+    found
+}
+
+const CONTOUR: &str =
+    "this cycle reads its contour under another of G90 and G91 than the one it stands under";
 const MACHINE: &str = "G53 while G91 is in force: no source says what its words count";
 const UNKNOWN: &str = "whether G90 or G91 is in force here is not known";
 const HELP: &str =
@@ -75,12 +118,20 @@ const HELP: &str =
 /// Writes the mode that each block's words need.
 pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
     let mut found = Vec::new();
+    let is_modal = |stmt: &Stmt| matches!(stmt.kind, StmtKind::ModalCall(_));
+    let mut stmts = module.programs.iter().flat_map(|p| &p.blocks).flat_map(|block| &block.stmts);
+    let calls_after_moves = stmts.any(is_modal);
     for (index, program) in module.programs.iter_mut().enumerate() {
-        for block in &mut program.blocks {
-            let mut mode = None;
+        let straight = entered_straight(program);
+        let mut mode = None;
+        for (block, straight) in program.blocks.iter_mut().zip(straight) {
+            if !straight {
+                mode = None;
+            }
             for stmt in &mut block.stmts {
                 let StmtKind::Nc(nc) = &mut stmt.kind else { continue };
-                if !moves(nc) {
+                // The blocks of a contour are places: the cycle must not read them under G91.
+                if !moves(nc) && !nc.ops().any(Op::reads_contour) {
                     continue;
                 }
                 let steps =
@@ -96,8 +147,8 @@ pub fn to_mode(module: &mut Module, context: &mut Context<'_>) -> bool {
                     nc.items.insert(0, NcItem::Op(needed));
                     mode = Some(needed);
                 }
-                // A switch that skips the block leaves the mode as it was.
-                if stmt.site.skip.is_some() {
+                // A switch that skips the block leaves the mode as it was, and a macro that runs after it changes it.
+                if stmt.site.skip.is_some() || calls_after_moves {
                     mode = None;
                 }
             }

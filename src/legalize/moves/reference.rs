@@ -2,16 +2,16 @@
 //!
 //! Law: a return of all axes by way of the place where the tool stands is a return that names every axis at an
 //! incremental distance of 0. Side condition: absolute or incremental is known, to be restored. Which
-//! axes the machine has is taken from the moves of the library: X, Y, Z and the rotary ones it moves; of those the target
+//! axes the machine has is taken from the moves of the library: X, Y (on a lathe only where it is moved), Z and the rotary ones it moves; of those the target
 //! has no letter for, the ones that the program itself moves.
 
 use crate::canon::{Group, Op, Role};
 use crate::diag::{Code, Diagnostic};
-use crate::dialect::{Axis, Control, Question};
+use crate::dialect::{Machine, Question};
 use crate::ir::{Expr, Module, Nc, NcItem, SourceInfo, Stmt, StmtKind};
+use crate::legalize::lathe::steps::{PAIRS, has_letters};
 use crate::legalize::{Context, replace_statements};
 
-const AT_ONCE: &str = "all axes return at the same time; no source says in which order the source moves them";
 const ROTARY: &str = "this return takes the rotary axes of the source along, and the target has none of their letters: make sure that they \
                       stand at their reference position, or that the target's machine has no such axes";
 
@@ -38,7 +38,11 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
     }
     let rotary = [Role::A, Role::B, Role::C];
     let moved = rotary.into_iter().filter(|role| ncs().any(|nc| nc.word(*role).is_some()));
-    let axes: Vec<Role> = [Role::X, Role::Y, Role::Z].into_iter().chain(moved).collect();
+    let turns = context.source.machine() == Machine::Lathe;
+    let has_y = !turns || ncs().any(|nc| nc.word(Role::Y).is_some() || nc.word(Role::StepY).is_some());
+    let linear = [Role::X, Role::Y, Role::Z].into_iter().filter(|role| *role != Role::Y || has_y);
+    let axes: Vec<Role> = linear.chain(moved).collect();
+    let letters = has_letters(context.source);
     // What the target has no letter for is named where the program moves it, and refused there.
     let target = context.target;
     let own: Vec<Vec<Role>> = module
@@ -54,7 +58,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             axes.iter().copied().filter(named).collect()
         })
         .collect();
-    let letters = step_letters(context.source);
     let facts = context.modal_facts(module);
     replace_statements(module, &facts, |index, state, mut stmt, out| {
         state.step(&stmt);
@@ -64,25 +67,25 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             && bare(nc)
         {
             context.rests_on_source(index, span, Question::ReferenceAllAxes);
-            let (code, what) = match state.op(Group::Distance) {
-                _ if !letters.is_empty() => {
-                    by_letters(nc, &letters);
-                    (Code::Conditional, AT_ONCE)
+            let distance = state.op(Group::Distance);
+            let (code, what) = match distance {
+                _ if letters || distance.is_some() => {
+                    restore = distance.filter(|distance| !letters && *distance == Op::Absolute);
+                    name(nc, &own[index], letters);
+                    (
+                        Code::Conditional,
+                        "all axes return at the same time; no source says in which order the source moves \
+                         them",
+                    )
                 }
-                Some(distance) => {
-                    restore = (distance == Op::Absolute).then_some(distance);
-                    name(nc, &own[index]);
-                    (Code::Conditional, AT_ONCE)
-                }
-                None => (
+                _ => (
                     Code::NoEquivalent,
                     "a return to the reference position without axes, and it is not known whether G90 or \
                      G91 is in force: write one of them before it",
                 ),
             };
             context.add(index, Diagnostic::new(code, span, what).asked_once());
-            let rotary = letters.is_empty() && rotary.iter().any(|role| target.letter(*role, None).is_none());
-            if rotary {
+            if [Role::A, Role::B, Role::C].into_iter().any(|role| target.letter(role, None).is_none()) {
                 context.add_once(
                     index,
                     ROTARY,
@@ -96,22 +99,6 @@ pub fn run(module: &mut Module, context: &mut Context<'_>) {
             out.push(Stmt { kind, site: SourceInfo { span, ..SourceInfo::default() } });
         }
     });
-}
-
-/// The increments of the axes of a machine that has letters for them; none on others.
-fn step_letters(source: &Control) -> Vec<Role> {
-    let has = |role: Role| source.letter(role, None).is_some();
-    let axes = source.profile().axes.clone().unwrap_or_else(|| vec![Axis::X, Axis::Z]);
-    let steps =
-        [(Axis::X, Role::StepX), (Axis::Y, Role::StepY), (Axis::Z, Role::StepZ), (Axis::C, Role::StepC)];
-    let own = steps.into_iter().filter(|(axis, role)| axes.contains(axis) && has(*role));
-    own.map(|(_, role)| role).collect()
-}
-
-fn by_letters(nc: &mut Nc, letters: &[Role]) {
-    let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
-    let words = letters.iter().map(|role| NcItem::Word(*role, Expr::Number(0.0)));
-    nc.items.splice(at + 1..at + 1, words);
 }
 
 /// What a return without axes does on the source is not known; on the target it may move all of them.
@@ -144,10 +131,16 @@ fn bare(nc: &Nc) -> bool {
     nc.has(Op::ReferenceReturn) && !nc.moves()
 }
 
-fn name(nc: &mut Nc, axes: &[Role]) {
+/// Names the axes at an increment of 0: by letters for increments where the source has them, else by the mode.
+fn name(nc: &mut Nc, axes: &[Role], letters: bool) {
     nc.items.retain(|item| !matches!(item, NcItem::Op(Op::Absolute | Op::Incremental)));
     let at = nc.items.iter().position(|item| *item == NcItem::Op(Op::ReferenceReturn)).unwrap_or(0);
-    nc.items.insert(at, NcItem::Op(Op::Incremental));
-    let words = axes.iter().map(|axis| NcItem::Word(*axis, Expr::Number(0.0)));
-    nc.items.splice(at + 2..at + 2, words);
+    let word = |axis: Role| {
+        let step = PAIRS.iter().find(|(whole, _)| letters && *whole == axis).map(|(_, step)| *step);
+        NcItem::Word(step.unwrap_or(axis), Expr::Number(0.0))
+    };
+    nc.items.splice(at + 1..at + 1, axes.iter().copied().map(word));
+    if !letters {
+        nc.items.insert(at, NcItem::Op(Op::Incremental));
+    }
 }

@@ -8,6 +8,7 @@ use crate::legalize::expressions::{
     codes_by_variable, conditions, constants, functions, operands, split, truth, whole_words,
 };
 use crate::legalize::features::Feature;
+use crate::legalize::lathe::contours;
 use crate::legalize::layout::{macro_lines, program_numbers, sequence_numbers};
 use crate::legalize::moves::start;
 use crate::legalize::operator::{letters, messages, ports, questions, renamed};
@@ -147,6 +148,10 @@ pub(super) const LAYOUT: &[Pass] = &[
         sequence_numbers::run,
     )
     .brings_nothing(),
+    // Once more: expressions and registers may have put something into them.
+    Pass::reports("contours-written", "checks that the contours of cycles are still whole", contours::run)
+        .when(|c, _| contours::concerns(c))
+        .needs(&["contours", "sequence-numbers", "split-expressions"]),
     Pass::reports(
         "target-facts",
         "reports unconfirmed facts of the target that programs depend on",

@@ -4,4 +4,5 @@ mod arguments;
 mod bare;
 mod nc;
 mod roles;
+mod turning;
 mod value;

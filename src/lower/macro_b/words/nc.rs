@@ -49,6 +49,7 @@ impl<'a> Lowering<'a> {
     /// A block of NC words.
     pub fn nc(&mut self, words: &Words<'a>, site: &SourceInfo) {
         if let Some(nc) = self.bare_words(words) {
+            self.check_turning(&nc, site.span);
             return self.builder.push(StmtKind::Nc(nc), site.clone());
         }
         let Some(codes) = self.block_codes(words) else {
@@ -74,10 +75,15 @@ impl<'a> Lowering<'a> {
             }
         }
         self.check_m_codes(&seen, site.span);
+        self.check_turning(&nc, site.span);
         if nc.ops().filter(|op| *op == Op::Act).count() > 1 {
             return self.builders_codes(nc, site);
         }
+        let place = self.apart_of_limit(&mut nc, site);
         self.push_nc(nc, site);
+        if let Some(place) = place {
+            self.push_nc(place, &SourceInfo { span: site.span, skip: site.skip, ..SourceInfo::default() });
+        }
     }
 
     /// More than one named code of the builder in a block: each gets a block of its own, before or after what moves.

@@ -1,0 +1,235 @@
+//! What a cycle of a lathe takes besides its own words: where the source gives each value, and where the target takes it from.
+
+use super::settings::{Kind, row, setting, takes};
+use super::thread_form;
+use crate::assume::Predicate;
+use crate::canon::Role;
+use crate::dialect::Control;
+use crate::ir::{Expr, Nc, NcItem, Stmt, StmtKind};
+
+/// What a cycle takes besides its own words.
+pub(super) type Values = Vec<(Role, Expr)>;
+
+/// What a cycle is given on the target.
+#[derive(Default)]
+pub(super) struct Given {
+    /// By words of its own block.
+    pub words: Values,
+    /// By words of the block before it.
+    pub setup: Values,
+    /// Finishing passes of a thread beyond those of the cycle.
+    pub finishes: usize,
+    /// The thread's angle, degrees.
+    pub angle: f64,
+    /// Settings that the target must have.
+    pub needs: Vec<Need>,
+}
+
+/// A setting that the target must have: what, what to do, and as a value.
+pub(super) type Need = (String, String, Predicate);
+
+/// The words of a statement, if it is a block of words.
+pub(super) fn nc_of(stmt: &Stmt) -> Option<&Nc> {
+    match &stmt.kind {
+        StmtKind::Nc(nc) => Some(nc),
+        _ => None,
+    }
+}
+
+/// The values that a block's own words give.
+pub(super) fn values_of(nc: &Nc, kind: &Kind) -> Values {
+    let words = nc.items.iter().filter_map(|item| match item {
+        NcItem::Word(role, value) if kind.roles.contains(role) => Some((*role, value.clone())),
+        _ => None,
+    });
+    words.collect()
+}
+
+/// Puts new values in the place of old ones.
+pub(super) fn replace(values: &mut Values, new: Values) {
+    values.retain(|(role, _)| new.iter().all(|(other, _)| other != role));
+    values.extend(new);
+}
+
+/// The words of the cycle's own block, and of the block before it.
+pub(super) fn resolve(
+    stmt: &Stmt,
+    kind: &'static Kind,
+    before: Option<Values>,
+    source: &Control,
+    target: &Control,
+) -> Result<Given, (String, String)> {
+    let mut values = given(stmt, kind, before, source)?;
+    if !thread_form::apart(&mut values) {
+        let what = "finishing passes, run-out and angle of a thread are in a number that is computed, or has not six digits";
+        return Err((what.into(), "write the number as it is: P021060".into()));
+    }
+    usual(&mut values);
+    let finishes = if takes(target, kind.setup, Role::ThreadForm) { 0 } else { more_finishes(&mut values) };
+    let angle = constant(&values, Role::ThreadAngle).unwrap_or(0.0);
+    if takes(target, kind.cycle, Role::ThreadInfeed)
+        && values.iter().all(|(role, _)| *role != Role::ThreadInfeed)
+    {
+        // Written, because the letter's last value of another code might count.
+        values.push((Role::ThreadInfeed, Expr::Number(1.0)));
+    }
+    if takes(target, kind.setup, Role::ThreadForm) && !thread_form::together(&mut values) {
+        let what = "the run-out or the angle of this thread has more digits than the target takes";
+        return Err((what.into(), "the target takes tenths of a lead, and whole degrees".into()));
+    }
+    let (words, setup, needs) = place(values, kind, target)?;
+    Ok(Given { words, setup, finishes, angle, needs })
+}
+
+/// Finishing passes beyond the one that takes off what was left; they are no word of the cycle any more.
+fn more_finishes(values: &mut Values) -> usize {
+    let Some(all) = constant(values, Role::ThreadFinishes).filter(|all| *all >= 1.0) else { return 0 };
+    let left = constant(values, Role::ThreadAllowance).is_some_and(|left| left > 0.0);
+    values.retain(|(role, _)| *role != Role::ThreadFinishes);
+    if left {
+        values.push((Role::ThreadFinishes, Expr::Number(1.0)));
+    }
+    all as usize - usize::from(left)
+}
+
+fn constant(values: &Values, wanted: Role) -> Option<f64> {
+    values.iter().find(|(role, _)| *role == wanted).and_then(|(_, value)| value.constant())
+}
+
+/// All values of a cycle: of its own words, of the block before it, and of the source's settings.
+fn given(
+    stmt: &Stmt,
+    kind: &'static Kind,
+    before: Option<Values>,
+    source: &Control,
+) -> Result<Values, (String, String)> {
+    let mut values = before.unwrap_or_default();
+    let own = nc_of(stmt).map(|nc| values_of(nc, kind)).unwrap_or_default();
+    replace(&mut values, own);
+    for role in kind.roles {
+        if values.iter().any(|(found, _)| found == role) {
+            continue;
+        }
+        match setting(source, kind.cycle, *role) {
+            Some((_, Some(value))) => values.push((*role, Expr::Number(value))),
+            Some((name, None)) => return Err(of_setting(source, name, *role)),
+            None => {}
+        }
+    }
+    let missing = kind
+        .roles
+        .iter()
+        .find(|role| needs(source, kind, **role) && values.iter().all(|(found, _)| found != *role));
+    match missing {
+        Some(role) => Err(not_set(source, kind, *role)),
+        None => Ok(values),
+    }
+}
+
+/// True of a value that must be told: what the control takes otherwise stands in a parameter, or is the last cycle's.
+fn needs(source: &Control, kind: &Kind, role: Role) -> bool {
+    match role {
+        Role::ThreadForm => takes(source, kind.setup, role),
+        Role::ThreadFinishes | Role::ThreadRunOut | Role::ThreadAngle | Role::ThreadInfeed => false,
+        _ => true,
+    }
+}
+
+fn not_set(source: &Control, kind: &Kind, role: Role) -> (String, String) {
+    let before = row(source, kind.setup).filter(|_| !takes(source, kind.cycle, role));
+    match before {
+        Some(row) => (
+            format!("no {} block before this one sets {}", row.code, meaning(role)),
+            format!("write the {} block right before this one, with all its words", row.code),
+        ),
+        None => (format!("the block does not say {}", meaning(role)), "write the word for it".into()),
+    }
+}
+
+fn of_setting(control: &Control, name: &str, role: Role) -> (String, String) {
+    let number = name.trim_start_matches("setting.");
+    let title = &control.dialect().title;
+    let what =
+        format!("setting {number} of the {title} says {}, and its profile does not give it", meaning(role));
+    (
+        what,
+        format!("look it up on the machine, and write in its profile, under [settings]: {number} = \"...\""),
+    )
+}
+
+fn meaning(role: Role) -> String {
+    let meaning = role.meaning().trim().trim_end_matches('.');
+    let mut chars = meaning.chars();
+    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
+}
+
+/// A control without a letter for them has one finishing pass, if there is something left for it, and goes in along one flank.
+fn usual(values: &mut Values) {
+    values.retain(|(role, value)| *role != Role::ThreadInfeed || value.constant() != Some(1.0));
+    let left = constant(values, Role::ThreadAllowance);
+    if left.is_some_and(|left| left > 0.0) && values.iter().all(|(role, _)| *role != Role::ThreadFinishes) {
+        values.push((Role::ThreadFinishes, Expr::Number(1.0)));
+    }
+}
+
+/// Puts each value where the target takes it from: its words, the block before it, or settings that it needs. A setting that is
+/// not as the program needs it is worse than a block before.
+fn place(
+    values: Values,
+    kind: &'static Kind,
+    target: &Control,
+) -> Result<(Values, Values, Vec<Need>), (String, String)> {
+    let (words, others): (Values, Values) =
+        values.iter().cloned().partition(|(role, _)| takes(target, kind.cycle, *role));
+    let needs: Result<Vec<Option<Need>>, _> =
+        others.iter().map(|(role, value)| in_setting(*role, value, kind, target)).collect();
+    if let Ok(needs) = &needs
+        && needs.iter().all(Option::is_none)
+    {
+        return Ok((words, Values::new(), Vec::new()));
+    }
+    let (before, rest): (Values, Values) =
+        values.iter().cloned().partition(|(role, _)| takes(target, kind.setup, *role));
+    if !before.is_empty() && rest.iter().all(|(role, _)| takes(target, kind.cycle, *role)) {
+        return Ok((rest, before, Vec::new()));
+    }
+    Ok((words, Values::new(), needs?.into_iter().flatten().collect()))
+}
+
+/// What the target must be set to for a value that no word of it says; nothing where it is so.
+fn in_setting(
+    role: Role,
+    value: &Expr,
+    kind: &Kind,
+    target: &Control,
+) -> Result<Option<Need>, (String, String)> {
+    if role == Role::ThreadFinishes {
+        let what = "the number of finishing passes of this thread is computed, or none";
+        return match value.constant() {
+            Some(1.0) => Ok(None),
+            _ => Err((what.into(), "write it as a number".into())),
+        };
+    }
+    let Some((name, stated)) = setting(target, kind.cycle, role) else {
+        return Err((format!("the target has no word for {} here", meaning(role)), String::new()));
+    };
+    let number = name.trim_start_matches("setting.");
+    let Some(value) = value.constant() else {
+        let what = format!("{} is computed, and the target takes it from setting {number}", meaning(role));
+        return Err((what, "write it as a number".into()));
+    };
+    if stated.is_some_and(|stated| (value - stated).abs() < 1e-9) {
+        return Ok(None);
+    }
+    let now =
+        stated.map_or("its profile does not give it".into(), |stated| format!("its profile says {stated}"));
+    let title = &target.dialect().title;
+    let what = format!(
+        "setting {number} of the {title} must be {value} while this program runs ({}); {now}",
+        meaning(role)
+    );
+    let help = format!(
+        "set it so before the program is run; if the machine is always set so, write in its profile, under [settings]: {number} = \"{value}\""
+    );
+    Ok(Some((what, help, Predicate::Setting(name.into(), value))))
+}
