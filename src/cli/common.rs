@@ -124,11 +124,8 @@ pub fn names() -> String {
 /// inputs, and that machine's profile.
 pub fn project_machine(inputs: &[Input]) -> Result<Option<(String, Option<PathBuf>)>, u8> {
     let Some(project) = Project::find(Path::new(".")).map_err(complain)? else { return Ok(None) };
-    let real = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let holds = |folder: &Path| inputs.iter().all(|input| real(&input.path).starts_with(folder));
-    let libraries = project.libraries.values();
-    let library = libraries.into_iter().find(|library| holds(&real(&project.root.join(&library.path))));
-    let machine = library.and_then(|library| project.machines.get(&library.machine));
+    let library = project.libraries_of(inputs.iter().map(|input| input.path.as_path())).next();
+    let machine = library.and_then(|(_, library)| project.machines.get(&library.machine));
     Ok(machine.map(|machine| {
         (machine.dialect.clone(), machine.profile.as_ref().map(|profile| project.root.join(profile)))
     }))

@@ -27,6 +27,7 @@ mod prepare;
 mod project;
 mod publish;
 mod refused_calls;
+mod selection;
 mod stranger;
 mod understood;
 mod unread;
