@@ -5,7 +5,8 @@ use super::streams::{complain, complain_lines, remark};
 use crate::diag::Code;
 use crate::dialect::{Control, Entry, Profile, registry};
 use crate::library::{
-    Detected, Files, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like,
+    Detected, Files, Found, Input, InputError, LeftOut, Project, detect, gather, looks_like, of_library,
+    settled,
 };
 use crate::verify::Effort;
 use std::path::{Path, PathBuf};
@@ -99,6 +100,31 @@ pub fn controls(
 /// A source and a target that know of each other what their profiles say of both.
 pub fn meeting(source: Control, target: Control) -> Result<(Control, Control), u8> {
     Control::meeting(source, target).map_err(complain_lines)
+}
+
+/// Both machines of a conversion, with the kind of the library's programs where their profiles leave it open; why, if that is
+/// a lathe because of its programs.
+pub fn kinds(
+    inputs: &[Input],
+    (source, target): (Control, Control),
+) -> Result<(Control, Control, Option<String>), u8> {
+    let (source, target, taken) = settled(inputs, source, target).map_err(complain_lines)?;
+    Ok((source, target, taken.map(|taken| taken.to_string())))
+}
+
+/// As [`kinds`], and says why.
+pub fn kinds_told(inputs: &[Input], controls: (Control, Control)) -> Result<(Control, Control), u8> {
+    let (source, target, taken) = kinds(inputs, controls)?;
+    taken.iter().for_each(remark);
+    Ok((source, target))
+}
+
+/// The control that programs are read by, with the kind of machine that they show where its profile leaves it open. Why is
+/// said.
+pub fn kind_told(inputs: &[Input], control: Control) -> Control {
+    let (control, taken) = of_library(inputs, control);
+    taken.iter().for_each(remark);
+    control
 }
 
 /// A machine profile, with all that it extends.

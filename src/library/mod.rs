@@ -7,6 +7,7 @@
 mod accepted;
 mod callees;
 mod chunks;
+mod code_system;
 mod compile;
 mod convert;
 mod detect;
@@ -14,6 +15,7 @@ mod draft;
 mod echoes;
 mod folders;
 mod inputs;
+mod kind;
 mod line_ends;
 mod lock;
 mod machine_kind;
@@ -44,6 +46,7 @@ pub use convert::{Conversion, Options, Outcome, ProgramReport, convert, outcome}
 pub use detect::{Detected, detect, likeness, looks_like};
 pub use folders::Folder;
 pub use inputs::{Files, Found, Input, Source, gather, same_file, sources};
+pub use kind::{TakenAsLathe, of_library, of_target, settled};
 pub use lock::{Lock, LockError};
 pub use outputs::{certificate_of, plan, withheld_of};
 pub use pairs::{Pairs, with_pairs};
